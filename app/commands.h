@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/// The subcommands. Each returns the exit code; a user's mistake comes as InputError.
+namespace feldspar
+{
+namespace exit_code
+{
+inline constexpr int internal_error = 1;
+inline constexpr int user_error = 2;
+inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
+} // namespace exit_code
+
+/// What `lab`, `specimen` and `contact` have in common on the command line.
+struct CommonOptions
+{
+  std::filesystem::path input;
+  std::optional<std::filesystem::path> output;
+  bool force = false;
+  bool quiet = false;
+};
+
+int run_lab(const CommonOptions& options);
+
+int run_specimen(const CommonOptions& options);
+
+int run_contact(const CommonOptions& options);
+
+struct ParametersOptions
+{
+  std::string section; ///< empty: all
+  std::optional<std::filesystem::path> check;
+  bool markdown = false;
+};
+
+int run_parameters(const ParametersOptions& options);
+} // namespace feldspar

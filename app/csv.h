@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feldspar
+{
+/// Reads a table of numbers whose first line is `header`; [rows][columns]. The decimal sign is a point in every locale.
+/// Throws InputError with file and line.
+std::vector<std::vector<double>> read_csv(const std::filesystem::path& file, std::string_view header);
+} // namespace feldspar

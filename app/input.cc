@@ -1,0 +1,182 @@
+#include "app/input.h"
+
+#include "app/input_structure.h"
+#include "app/parameter_table.h"
+#include "app/quantity.h"
+#include "dem/input_error.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+/// A file of lines in UTF-8, without the mark some editors put before the first.
+std::string read_text(const std::filesystem::path& file)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(fmt::format("{}: is a folder; an input file is needed", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.erase(0, 3);
+
+  const auto is_binary = [](const unsigned char c) { return c < 0x20 && (c < '\t' || c > '\r'); };
+  if (std::any_of(text.begin(), text.end(), is_binary))
+    throw InputError(fmt::format("{}: is not a text file", file.string()));
+  try
+    {
+      static_cast<void>(nlohmann::json(text).dump()); // which checks the encoding
+    }
+  catch (const nlohmann::json::type_error&)
+    {
+      throw InputError(fmt::format("{}: is not encoded in UTF-8", file.string()));
+    }
+  return text;
+}
+
+/// What the file gives: entries with their places, and deal.II's reading of their values.
+class GivenValues
+{
+public:
+  GivenValues(const std::filesystem::path& file, const std::string& text)
+    : name(file.string())
+  {
+    for (const Parameter& parameter : parameter_table())
+      {
+        handler.enter_subsection(std::string(parameter.section));
+        handler.declare_entry(std::string(parameter.entry), parameter.default_text());
+        handler.leave_subsection();
+      }
+    try
+      {
+        if (file.extension() == ".json")
+          {
+            const JsonInput json = scan_json(name, text);
+            given = json.entries;
+            std::istringstream stream(json.normal_text);
+            handler.parse_input_from_json(stream);
+          }
+        else
+          {
+            given = scan_prm(name, text);
+            handler.parse_input_from_string(text);
+          }
+      }
+    catch (const dealii::ExceptionBase& error)
+      {
+        // The scan let pass what deal.II does not: the reason in one line at least.
+        throw InputError(fmt::format("{}: cannot be read ({})", name, error.get_exc_name()));
+      }
+  }
+
+  const std::vector<GivenEntry>& entries() const { return given; }
+
+  bool has(const std::string_view section, const std::string_view entry) const
+  {
+    return find(section, entry) != nullptr;
+  }
+
+  std::string value(const std::string_view section, const std::string_view entry) const
+  {
+    return handler.get({std::string(section)}, std::string(entry));
+  }
+
+  /// An error about an entry: `beishan.prm:12: Flat joint/Bond friction angle = 95 deg: ` and the text.
+  InputError error(const std::string_view section, const std::string_view entry, const std::string_view text) const
+  {
+    const GivenEntry* where = find(section, entry);
+    return InputError(
+      fmt::format("{}: {}/{} = {}: {}", where ? where->place : name, section, entry, value(section, entry), text));
+  }
+
+private:
+  const GivenEntry* find(const std::string_view section, const std::string_view entry) const
+  {
+    const auto found = std::find_if(given.begin(), given.end(), [&](const GivenEntry& candidate) {
+      return candidate.section == section && candidate.entry == entry;
+    });
+    return found == given.end() ? nullptr : &*found;
+  }
+
+  const std::string name;
+  std::vector<GivenEntry> given;
+  dealii::ParameterHandler handler;
+};
+
+/// The gap that gets a joint follows from exactly one of two entries; naming the one takes the other's default away.
+void settle_installation(Input& input, const GivenValues& values)
+{
+  FlatJointParameters& joint = input.flat_joint;
+  if (joint.installation_gap_ratio && !values.has("Flat joint", "Coordination number"))
+    joint.coordination_number.reset();
+  if (joint.installation_gap_ratio && joint.coordination_number)
+    throw values.error("Flat joint", "Installation gap ratio",
+                       "excludes Coordination number, which is given too; keep one of them");
+  if (!joint.installation_gap_ratio && !joint.coordination_number)
+    throw values.error("Flat joint", "Coordination number", "is needed when Installation gap ratio is none");
+}
+
+void check_fractions(const Input& input, const GivenValues& values)
+{
+  if (input.flat_joint.gapped_fraction + input.flat_joint.slit_fraction > 1.0)
+    throw values.error("Flat joint", "Slit fraction",
+                       fmt::format("must be at most 1 together with Gapped fraction = {}",
+                                   values.value("Flat joint", "Gapped fraction")));
+}
+
+void check_specimen(const Input& input, const GivenValues& values)
+{
+  const SpecimenParameters& specimen = input.specimen;
+  if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
+    throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
+  if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
+    return; // which bring their own radii
+  const double least = 4.0 * specimen.minimum_radius * specimen.radius_ratio;
+  const std::string demand =
+    fmt::format("must be at least {}, or there is no room for two grains of the largest radius",
+                format_quantity(least, "mm", length));
+  if (specimen.width < least)
+    throw values.error("Specimen", "Width", demand);
+  if (specimen.height < least)
+    throw values.error("Specimen", "Height", demand);
+}
+} // namespace
+
+Input read_input(const std::filesystem::path& file)
+{
+  const std::string text = read_text(file);
+  if (file.extension() != ".prm" && file.extension() != ".json")
+    throw InputError(fmt::format("{}: the name must end in .prm or .json", file.string()));
+  const GivenValues values(file, text);
+
+  Input input;
+  input.folder = file.parent_path();
+  for (const GivenEntry& given : values.entries())
+    try
+      {
+        find_parameter(given.section, given.entry)->read(input, values.value(given.section, given.entry));
+      }
+    catch (const InputError& error)
+      {
+        throw values.error(given.section, given.entry, error.what());
+      }
+  settle_installation(input, values);
+  check_fractions(input, values);
+  check_specimen(input, values);
+  return input;
+}
+} // namespace feldspar

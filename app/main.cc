@@ -1,0 +1,142 @@
+#include "app/commands.h"
+#include "app/nearest_name.h"
+#include "app/specimen_source.h"
+#include "dem/input_error.h"
+#include "feldspar_version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace
+{
+using namespace feldspar;
+
+/// The command line that `feldspar` understands, and what it was told.
+class CommandLine
+{
+public:
+  CommandLine()
+  {
+    app.set_version_flag("--version", fmt::format("feldspar {}", version));
+    app.require_subcommand(0, 1);
+    add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab);
+    add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
+    add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
+    add_parameters();
+  }
+
+  /// Returns the exit code.
+  int run(const int argc, const char* const* argv)
+  {
+    check_subcommand(argc, argv);
+    try
+      {
+        app.parse(argc, argv);
+      }
+    catch (const CLI::ParseError& error)
+      {
+        return explain(error);
+      }
+    if (!chosen)
+      {
+        fmt::print("{}", app.help());
+        return 0;
+      }
+    std::optional<tbb::global_control> limit;
+    if (n_threads)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, *n_threads);
+    return chosen();
+  }
+
+private:
+  void add_run(const std::string& name, const std::string& description, int (*run_command)(const CommonOptions&))
+  {
+    CLI::App& command = *app.add_subcommand(name, description);
+    command.add_option("INPUT", common.input, "parameter file, .prm or .json")->required();
+    command.add_option("--output", common.output, "folder of the results (default: INPUT-results-001, ...)")
+      ->type_name("DIR");
+    command.add_flag("--force", common.force, "write over what is in the folder");
+    command.add_option("--threads", n_threads, "how many to use (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 4096u));
+    command.add_flag("--quiet", common.quiet, "no progress on standard output");
+    command.callback([this, run_command] { chosen = [this, run_command] { return run_command(common); }; });
+  }
+
+  void add_parameters()
+  {
+    CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
+    command.add_option("SECTION", parameters.section, "only this one");
+    command.add_option("--check", parameters.check, "only check this input file")->type_name("INPUT");
+    command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
+    command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
+  }
+
+  /// Prints help or version, which CLI11 throws too, or what is wrong.
+  int explain(const CLI::ParseError& error) const
+  {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+      return app.exit(error);
+    const auto subcommands = app.get_subcommands();
+    fmt::print(stderr, "feldspar: {}; see feldspar {}--help\n", error.what(),
+               subcommands.empty() ? "" : subcommands.front()->get_name() + " ");
+    return exit_code::user_error;
+  }
+
+  /// CLI11 would only say that the word was not expected.
+  void check_subcommand(const int argc, const char* const* argv) const
+  {
+    if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
+      return;
+    const std::vector<std::string_view> names{"lab", "specimen", "contact", "parameters"};
+    if (std::find(names.begin(), names.end(), argv[1]) == names.end())
+      throw InputError(fmt::format("{}: no such command{}", argv[1], suggestion(argv[1], names)));
+  }
+
+  CLI::App app{"Feldspar: laboratory tests on rock made of grains and flat joints", "feldspar"};
+  CommonOptions common;
+  ParametersOptions parameters;
+  std::optional<unsigned int> n_threads;
+  std::function<int()> chosen;
+};
+
+std::string one_line(std::string text)
+{
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+} // namespace
+
+int main(const int argc, const char* const* argv)
+{
+  try
+    {
+      return CommandLine().run(argc, argv);
+    }
+  catch (const Interrupted&)
+    {
+      fmt::print(stderr, "feldspar: interrupted before there was a result; nothing was kept\n");
+      return exit_code::interrupted;
+    }
+  catch (const InputError& error)
+    {
+      fmt::print(stderr, "feldspar: {}\n", one_line(error.what()));
+      return exit_code::user_error;
+    }
+  catch (const std::exception& error)
+    {
+      fmt::print(stderr, "feldspar: this should not have happened: {}\nTo reproduce it, with feldspar {}: {}\n",
+                 one_line(error.what()), version, fmt::join(argv, argv + argc, " "));
+      return exit_code::internal_error;
+    }
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// The folder a run writes into. It is made at construction, so that a run does not find out after hours that it
+/// cannot write; one that stays empty goes again, so that a run which ends before its first result leaves nothing.
+class OutputFolder
+{
+public:
+  /// Without `wanted`, a fresh numbered folder beside the input: NAME-results-001, …. With it, that one, its parents
+  /// made too; if something is in it already, `force` allows to write over it. Throws InputError.
+  OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input, bool force);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  const std::filesystem::path& path() const { return folder; }
+
+private:
+  /// Whether it was made now; false if it is there already. One of several runs that try at once makes it.
+  bool make(const std::filesystem::path& new_folder);
+  void make_numbered(const std::filesystem::path& input);
+  void make_wanted(const std::filesystem::path& wanted, bool force);
+  void remove_empty() const;
+
+  std::filesystem::path folder;
+  std::vector<std::filesystem::path> made;
+};
+} // namespace feldspar

@@ -1,0 +1,397 @@
+#include "app/parameter_table.h"
+
+#include "app/quantity.h"
+#include "dem/input_error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::string_view none = "none";
+constexpr std::size_t most_seeds = 10000;
+
+/// An interval as it is written in books: '[' and ']' take the bound in, '(' and ')' leave it out.
+struct Range
+{
+  char left;
+  double lower;
+  double upper;
+  char right;
+
+  bool contains(const double value) const
+  {
+    return (left == '[' ? value >= lower : value > lower) && (right == ']' ? value <= upper : value < upper);
+  }
+
+  /// With `unit` (led by a space, or empty) behind each number.
+  std::string text(const std::string_view unit) const
+  {
+    if (upper == infinity)
+      return fmt::format("{} {}{}", left == '[' ? ">=" : ">", lower, unit);
+    return fmt::format("{}{}{}, {}{}{}", left, lower, unit, upper, unit, right);
+  }
+
+  /// What an error says.
+  std::string demand(const std::string_view unit) const
+  {
+    return fmt::format("must {} {}", upper == infinity ? "be" : "lie in", text(unit));
+  }
+};
+
+constexpr Range above_zero{'(', 0.0, infinity, ')'};
+constexpr Range from_zero{'[', 0.0, infinity, ')'};
+constexpr Range fraction{'[', 0.0, 1.0, ']'};
+
+std::uint64_t parse_count(const std::string_view text)
+{
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw InputError(fmt::format("\"{}\" is not a non-negative integer below 2^64", text));
+  return value;
+}
+
+/// `member` gives the path in an Input.
+template <typename Member>
+Parameter file_parameter(const std::string_view section, const std::string_view entry, const std::string_view meaning,
+                         const Member& member)
+{
+  return {section,
+          entry,
+          "",
+          "none, or a file",
+          meaning,
+          [=](Input& input, const std::string_view text) {
+            const std::filesystem::path path = text.empty() || text == none ? "" : input.folder / text;
+            std::error_code ignored;
+            if (!path.empty() && !std::filesystem::exists(path, ignored))
+              throw InputError(fmt::format("there is no file {}", path.string()));
+            if (std::filesystem::is_directory(path, ignored))
+              throw InputError(fmt::format("{} is a folder; a file is needed", path.string()));
+            member(input) = path.string();
+          },
+          [=](const Input& input) { return member(input).empty() ? std::string(none) : member(input); }};
+}
+
+/// The members of one part of Input under the heading of one section. Each function makes one kind of parameter.
+template <typename Part>
+struct Section
+{
+  std::string_view name;
+  Part Input::*part;
+
+  Parameter quantity(const std::string_view entry, double Part::*const member, const Dimension& dimension,
+                     const std::string_view unit, const Range& range, const std::string_view meaning) const
+  {
+    const std::string spaced_unit = fmt::format(" {}", unit);
+    return make(
+      entry, std::string(unit), range.text(spaced_unit), meaning, member,
+      [=](const std::string_view text) {
+        const double value = parse_quantity(text, dimension);
+        const Range si_range{range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension),
+                             range.right};
+        if (!si_range.contains(value))
+          throw InputError(range.demand(spaced_unit));
+        return value;
+      },
+      [=](const double value) { return format_quantity(value, unit, dimension); });
+  }
+
+  Parameter number(const std::string_view entry, double Part::*const member, const Range& range,
+                   const std::string_view meaning) const
+  {
+    return make(
+      entry, "", range.text(""), meaning, member,
+      [=](const std::string_view text) { return read_number(text, range, range.demand("")); }, format_number);
+  }
+
+  Parameter optional_number(const std::string_view entry, std::optional<double> Part::*const member, const Range& range,
+                            const std::string_view meaning) const
+  {
+    return make(
+      entry, "", fmt::format("none, or {}", range.text("")), meaning, member,
+      [=](const std::string_view text) -> std::optional<double> {
+        if (text == none)
+          return std::nullopt;
+        return read_number(text, range, fmt::format("{}, or be none", range.demand("")));
+      },
+      [](const std::optional<double>& value) { return value ? format_number(*value) : std::string(none); });
+  }
+
+  Parameter integer(const std::string_view entry, unsigned int Part::*const member, const Range& range,
+                    const std::string_view meaning) const
+  {
+    return make(
+      entry, "", fmt::format("integer in {}", range.text("")), meaning, member,
+      [=](const std::string_view text) {
+        unsigned int value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || !range.contains(value))
+          throw InputError(fmt::format("must be an integer in {}", range.text("")));
+        return value;
+      },
+      [](const unsigned int value) { return std::to_string(value); });
+  }
+
+  template <typename T>
+  Parameter choice(const std::string_view entry, T Part::*const member,
+                   const std::vector<std::pair<std::string, T>>& options, const std::string_view meaning) const
+  {
+    std::string range = options.front().first;
+    if (options.size() == 1)
+      range += " (the only choice in this version)";
+    for (std::size_t i = 1; i < options.size(); ++i)
+      range += " or " + options[i].first;
+    return make(
+      entry, "", range, meaning, member,
+      [=](const std::string_view text) {
+        for (const auto& [option, value] : options)
+          if (option == text)
+            return value;
+        throw InputError(fmt::format("must be {}", range));
+      },
+      [=](const T& wanted) {
+        for (const auto& [option, value] : options)
+          if (value == wanted)
+            return option;
+        return std::string();
+      });
+  }
+
+  Parameter file(const std::string_view entry, std::string Part::*const member, const std::string_view meaning) const
+  {
+    return file_parameter(
+      name, entry, meaning, [ =, part = part ](auto& input) -> auto& { return (input.*part).*member; });
+  }
+
+private:
+  static double read_number(const std::string_view text, const Range& range, const std::string& demand)
+  {
+    if (const std::size_t space = text.find(' '); space != std::string_view::npos)
+      throw InputError(fmt::format("must be a number without unit, e.g. \"{}\"", text.substr(0, space)));
+    const double value = parse_number(text);
+    if (!range.contains(value))
+      throw InputError(demand);
+    return value;
+  }
+
+  template <typename T, typename Read, typename Write>
+  Parameter make(const std::string_view entry, const std::string& unit, const std::string& range,
+                 const std::string_view meaning, T Part::*const member, const Read& read, const Write& write) const
+  {
+    return {name,
+            entry,
+            unit,
+            range,
+            meaning,
+            [=, part = part](Input& input, const std::string_view text) { (input.*part).*member = read(text); },
+            [=, part = part](const Input& input) { return write((input.*part).*member); }};
+  }
+};
+
+std::vector<TestKind> read_tests(const std::string_view text)
+{
+  const std::vector<TestKind> known{TestKind::direct_tension, TestKind::uniaxial_compression};
+  std::vector<TestKind> tests;
+  for (const std::string_view piece : split_at_commas(text))
+    {
+      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind k) { return name(k) == piece; });
+      if (kind == known.end())
+        throw InputError(
+          fmt::format("\"{}\" is not a test; list one or more of {}, {}", piece, name(known[0]), name(known[1])));
+      if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
+        throw InputError(fmt::format("{} is listed twice", piece));
+      tests.push_back(*kind);
+    }
+  return tests;
+}
+
+std::string write_tests(const std::vector<TestKind>& tests)
+{
+  std::vector<std::string> names;
+  names.reserve(tests.size());
+  for (const TestKind kind : tests)
+    names.push_back(name(kind));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::uint64_t> read_seeds(const std::string_view text)
+{
+  std::vector<std::uint64_t> seeds;
+  for (const std::string_view piece : split_at_commas(text))
+    {
+      const std::size_t dots = piece.find("..");
+      const std::uint64_t first = parse_count(piece.substr(0, dots));
+      const std::uint64_t last = dots == std::string_view::npos ? first : parse_count(piece.substr(dots + 2));
+      if (last < first)
+        throw InputError(fmt::format("the range {} runs backwards", piece));
+      if (last - first >= most_seeds - seeds.size())
+        throw InputError(fmt::format("must be at most {} seeds", most_seeds));
+      for (std::uint64_t i = 0; i <= last - first; ++i)
+        seeds.push_back(first + i);
+    }
+  std::set<std::uint64_t> seen;
+  for (const std::uint64_t seed : seeds)
+    if (!seen.insert(seed).second)
+      throw InputError(fmt::format("seed {} is given twice", seed));
+  return seeds;
+}
+
+std::vector<Parameter> make_parameter_table()
+{
+  using S = SpecimenParameters;
+  using F = FlatJointParameters;
+  using P = ParticleContactParameters;
+  using D = DynamicsParameters;
+  using T = TestParameters;
+  using C = ContactParameters;
+  const Section<S> specimen{"Specimen", &Input::specimen};
+  const Section<F> flat_joint{"Flat joint", &Input::flat_joint};
+  const Section<P> particle_contact{"Particle contact", &Input::particle_contact};
+  const Section<D> dynamics{"Dynamics", &Input::dynamics};
+  const Section<T> tests{"Tests", &Input::tests};
+  const Section<C> contact{"Contact", &Input::contact};
+  const Section<C> contact_path{"Contact path", &Input::contact};
+
+  return {
+    specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}}, "discs in the plane, one metre thick"),
+    specimen.choice<std::string>("Shape", &S::shape, {{"box", "box"}}, "of the specimen"),
+    specimen.quantity("Width", &S::width, length, "mm", above_zero,
+                      "across the axis of the tests; at least four radii of the largest grain"),
+    specimen.quantity("Height", &S::height, length, "mm", above_zero,
+                      "along the axis of the tests; at least four radii of the largest grain"),
+    specimen.quantity("Minimum radius", &S::minimum_radius, length, "mm", above_zero, "of the grains"),
+    specimen.number("Radius ratio", &S::radius_ratio, {'[', 1.0, infinity, ')'},
+                    "largest over smallest radius; radii are drawn uniformly between them"),
+    specimen.number("Porosity", &S::porosity, {'(', 0.0, 1.0, ')'},
+                    "of the finished packing; with the radii it gives the number of grains"),
+    specimen.quantity("Density", &S::bulk_density, density, "kg/m^3", above_zero,
+                      "of the rock as a body; a grain's is this over (1 - Porosity)"),
+    specimen.number("Packing stress ratio", &S::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
+                    "mean stress in the packing over Particle contact/Modulus, before the joints are installed"),
+    specimen.file("Packing file", &S::packing_file,
+                  "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing"),
+    specimen.file("Specimen file", &S::specimen_file, "a finished specimen.h5 to be tested; none makes a specimen"),
+
+    flat_joint.integer("Segments", &F::n_segments, {'[', 1.0, 32.0, ']'}, "of a face, each of which breaks by itself"),
+    flat_joint.quantity("Modulus", &F::modulus, stress, "GPa", above_zero,
+                        "E; the normal stiffness is E over the sum of both radii"),
+    flat_joint.number("Stiffness ratio", &F::stiffness_ratio, above_zero, "normal over shear stiffness"),
+    flat_joint.number("Friction", &F::friction, from_zero, "coefficient, of broken segments"),
+    flat_joint.number("Radius multiplier", &F::radius_multiplier, above_zero,
+                      "half length of the face over the radius of the smaller grain"),
+    flat_joint.quantity("Bond tensile strength", &F::bond_tensile_strength, stress, "MPa", from_zero,
+                        "mean; a segment breaks in tension beyond it"),
+    flat_joint.quantity("Bond tensile strength standard deviation", &F::bond_tensile_strength_deviation, stress, "MPa",
+                        from_zero, "of the normal distribution, redrawn while negative"),
+    flat_joint.quantity("Bond cohesion", &F::bond_cohesion, stress, "MPa", from_zero,
+                        "mean; shear strength of a bond without normal stress"),
+    flat_joint.quantity("Bond cohesion standard deviation", &F::bond_cohesion_deviation, stress, "MPa", from_zero,
+                        "of the normal distribution, redrawn while negative"),
+    flat_joint.quantity("Bond friction angle", &F::bond_friction_angle, angle, "deg", {'[', 0.0, 90.0, ')'},
+                        "by which compression adds to the shear strength of a bond"),
+    flat_joint.choice<StrengthDraw>(
+      "Strength draw", &F::strength_draw,
+      {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
+      "whether the segments of a face draw their strengths one by one or together"),
+    flat_joint.optional_number("Installation gap ratio", &F::installation_gap_ratio, from_zero,
+                               "largest gap that gets a joint, over the mean radius; instead of Coordination number"),
+    flat_joint.optional_number("Coordination number", &F::coordination_number, above_zero,
+                               "mean number of joints of a grain, from which the gap follows; the default holds unless "
+                               "Installation gap ratio is given"),
+    flat_joint.number("Gapped fraction", &F::gapped_fraction, fraction,
+                      "share of the joints without bonds and with an initial gap"),
+    flat_joint.number("Slit fraction", &F::slit_fraction, fraction,
+                      "share of the joints without bonds whose faces touch; with Gapped fraction at most 1"),
+    flat_joint.quantity("Initial gap", &F::initial_gap, length, "mm", from_zero, "of the gapped joints"),
+
+    particle_contact.quantity("Modulus", &P::modulus, stress, "GPa", above_zero,
+                              "of grains that touch without a face, and of the packing"),
+    particle_contact.number("Stiffness ratio", &P::stiffness_ratio, above_zero, "normal over shear stiffness"),
+    particle_contact.number("Friction", &P::friction, from_zero, "coefficient"),
+
+    dynamics.number("Damping", &D::damping, {'[', 0.0, 1.0, ')'},
+                    "local non-viscous: share of the unbalanced force set against the motion"),
+    dynamics.number("Time step safety", &D::time_step_safety, {'(', 0.0, 1.0, ']'},
+                    "time step over the least root of mass over stiffness"),
+
+    {"Tests", "List", "", "direct_tension, uniaxial_compression", "the tests to be made, separated by commas",
+     [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
+     [](const Input& input) { return write_tests(input.test_list); }},
+    tests.quantity("Compression strain rate", &T::compression_strain_rate, rate, "1/s", above_zero, "magnitude"),
+    tests.quantity("Tension strain rate", &T::tension_strain_rate, rate, "1/s", above_zero, "magnitude"),
+    tests.number("Compression sampling strain", &T::compression_sampling_strain, above_zero,
+                 "axial strain between two rows of the curve"),
+    tests.number("Tension sampling strain", &T::tension_sampling_strain, above_zero,
+                 "axial strain between two rows of the curve"),
+    tests.number("Grip ratio", &T::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen"),
+    tests.number("Stop strain over peak strain", &T::stop_strain_over_peak_strain, {'(', 1.0, infinity, ')'},
+                 "a test stops at this many times its strain at peak"),
+    tests.optional_number("Stop strain", &T::stop_strain, above_zero,
+                          "a test stops at this axial strain, whatever its curve"),
+    tests.optional_number("Stop stress over peak", &T::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},
+                          "a test stops when its stress has fallen to this share of the peak"),
+
+    {"Seeds", "Seeds", "", "non-negative integers and ranges, such as 1, 5..7", "one specimen for each seed",
+     [](Input& input, const std::string_view text) { input.seeds = read_seeds(text); },
+     [](const Input& input) { return fmt::format("{}", fmt::join(input.seeds, ", ")); }},
+
+    contact.quantity("Radius 1", &C::radius_1, length, "mm", above_zero, "of grain 1 of `feldspar contact`"),
+    contact.quantity("Radius 2", &C::radius_2, length, "mm", above_zero, "of grain 2 of `feldspar contact`"),
+    contact_path.file("File", &C::path_file,
+                      "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad"),
+    file_parameter(
+      "Report", "Reference file", "figures of the rock and of other models (JSON) to set the results beside",
+      [](auto& input) -> auto& { return input.reference_file; }),
+  };
+}
+} // namespace
+
+std::string Parameter::name() const { return fmt::format("{}/{}", section, entry); }
+
+std::string Parameter::default_text() const { return write(Input()); }
+
+const std::vector<Parameter>& parameter_table()
+{
+  static const std::vector<Parameter> table = make_parameter_table();
+  return table;
+}
+
+std::vector<std::string_view> section_names()
+{
+  std::vector<std::string_view> names;
+  for (const Parameter& parameter : parameter_table())
+    if (names.empty() || names.back() != parameter.section)
+      names.push_back(parameter.section);
+  return names;
+}
+
+std::vector<std::string_view> entry_names(const std::string_view section)
+{
+  std::vector<std::string_view> names;
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.section == section)
+      names.push_back(parameter.entry);
+  return names;
+}
+
+const Parameter* find_parameter(const std::string_view section, const std::string_view entry)
+{
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.section == section && parameter.entry == entry)
+      return &parameter;
+  return nullptr;
+}
+} // namespace feldspar

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Numbers and quantities as the user writes them: `0.5`, `22 MPa`, `5, 10, 20 MPa`. The decimal sign is a point in
+/// every locale. What is not of this form throws InputError, whose text says what was found and shows the right form.
+namespace feldspar
+{
+/// What a quantity measures.
+struct Dimension
+{
+  std::string_view name; ///< with its article, for error texts
+  std::string_view si_unit;
+  std::string_view example;
+};
+
+inline constexpr Dimension stress{"a stress", "Pa", "22 MPa"};
+inline constexpr Dimension length{"a length", "m", "0.62 mm"};
+inline constexpr Dimension angle{"an angle", "rad", "10 deg"};
+inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
+inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
+
+/// One decimal number without a unit; `nan` and `inf` are none.
+double parse_number(std::string_view text);
+
+/// One number, one space and one unit expression; returned in SI.
+double parse_quantity(std::string_view text, const Dimension& dimension);
+
+/// Numbers separated by commas with one unit at the end; returned in SI.
+std::vector<double> parse_quantities(std::string_view text, const Dimension& dimension);
+
+/// A value given in `unit`, in SI.
+double to_si(double value, std::string_view unit, const Dimension& dimension);
+
+/// An SI value as `22 MPa`, such that reading it gives the value again to 15 digits.
+std::string format_quantity(double si_value, std::string_view unit, const Dimension& dimension);
+
+/// A number as `0.5`, to 15 digits.
+std::string format_number(double value);
+
+/// Without the white space at both ends.
+std::string_view trim(std::string_view text);
+
+/// The pieces between commas, trimmed.
+std::vector<std::string_view> split_at_commas(std::string_view text);
+} // namespace feldspar

@@ -1,0 +1,62 @@
+#include "app/specimen_source.h"
+
+#include "app/interrupt.h"
+#include "app/jobs.h"
+#include "dem/genesis.h"
+#include "dem/input_error.h"
+#include "dem/specimen_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+namespace feldspar
+{
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const Input& input, Progress& progress)
+{
+  if (!input.specimen.specimen_file.empty())
+    return {read_specimen<dim>(input.specimen.specimen_file)};
+
+  std::vector<Specimen<dim>> specimens(input.seeds.size());
+  std::vector<double> done(input.seeds.size(), 0.0);
+  std::mutex showing;
+  progress.start("genesis");
+  for_each_job(input.seeds.size(), [&](const std::size_t k) {
+    const auto monitor = [&](std::string_view, const double fraction) {
+      if (interrupted())
+        throw Interrupted();
+      const std::lock_guard lock(showing);
+      done[k] = fraction;
+      double sum = 0.0;
+      for (const double share : done)
+        sum += share / double(done.size());
+      progress.update(sum, fmt::format("{} specimen(s)", done.size()));
+    };
+    specimens[k] =
+      make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, input.seeds[k], monitor);
+  });
+  progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
+  return specimens;
+}
+
+std::string describe(const SpecimenReport& report)
+{
+  return fmt::format("grains                                   {}\n"
+                     "joints                                   {}\n"
+                     "coordination number                      {:.3f}\n"
+                     "  of grains 3 diameters from the walls   {:.3f}\n"
+                     "installation gap over mean radius        {:.4f}\n"
+                     "porosity                                 {:.4f}\n"
+                     "overlap over mean radius, mean / largest {:.2e} / {:.2e}\n"
+                     "width over mean grain diameter           {:.1f}\n"
+                     "radii scaled by                          {:.4f}\n",
+                     report.n_grains, report.n_joints, report.coordination_number, report.coordination_number_core,
+                     report.installation_gap_ratio, report.porosity, report.mean_overlap_ratio,
+                     report.largest_overlap_ratio, report.resolution, report.radius_multiplier);
+}
+
+template std::vector<Specimen<2>> provide_specimens<2>(const Input&, Progress&);
+} // namespace feldspar

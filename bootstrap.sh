@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 to results.
+#
+#   ./bootstrap.sh demo      packages, build, the Beishan granite example; ends with its table and the results' path
+#   ./bootstrap.sh test      packages, sanitizer build and its unit tests, the same with clang, release build, all tests
+#   ./bootstrap.sh build     packages and release build
+#   ./bootstrap.sh packages  packages only: everything the other three need
+#
+# Root (or sudo) is needed only while packages are missing. With CI set in the environment warnings are errors and
+# `test` also checks format and lint.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+build_packages=(
+  g++ cmake ninja-build git ca-certificates
+  libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
+  libdeal.ii-dev petsc-dev
+  libcli11-dev nlohmann-json3-dev libudunits2-dev
+  gnuplot-nox fonts-dejavu-core
+)
+test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales)
+
+say() { printf '\n==> %s\n' "$*"; }
+die()
+{
+  printf 'bootstrap.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+is_installed() { [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
+
+need_packages()
+{
+  command -v dpkg-query >/dev/null ||
+    die "this is not a Debian system; the packages it would install are listed in this script"
+  local missing=() package
+  for package in "$@"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+
+  local as_root=()
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || die "packages are missing and neither root nor sudo is at hand: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  say "installing ${missing[*]}"
+  "${as_root[@]}" apt-get update --quiet
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --quiet --yes --no-install-recommends "${missing[@]}" </dev/null
+}
+
+# build PRESET [CMake option...]
+build()
+{
+  local preset=$1
+  shift
+  local warnings_as_errors=OFF
+  [[ -z "${CI:-}" ]] || warnings_as_errors=ON
+  say "building $preset"
+  cmake --preset "$preset" -DFELDSPAR_WARNINGS_AS_ERRORS="$warnings_as_errors" "$@"
+  cmake --build --preset "$preset" --parallel "$(nproc)"
+}
+
+run_tests()
+{
+  say "testing $1"
+  ctest --preset "$1" --parallel "$(nproc)"
+}
+
+check_format()
+{
+  say "checking the format"
+  git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
+}
+
+# Reads build/clang-dem's compile commands.
+check_lint()
+{
+  say "checking the lint"
+  git ls-files -z 'dem/*.cc' |
+    xargs --null --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/clang-dem --quiet --warnings-as-errors='*'
+}
+
+demo()
+{
+  need_packages "${build_packages[@]}"
+  build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+  say "breaking Beishan granite"
+  exec build/release/app/feldspar lab examples/beishan-granite/beishan.prm
+}
+
+run_all_tests()
+{
+  need_packages "${build_packages[@]}" "${test_packages[@]}"
+  build asan
+  run_tests asan
+  build clang-dem
+  run_tests clang-dem
+  if [[ -n "${CI:-}" ]]; then
+    check_format
+    check_lint
+  fi
+  build release -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON
+  run_tests release
+}
+
+case "${1:-}" in
+  demo) demo ;;
+  test) run_all_tests ;;
+  build)
+    need_packages "${build_packages[@]}"
+    build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+    ;;
+  packages) need_packages "${build_packages[@]}" "${test_packages[@]}" ;;
+  *) die "usage: ./bootstrap.sh demo|test|build|packages" ;;
+esac

@@ -1,0 +1,29 @@
+# What every target of the project has in common: the language, the warnings, the arithmetic.
+
+add_library(feldspar_settings INTERFACE)
+target_compile_features(feldspar_settings INTERFACE cxx_std_20)
+target_include_directories(feldspar_settings INTERFACE ${CMAKE_SOURCE_DIR})
+# No fused multiply-add behind our back: the same source gives the same bits with every compiler and processor.
+target_compile_options(feldspar_settings INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow)
+# One alignment for Eigen's types, whatever the processor: the libraries of the distribution were built so.
+target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+if(FELDSPAR_NATIVE)
+  target_compile_options(feldspar_settings INTERFACE -march=native)
+endif()
+# GCC 12 warns of its own AVX-512 header (its bug 105593) where a vector square root is inlined.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(feldspar_settings INTERFACE -Wno-uninitialized)
+endif()
+if(FELDSPAR_WARNINGS_AS_ERRORS)
+  target_compile_options(feldspar_settings INTERFACE -Werror)
+endif()
+if(FELDSPAR_SANITIZE)
+  target_compile_options(feldspar_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(feldspar_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+# The settings are for building here, not part of what is installed.
+function(feldspar_add_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PUBLIC feldspar_settings)
+endfunction()

@@ -1,0 +1,652 @@
+#include "dem/dynamics.h"
+
+#include "dem/contact_motion.h"
+#include "dem/flat_joint_law.h"
+#include "dem/neighbours.h"
+#include "dem/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::uint64_t steps_between_searches = 10;   // at least; a search costs as much as some steps
+constexpr std::uint64_t steps_between_time_steps = 50; // the safety factor covers contacts made meanwhile
+constexpr double skin_over_smallest_radius = 0.3;
+
+double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
+
+template <int dim>
+double squared_norm(const Components<dim>& components, const std::size_t i)
+{
+  double sum = 0.0;
+  for (int c = 0; c < dim; ++c)
+    sum += components[c][i] * components[c][i];
+  return sum;
+}
+} // namespace
+
+template <int dim>
+Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted, const ZeroForce where)
+  : body(std::move(specimen))
+  , parameters(wanted)
+  , zero_force(where)
+  , held(body.grains.size(), 0)
+  , damping_work(body.grains.size(), 0.0)
+{
+  skin = skin_over_smallest_radius * *std::min_element(body.grains.radius.begin(), body.grains.radius.end());
+}
+
+template <int dim>
+std::size_t Dynamics<dim>::add_wall(const Wall& wall)
+{
+  wall_list.push_back(wall);
+  wall_touches.emplace_back();
+  wall_forces.push_back(0.0);
+  return wall_list.size() - 1;
+}
+
+template <int dim>
+std::size_t Dynamics<dim>::add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity)
+{
+  for (const auto i : members)
+    {
+      held[i] = 1;
+      set<dim>(body.grains.velocity, i, velocity);
+    }
+  grips.push_back({std::move(members), velocity});
+  return grips.size() - 1;
+}
+
+template <int dim>
+std::vector<Break> Dynamics<dim>::step()
+{
+  if (!started)
+    start();
+  else if (steps % steps_between_searches == 0 && contacts_may_be_missed())
+    {
+      remove_torn_faces();
+      find_contacts();
+      choose_time_step();
+    }
+  else if (steps % steps_between_time_steps == 0)
+    choose_time_step();
+
+  add_boundary_work(dt, 0.5);
+  integrate();
+  for (auto& wall : wall_list)
+    wall.position += dt * wall.velocity;
+  const auto breaks = update_contacts(dt);
+  add_boundary_work(dt, 0.5);
+  for (const auto& event : breaks)
+    released_energy += event.released_energy;
+  current_time += dt;
+  previous_dt = dt;
+  ++steps;
+  return breaks;
+}
+
+template <int dim>
+void Dynamics<dim>::restart()
+{
+  touches.clear();
+  for (auto& list : wall_touches)
+    list.clear();
+  zero_force = ZeroForce::at_touch;
+  started = false;
+}
+
+template <int dim>
+void Dynamics<dim>::start()
+{
+  joint_incidence = incidence(
+    body.joints.size(), [&](const std::size_t j) { return GrainPair(body.joints.grain_1[j], body.joints.grain_2[j]); });
+  find_contacts();
+  zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
+  update_contacts(0.0);
+  choose_time_step();
+  previous_dt = 0.0; // the first kick is half a step
+  position_at_start = body.grains.position;
+  started = true;
+  const Energies initial = energies();
+  kinetic_energy_at_start += initial.kinetic;
+  strain_energy_at_start += initial.strain;
+}
+
+template <int dim>
+template <typename EndsOf>
+typename Dynamics<dim>::Incidence Dynamics<dim>::incidence(const std::size_t n_contacts, EndsOf&& ends_of) const
+{
+  Incidence result;
+  result.first.assign(body.grains.size() + 1, 0);
+  for (std::size_t k = 0; k < n_contacts; ++k)
+    {
+      const auto [one, two] = ends_of(k);
+      ++result.first[one + 1];
+      ++result.first[two + 1];
+    }
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    result.first[i + 1] += result.first[i];
+  auto next = result.first;
+  result.entries.resize(2 * n_contacts);
+  for (std::size_t k = 0; k < n_contacts; ++k)
+    {
+      const auto [one, two] = ends_of(k);
+      result.entries[next[one]++] = std::uint32_t(2 * k);
+      result.entries[next[two]++] = std::uint32_t(2 * k + 1);
+    }
+  return result;
+}
+
+template <int dim>
+typename Dynamics<dim>::Touch Dynamics<dim>::new_touch(const std::uint32_t grain_1, const std::uint32_t grain_2) const
+{
+  const double radius_1 = body.grains.radius[grain_1];
+  const double radius_2 = body.grains.radius[grain_2];
+  const double k_n = touch_stiffness(radius_1, radius_2);
+  Touch touch{};
+  touch.grain_1 = grain_1;
+  touch.grain_2 = grain_2;
+  touch.stiffness = {k_n, k_n / body.particle_contact.stiffness_ratio};
+  touch.zero_distance = radius_1 + radius_2;
+  touch.half_radius_difference = 0.5 * (radius_1 - radius_2);
+  return touch;
+}
+
+/// Where a pair stands, or would stand, among the touches.
+template <int dim>
+auto Dynamics<dim>::find_touch(const GrainPair& pair)
+{
+  return std::lower_bound(touches.begin(), touches.end(), pair,
+                          [](const Touch& touch, const GrainPair& wanted) { return touch.ends() < wanted; });
+}
+
+/// A joint loses its faces when nothing holds and they have slid or opened past each other; the pair may touch again.
+template <int dim>
+void Dynamics<dim>::remove_torn_faces()
+{
+  auto& joints = body.joints;
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      const double reach = 2.0 * joints.half_length[j];
+      if ((std::abs(joints.slip[j]) <= reach && joints.opening[j] <= reach) || joints.holds(j))
+        kept.push_back(j);
+      else
+        {
+          slip_energy_of_lost_contacts += joints.slip_energy[j];
+          Touch touch = new_touch(joints.grain_1[j], joints.grain_2[j]);
+          touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
+          touches.insert(find_touch(touch.ends()), touch);
+        }
+    }
+  if (kept.size() < joints.size())
+    {
+      joints.keep(kept);
+      joint_incidence =
+        incidence(joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); });
+    }
+}
+
+template <int dim>
+void Dynamics<dim>::find_contacts()
+{
+  const auto& grains = body.grains;
+  const auto& joints = body.joints;
+  std::vector<Touch> found;
+  std::vector<std::uint32_t> jointed_to(grains.size(), std::numeric_limits<std::uint32_t>::max());
+  std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [one, two] : pairs_within(grains, skin))
+    {
+      if (one != marked)
+        {
+          for (auto k = joint_incidence.first[one]; k < joint_incidence.first[one + 1]; ++k)
+            {
+              const auto j = joint_incidence.entries[k] / 2;
+              jointed_to[joints.grain_1[j] == one ? joints.grain_2[j] : joints.grain_1[j]] = one;
+            }
+          marked = one;
+        }
+      if (jointed_to[two] == one)
+        continue;
+      const GrainPair pair(one, two);
+      if (const auto known = find_touch(pair); known != touches.end() && known->ends() == pair)
+        found.push_back(*known);
+      else
+        {
+          found.push_back(new_touch(one, two));
+          if (zero_force == ZeroForce::as_placed)
+            found.back().zero_distance = std::min(
+              found.back().zero_distance, (at<dim>(grains.position, two) - at<dim>(grains.position, one)).norm());
+        }
+    }
+  std::size_t next = 0;
+  for (const auto& touch : touches)
+    {
+      while (next < found.size() && found[next].ends() < touch.ends())
+        ++next;
+      if (next == found.size() || found[next].ends() != touch.ends())
+        slip_energy_of_lost_contacts += touch.slip_energy;
+    }
+  touches = std::move(found);
+  touch_incidence =
+    incidence(touches.size(), [&](const std::size_t k) { return GrainPair(touches[k].grain_1, touches[k].grain_2); });
+
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    {
+      const Wall& wall = wall_list[w];
+      std::vector<WallTouch> near;
+      for (std::uint32_t i = 0; i < grains.size(); ++i)
+        {
+          const double distance = (grains.position[wall.axis][i] - wall.position) * wall.side;
+          if (distance > grains.radius[i] + skin)
+            continue;
+          const auto known = std::find_if(wall_touches[w].begin(), wall_touches[w].end(),
+                                          [i](const WallTouch& touch) { return touch.grain == i; });
+          if (known != wall_touches[w].end())
+            near.push_back(*known);
+          else
+            near.push_back(
+              {i, zero_force == ZeroForce::as_placed ? std::min(grains.radius[i], distance) : grains.radius[i]});
+        }
+      wall_touches[w] = std::move(near);
+    }
+  position_at_search = grains.position;
+}
+
+template <int dim>
+bool Dynamics<dim>::contacts_may_be_missed() const
+{
+  double farthest = 0.0;
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    {
+      farthest = std::max(farthest, (at<dim>(body.grains.position, i) - at<dim>(position_at_search, i)).squaredNorm());
+      fastest = std::max(fastest, squared_norm<dim>(body.grains.velocity, i));
+    }
+  // Twice the way to the next look, for what accelerates meanwhile.
+  return std::sqrt(farthest) + 2.0 * double(steps_between_searches) * dt * std::sqrt(fastest) > 0.5 * skin;
+}
+
+template <int dim>
+double Dynamics<dim>::touch_stiffness(const double radius_1, const double radius_2) const
+{
+  const double k_n = body.particle_contact.modulus / (radius_1 + radius_2);
+  const double r = std::min(radius_1, radius_2);
+  return k_n * (dim == 2 ? 2.0 * r * body.thickness : std::numbers::pi * r * r);
+}
+
+template <int dim>
+double Dynamics<dim>::wall_stiffness(const double radius) const
+{
+  const double modulus = body.particle_contact.modulus;
+  return dim == 2 ? 2.0 * modulus * body.thickness : std::numbers::pi * modulus * radius;
+}
+
+/// Safety × min over grains of √(m/k) and √(I/k_rot); theory.md §2.2.
+template <int dim>
+void Dynamics<dim>::choose_time_step()
+{
+  const auto& grains = body.grains;
+  const auto& joints = body.joints;
+  Components<dim> k;
+  resize<dim>(k, grains.size());
+  std::vector<double> k_turning(grains.size(), 0.0);
+  const auto add = [&](const std::uint32_t i, const auto& normal, const double k_n, const double k_s, const double arm,
+                       const double k_bending) {
+    for (int c = 0; c < dim; ++c)
+      k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
+    k_turning[i] += k_s * arm * arm + k_bending;
+  };
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      const double area = joints.face_area(j);
+      const double k_n = joints.normal_stiffness[j] * area;
+      const double k_s = joints.shear_stiffness[j] * area;
+      const double k_bending = joints.normal_stiffness[j] * joints.face_second_moment(j);
+      const double half_distance = 0.5 * (joints.rest_distance[j] + joints.opening[j]);
+      const auto normal = at<dim>(joints.normal, j);
+      add(joints.grain_1[j], normal, k_n, k_s, half_distance + joints.half_radius_difference[j], k_bending);
+      add(joints.grain_2[j], normal, k_n, k_s, half_distance - joints.half_radius_difference[j], k_bending);
+    }
+  for (const auto& touch : touches)
+    if (touch.touching)
+      {
+        const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
+        add(touch.grain_1, touch.normal, touch.stiffness.normal, k_s,
+            0.5 * touch.distance + touch.half_radius_difference, 0.0);
+        add(touch.grain_2, touch.normal, touch.stiffness.normal, k_s,
+            0.5 * touch.distance - touch.half_radius_difference, 0.0);
+      }
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    for (const auto& touch : wall_touches[w])
+      if (touch.overlap > 0.0)
+        k[wall_list[w].axis][touch.grain] += wall_stiffness(grains.radius[touch.grain]);
+
+  double largest = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    {
+      for (int c = 0; c < dim; ++c)
+        largest = std::max(largest, k[c][i] / grains.mass[i]);
+      largest = std::max(largest, k_turning[i] / grains.moment_of_inertia[i]);
+    }
+  if (largest == 0.0) // nothing touches: the stiffest contact a grain could make
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      largest = std::max(largest, 4.0 * touch_stiffness(grains.radius[i], grains.radius[i]) / grains.mass[i]);
+  dt = parameters.time_step_safety / std::sqrt(largest);
+}
+
+template <int dim>
+void Dynamics<dim>::integrate()
+{
+  auto& grains = body.grains;
+  const double kick = 0.5 * (previous_dt + dt);
+  const double alpha = parameters.damping;
+  const auto advance = [&](const double force, const double inverse_inertia, double& velocity, double& dissipated) {
+    const double damping_force = -alpha * std::abs(force) * sign(velocity);
+    const double old_velocity = velocity;
+    velocity += kick * (force + damping_force) * inverse_inertia;
+    dissipated -= 0.5 * damping_force * (previous_dt * old_velocity + dt * velocity);
+  };
+  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      {
+        if (!held[i])
+          {
+            for (int c = 0; c < dim; ++c)
+              advance(grains.force[c][i] + grains.mass[i] * gravity[c], 1.0 / grains.mass[i], grains.velocity[c][i],
+                      damping_work[i]);
+            for (int c = 0; c < n_rotations<dim>; ++c)
+              advance(grains.couple[c][i], 1.0 / grains.moment_of_inertia[i], grains.spin[c][i], damping_work[i]);
+          }
+        for (int c = 0; c < dim; ++c)
+          grains.position[c][i] += dt * grains.velocity[c][i];
+      }
+  });
+}
+
+template <int dim>
+std::vector<Break> Dynamics<dim>::update_contacts(const double step)
+{
+  auto breaks = sweep_joints(body.joints, body.grains, step);
+  update_touches(step);
+  sum_forces();
+  press_walls();
+  return breaks;
+}
+
+template <int dim>
+void Dynamics<dim>::update_touches(const double step)
+{
+  const auto& grains = body.grains;
+  const double friction = body.particle_contact.friction;
+  for_each_block(touches.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      {
+        Touch& touch = touches[k];
+        std::array<double, dim> centre_1, centre_2;
+        double squared = 0.0;
+        for (int c = 0; c < dim; ++c)
+          {
+            centre_1[c] = grains.position[c][touch.grain_1];
+            centre_2[c] = grains.position[c][touch.grain_2];
+            squared += (centre_2[c] - centre_1[c]) * (centre_2[c] - centre_1[c]);
+          }
+        if (squared >= touch.zero_distance * touch.zero_distance)
+          {
+            // Sliding apart dissipates the shear that was stored.
+            for (const double shear : touch.shear_force)
+              touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
+            touch.touching = false;
+            touch.normal_force = 0.0;
+            touch.shear_force = {};
+            touch.force = {};
+            touch.couple_1 = {};
+            touch.couple_2 = {};
+            continue;
+          }
+        const auto now = contact_frame<dim, double>(centre_1, centre_2);
+        std::array<double, dim - 1> slip{};
+        if (touch.touching && friction > 0.0)
+          {
+            std::array<double, n_rotations<dim>> turn_1, turn_2;
+            for (int c = 0; c < n_rotations<dim>; ++c)
+              {
+                turn_1[c] = step * grains.spin[c][touch.grain_1];
+                turn_2[c] = step * grains.spin[c][touch.grain_2];
+              }
+            slip = slip_increment(ContactFrame<dim, double>{touch.normal, touch.distance}, now,
+                                  touch.half_radius_difference, turn_1, turn_2);
+          }
+        const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
+                                                          touch.zero_distance - now.distance, slip);
+        touch.touching = true;
+        touch.distance = now.distance;
+        touch.normal = now.normal;
+        touch.normal_force = response.normal_force;
+        touch.shear_force = response.shear_force;
+        touch.slip_energy += response.slip_energy;
+        const auto answer =
+          contact_force(now, touch.half_radius_difference, response.normal_force, response.shear_force, 0.0);
+        touch.force = answer.force;
+        touch.couple_1 = answer.couple_1;
+        touch.couple_2 = answer.couple_2;
+      }
+  });
+}
+
+template <int dim>
+void Dynamics<dim>::sum_forces()
+{
+  auto& grains = body.grains;
+  const auto& joints = body.joints;
+  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      {
+        std::array<double, dim> force{};
+        std::array<double, n_rotations<dim>> couple{};
+        for (auto e = joint_incidence.first[i]; e < joint_incidence.first[i + 1]; ++e)
+          {
+            const std::uint32_t entry = joint_incidence.entries[e];
+            const std::uint32_t j = entry / 2;
+            const double direction = entry % 2 ? 1.0 : -1.0;
+            for (int c = 0; c < dim; ++c)
+              force[c] += direction * joints.force[c][j];
+            for (int c = 0; c < n_rotations<dim>; ++c)
+              couple[c] += (entry % 2 ? joints.couple_2 : joints.couple_1)[c][j];
+          }
+        for (auto e = touch_incidence.first[i]; e < touch_incidence.first[i + 1]; ++e)
+          {
+            const std::uint32_t entry = touch_incidence.entries[e];
+            const Touch& touch = touches[entry / 2];
+            const double direction = entry % 2 ? 1.0 : -1.0;
+            for (int c = 0; c < dim; ++c)
+              force[c] += direction * touch.force[c];
+            for (int c = 0; c < n_rotations<dim>; ++c)
+              couple[c] += (entry % 2 ? touch.couple_2 : touch.couple_1)[c];
+          }
+        for (int c = 0; c < dim; ++c)
+          grains.force[c][i] = force[c];
+        for (int c = 0; c < n_rotations<dim>; ++c)
+          grains.couple[c][i] = couple[c];
+      }
+  });
+}
+
+template <int dim>
+void Dynamics<dim>::press_walls()
+{
+  auto& grains = body.grains;
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    {
+      const Wall& wall = wall_list[w];
+      double sum = 0.0;
+      for (auto& touch : wall_touches[w])
+        {
+          const double distance = (grains.position[wall.axis][touch.grain] - wall.position) * wall.side;
+          touch.overlap = std::max(0.0, touch.zero_distance - distance);
+          const double force = wall_stiffness(grains.radius[touch.grain]) * touch.overlap;
+          grains.force[wall.axis][touch.grain] += wall.side * force;
+          sum += force;
+        }
+      wall_forces[w] = sum;
+    }
+}
+
+template <int dim>
+Vector<dim> Dynamics<dim>::grip_force(const std::size_t grip) const
+{
+  Vector<dim> sum = Vector<dim>::Zero();
+  for (const auto i : grips[grip].members)
+    sum += at<dim>(body.grains.force, i);
+  return sum;
+}
+
+/// Called before and after the motion of a step with half of it each: the trapezoid of force over way.
+template <int dim>
+void Dynamics<dim>::add_boundary_work(const double step, const double share)
+{
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    boundary_work += share * step * wall_list[w].side * wall_forces[w] * wall_list[w].velocity;
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    boundary_work -= share * step * grip_force(g).dot(grips[g].velocity);
+}
+
+template <int dim>
+Energies Dynamics<dim>::energies() const
+{
+  const auto& grains = body.grains;
+  const auto& joints = body.joints;
+  Energies sum;
+  if (steps == 0 && !started)
+    return sum;
+  sum.boundary_work = boundary_work;
+  sum.released = released_energy;
+  sum.slip = slip_energy_of_lost_contacts;
+  sum.kinetic = -kinetic_energy_at_start;
+  sum.strain = -strain_energy_at_start;
+
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      sum.slip += joints.slip_energy[j];
+      const flat_joint::Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j],
+                                          joints.half_length[j] * (2.0 / joints.n_segments), joints.thickness,
+                                          joints.friction};
+      for (unsigned int i = 0; i < joints.n_segments; ++i)
+        {
+          const std::size_t k = joints.segment(i, j);
+          const double rho = flat_joint::segment_offset(i, joints.n_segments, joints.half_length[j]);
+          sum.strain += flat_joint::normal_response(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
+                                                    joints.slope[j], joints.bonded[k] > 0.5)
+                          .energy;
+          sum.strain +=
+            0.5 * squared_norm<dim - 1>(joints.shear_stress, k) * face.segment_area() / face.shear_stiffness;
+        }
+    }
+  for (const auto& touch : touches)
+    {
+      sum.slip += touch.slip_energy;
+      sum.strain += 0.5 * touch.normal_force * touch.normal_force / touch.stiffness.normal;
+      for (const double shear : touch.shear_force)
+        sum.strain += 0.5 * shear * shear / touch.stiffness.shear;
+    }
+  for (const auto& list : wall_touches)
+    for (const auto& touch : list)
+      sum.strain += 0.5 * wall_stiffness(grains.radius[touch.grain]) * touch.overlap * touch.overlap;
+
+  // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
+  const double kick = 0.5 * (previous_dt + dt);
+  const auto centre = [&](const double force, const double inertia, const double velocity) {
+    const double damping_force = -parameters.damping * std::abs(force) * sign(velocity);
+    sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
+    sum.damping -= 0.5 * damping_force * previous_dt * velocity;
+  };
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    {
+      sum.damping += damping_work[i];
+      sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
+      if (held[i])
+        continue;
+      for (int c = 0; c < dim; ++c)
+        centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
+    }
+  return sum;
+}
+
+template <int dim>
+double Dynamics<dim>::unbalanced_force_ratio() const
+{
+  double unbalanced = 0.0;
+  std::size_t n_free = 0;
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    if (!held[i])
+      {
+        unbalanced += std::sqrt(squared_norm<dim>(body.grains.force, i));
+        ++n_free;
+      }
+  double carried = 0.0;
+  std::size_t n_contacts = body.joints.size();
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    carried += std::sqrt(squared_norm<dim>(body.joints.force, j));
+  for (const auto& touch : touches)
+    if (touch.touching)
+      {
+        carried += std::hypot(touch.normal_force, touch.shear_force[0]);
+        ++n_contacts;
+      }
+  return carried > 0.0 && n_free > 0 ? (unbalanced / double(n_free)) / (carried / double(n_contacts)) : 0.0;
+}
+
+template <int dim>
+Tensor<dim> Dynamics<dim>::mean_stress() const
+{
+  const auto& grains = body.grains;
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
+    sum -= force * (at<dim>(grains.position, two) - at<dim>(grains.position, one)).transpose();
+  };
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
+  for (const auto& touch : touches)
+    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_1, touch.grain_2);
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    for (const auto& touch : wall_touches[w])
+      {
+        const int axis = wall_list[w].axis;
+        const double distance = std::abs(grains.position[axis][touch.grain] - wall_list[w].position);
+        sum(axis, axis) -= wall_stiffness(grains.radius[touch.grain]) * touch.overlap * distance;
+      }
+  return sum / body.volume();
+}
+
+template <int dim>
+double Dynamics<dim>::force_across(const double height) const
+{
+  const auto& y = body.grains.position[dim - 1];
+  double sum = 0.0;
+  const auto add = [&](const double force, const std::uint32_t one, const std::uint32_t two) {
+    if ((y[one] < height) != (y[two] < height))
+      sum += y[two] < height ? -force : force;
+  };
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    add(body.joints.force[dim - 1][j], body.joints.grain_1[j], body.joints.grain_2[j]);
+  for (const auto& touch : touches)
+    add(touch.force[dim - 1], touch.grain_1, touch.grain_2);
+  return sum;
+}
+
+template <int dim>
+double Dynamics<dim>::faceless_coordination_number() const
+{
+  const auto n = std::count_if(touches.begin(), touches.end(), [](const Touch& touch) { return touch.touching; });
+  return 2.0 * double(n) / double(body.grains.size());
+}
+
+template class Dynamics<2>;
+} // namespace feldspar

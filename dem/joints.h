@@ -1,0 +1,126 @@
+#pragma once
+
+#include "dem/grains.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// The flat joints of a specimen, structure of arrays, ordered in space. Per segment: [segment * size() + joint].
+template <int dim>
+struct Joints
+{
+  static constexpr int n_shear = dim - 1;
+
+  unsigned int n_segments = 0;
+  double thickness = 1.0;      ///< of the plane [m]
+  double friction = 0.0;       ///< μ of broken segments
+  double friction_slope = 0.0; ///< tan φ_b
+
+  std::vector<std::uint32_t> grain_1, grain_2;
+  std::vector<std::uint32_t> number;          ///< given at installation, for good
+  std::vector<double> normal_stiffness;       ///< k_n [Pa/m]
+  std::vector<double> shear_stiffness;        ///< k_s [Pa/m]
+  std::vector<double> half_length;            ///< R̄ [m]
+  std::vector<double> half_radius_difference; ///< ½(R1 - R2) [m]
+  std::vector<double> rest_distance;          ///< centre distance at which the gap is zero [m]
+
+  Components<dim> normal;          ///< from grain 1 to grain 2
+  std::vector<double> opening;     ///< g_0 + U_n [m]
+  std::vector<double> slope;       ///< θ = φ_2 - φ_1 [rad]
+  std::vector<double> slip;        ///< relative shear since installation [m]
+  std::vector<double> slip_energy; ///< dissipated by friction since installation [J]
+
+  Components<n_shear> shear_stress;     ///< τ of each segment [Pa]
+  std::vector<double> bonded;           ///< 1 bonded, 0 not; each segment (a double: it is a mask in the sweep)
+  std::vector<double> tensile_strength; ///< σ_b of each segment [Pa]
+  std::vector<double> cohesion;         ///< c_b of each segment [Pa]
+
+  Components<dim> force;                 ///< on grain 2 [N]
+  Components<n_rotations<dim>> couple_1; ///< on grain 1 [N m]
+  Components<n_rotations<dim>> couple_2; ///< on grain 2 [N m]
+
+  std::size_t size() const { return grain_1.size(); }
+  std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
+
+  double face_area(const std::size_t joint) const { return 2.0 * half_length[joint] * thickness; }
+  /// Second moment of the face about the axis out of the plane, ⅔R̄³t [m⁴].
+  double face_second_moment(const std::size_t joint) const
+  {
+    const double r = half_length[joint];
+    return 2.0 / 3.0 * r * r * r * thickness;
+  }
+
+  bool holds(const std::size_t joint) const
+  {
+    for (unsigned int i = 0; i < n_segments; ++i)
+      if (bonded[segment(i, joint)] > 0.0)
+        return true;
+    return false;
+  }
+
+  /// Every array but the scalars, for whoever stores, copies or permutes the joints.
+  template <typename Visitor>
+  void visit_per_joint(Visitor&& visit)
+  {
+    visit("normal_stiffness", normal_stiffness);
+    visit("shear_stiffness", shear_stiffness);
+    visit("half_length", half_length);
+    visit("half_radius_difference", half_radius_difference);
+    visit("rest_distance", rest_distance);
+    for (int c = 0; c < dim; ++c)
+      visit(std::string("normal_") + "xyz"[c], normal[c]);
+    visit("opening", opening);
+    visit("slope", slope);
+    visit("slip", slip);
+    visit("slip_energy", slip_energy);
+  }
+
+  template <typename Visitor>
+  void visit_per_segment(Visitor&& visit)
+  {
+    for (int c = 0; c < n_shear; ++c)
+      visit("shear_stress_" + std::to_string(c + 1), shear_stress[c]);
+    visit("bonded", bonded);
+    visit("tensile_strength", tensile_strength);
+    visit("cohesion", cohesion);
+  }
+
+  void resize_all(const std::size_t n)
+  {
+    grain_1.resize(n);
+    grain_2.resize(n);
+    number.resize(n);
+    visit_per_joint([n](const std::string&, std::vector<double>& values) { values.assign(n, 0.0); });
+    visit_per_segment([&](const std::string&, std::vector<double>& values) { values.assign(n * n_segments, 0.0); });
+    resize<dim>(force, n);
+    resize<n_rotations<dim>>(couple_1, n);
+    resize<n_rotations<dim>>(couple_2, n);
+  }
+
+  /// Drops every joint that is not among `kept` (ascending).
+  void keep(const std::vector<std::size_t>& kept)
+  {
+    const std::size_t n_before = size();
+    const auto choose = [&](auto& values) {
+      const std::size_t n_rows = values.size() / n_before;
+      for (std::size_t row = 0, to = 0; row < n_rows; ++row)
+        for (const std::size_t j : kept)
+          values[to++] = values[row * n_before + j];
+      values.resize(n_rows * kept.size());
+    };
+    visit_per_joint([&](const std::string&, std::vector<double>& values) { choose(values); });
+    visit_per_segment([&](const std::string&, std::vector<double>& values) { choose(values); });
+    for (auto* components : {&couple_1, &couple_2})
+      for (auto& component : *components)
+        choose(component);
+    for (auto& component : force)
+      choose(component);
+    choose(number);
+    choose(grain_2);
+    choose(grain_1);
+  }
+};
+} // namespace feldspar

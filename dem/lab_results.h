@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a laboratory test leaves behind: plain data, SI, tension positive. Points have dim entries used, the rest 0.
+namespace feldspar
+{
+enum class TestKind
+{
+  direct_tension,
+  uniaxial_compression
+};
+
+/// The name used in input and result files.
+std::string name(TestKind kind);
+
+/// +1 where the test pulls, -1 where it presses: turns tension-positive figures into those of the laboratory curve.
+double laboratory_sign(TestKind kind);
+
+/// Energies since the start of the test [J], each integrated on its own; none is the remainder of the others.
+struct Energies
+{
+  double boundary_work = 0.0;
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double slip = 0.0;
+  double released = 0.0; ///< by breaking segments
+  double damping = 0.0;
+
+  /// |boundary work - everything it went into| over the sum of all terms.
+  double imbalance() const;
+};
+
+enum class CrackKind
+{
+  tension,
+  shear
+};
+
+/// One broken segment.
+struct Crack
+{
+  CrackKind kind;
+  std::uint64_t joint;
+  std::uint32_t segment;
+  std::uint64_t step;
+  double axial_strain;              ///< of the specimen, platen or grip travel
+  std::array<double, 3> centroid{}; ///< [m]
+  std::array<double, 3> normal{};
+  double size;            ///< length of the segment in 2D, root of its area in 3D [m]
+  double released_energy; ///< [J]
+};
+
+/// One row of the curve.
+struct CurveSample
+{
+  std::uint64_t step = 0;
+  double time = 0.0;                  ///< [s]
+  double axial_strain = 0.0;          ///< platen or grip travel over the length between them
+  double axial_stress = 0.0;          ///< mean of both ends over the initial area [Pa]
+  double end_stress_difference = 0.0; ///< between both ends [Pa]
+  double mid_stress = 0.0;            ///< carried across the middle of the specimen [Pa]
+  double gauge_axial_strain = 0.0;    ///< of the grains in the middle
+  double gauge_lateral_strain = 0.0;
+  double gauge_volumetric_strain = 0.0;
+  std::uint64_t n_tension_cracks = 0;
+  std::uint64_t n_shear_cracks = 0;
+  double unbalanced_force_ratio = 0.0; ///< mean unbalanced over mean contact force
+  Energies energies;
+};
+
+/// A grain as the pictures need it.
+struct GrainPicture
+{
+  std::array<double, 3> position; ///< [m]
+  double radius;                  ///< [m]
+  std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
+};
+
+/// How the specimen came out.
+struct SpecimenReport
+{
+  std::uint64_t n_grains = 0;
+  std::uint64_t n_joints = 0;
+  double coordination_number = 0.0;
+  double coordination_number_core = 0.0; ///< of grains more than three mean diameters from the walls; NaN if none
+  double installation_gap_ratio = 0.0;   ///< over the mean radius
+  double porosity = 0.0;
+  double mean_overlap_ratio = 0.0; ///< of overlapping pairs, over the mean radius
+  double largest_overlap_ratio = 0.0;
+  double resolution = 0.0;        ///< width over mean diameter
+  double radius_multiplier = 1.0; ///< by which genesis scaled the drawn radii
+  double packing_stress = 0.0;    ///< reached by genesis, compression positive [Pa]
+  double mean_radius = 0.0;       ///< [m]
+};
+
+/// A laboratory test as it ran.
+struct TestRecord
+{
+  TestKind kind;
+  std::uint64_t seed = 0;
+  double strain_rate = 0.0;     ///< magnitude [1/s]
+  std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]
+  SpecimenReport specimen;
+  std::vector<CurveSample> curve;
+  std::vector<Crack> cracks;
+  std::vector<GrainPicture> grains_at_end;
+  std::uint64_t steps = 0;
+  double time_step = 0.0;    ///< the last one [s]
+  double bulk_density = 0.0; ///< [kg/m³]
+  double wall_time = 0.0;    ///< [s]
+  bool interrupted = false;
+};
+
+/// A figure, or the reason why it could not be had.
+struct Figure
+{
+  std::optional<double> value;
+  std::string reason;
+};
+
+/// The results of a test; stresses and strains positive in the sense of the test.
+struct TestResults
+{
+  Figure peak_stress;
+  Figure strain_at_peak;
+  Figure youngs_modulus_initial; ///< by the gauge, 5–20 % of the peak
+  Figure youngs_modulus_tangent; ///< 40–60 % of the peak
+  Figure youngs_modulus_secant;  ///< to 50 % of the peak
+  Figure poissons_ratio_initial;
+  Figure poissons_ratio_secant;
+  Figure crack_initiation_stress;
+  Figure crack_damage_stress;
+  Figure post_peak_drop; ///< peak minus last stress, over peak
+  std::uint64_t n_tension_cracks = 0;
+  std::uint64_t n_shear_cracks = 0;
+  Figure n_tension_cracks_at_peak;
+  Figure n_shear_cracks_at_peak;
+  double energy_imbalance = 0.0;
+  Figure kinetic_to_strain_energy; ///< largest from 5 % of the peak to the peak
+  Figure end_stress_difference;    ///< largest share of the peak stress, from 5 % of the peak to the peak
+  Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
+  Figure p_wave_transits_to_peak;
+};
+
+/// Reads the results off the curve (docs/theory.md §5).
+TestResults evaluate(const TestRecord& record);
+} // namespace feldspar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace feldspar
+{
+/// Entries worked on together. Fixed, so that nothing depends on the number of threads.
+inline constexpr std::size_t block_size = 1024;
+
+inline std::size_t n_blocks(const std::size_t n) { return (n + block_size - 1) / block_size; }
+
+/// Calls work(block, begin, end) for every block of 0 … n. Small jobs stay on this thread: handing them out costs more.
+template <typename Work>
+void for_each_block(const std::size_t n, Work&& work)
+{
+  const auto one = [&](const std::size_t block) {
+    work(block, block * block_size, std::min(n, (block + 1) * block_size));
+  };
+  constexpr std::size_t few_blocks = 8;
+  if (n_blocks(n) <= few_blocks)
+    for (std::size_t block = 0; block < n_blocks(n); ++block)
+      one(block);
+  else
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n_blocks(n), 4), [&](const auto& range) {
+      for (std::size_t block = range.begin(); block != range.end(); ++block)
+        one(block);
+    });
+}
+} // namespace feldspar

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <experimental/simd>
+
+/// One spelling for a number and for a pack of numbers, so that a law written once serves the single contact and the
+/// vectorised sweep. Every operation here is elementwise IEEE arithmetic: a pack gives the same bits as its members.
+namespace feldspar::simd
+{
+using Pack = std::experimental::native_simd<double>;
+using PackMask = Pack::mask_type;
+
+template <typename Real>
+inline constexpr std::size_t width = 1;
+template <>
+inline constexpr std::size_t width<Pack> = Pack::size();
+
+inline double select(const bool condition, const double yes, const double no) { return condition ? yes : no; }
+inline Pack select(const PackMask& condition, const Pack& yes, const Pack& no)
+{
+  Pack result = no;
+  std::experimental::where(condition, result) = yes;
+  return result;
+}
+
+inline bool any(const bool condition) { return condition; }
+inline bool any(const PackMask& condition) { return std::experimental::any_of(condition); }
+
+inline bool lane(const bool condition, std::size_t) { return condition; }
+inline bool lane(const PackMask& condition, const std::size_t i) { return condition[i]; }
+inline double lane(const double value, std::size_t) { return value; }
+inline double lane(const Pack& value, const std::size_t i) { return value[i]; }
+
+inline double absolute(const double value) { return std::abs(value); }
+inline Pack absolute(const Pack& value) { return std::experimental::abs(value); }
+
+inline double square_root(const double value) { return std::sqrt(value); }
+inline Pack square_root(const Pack& value) { return std::experimental::sqrt(value); }
+
+inline double smaller(const double a, const double b) { return a < b ? a : b; }
+inline Pack smaller(const Pack& a, const Pack& b) { return select(a < b, a, b); }
+inline double larger(const double a, const double b) { return a < b ? b : a; }
+inline Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
+
+template <typename Real>
+Real load(const double* from);
+template <>
+inline double load<double>(const double* from)
+{
+  return *from;
+}
+template <>
+inline Pack load<Pack>(const double* from)
+{
+  return Pack(from, std::experimental::element_aligned);
+}
+
+inline void store(const double value, double* to) { *to = value; }
+inline void store(const Pack& value, double* to) { value.copy_to(to, std::experimental::element_aligned); }
+
+/// from[index[0]], from[index[1]], …
+template <typename Real>
+Real gather(const double* from, const std::uint32_t* index);
+template <>
+inline double gather<double>(const double* from, const std::uint32_t* index)
+{
+  return from[*index];
+}
+template <>
+inline Pack gather<Pack>(const double* from, const std::uint32_t* index)
+{
+  return Pack([&](const auto i) { return from[index[i]]; });
+}
+} // namespace feldspar::simd

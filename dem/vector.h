@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace feldspar
+{
+/// Number of rotations of a rigid grain: 1 in the plane, 3 in space.
+template <int dim>
+inline constexpr int n_rotations = dim*(dim - 1) / 2;
+
+/// A point, displacement, velocity or force; [dim].
+template <int dim>
+using Vector = Eigen::Matrix<double, dim, 1>;
+
+/// A rotation, spin or couple, about the axis out of the plane in 2D; [1] in 2D, [3] in 3D.
+template <int dim>
+using Rotation = Eigen::Matrix<double, n_rotations<dim>, 1>;
+
+/// A second-order tensor; [dim × dim].
+template <int dim>
+using Tensor = Eigen::Matrix<double, dim, dim>;
+} // namespace feldspar

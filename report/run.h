@@ -1,0 +1,36 @@
+#pragma once
+
+#include "dem/lab_results.h"
+
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// An entry of the input as it was understood, defaults included.
+struct InputEntry
+{
+  std::string section;
+  std::string entry;
+  std::string value; ///< with its unit
+};
+
+/// What made the results: saved with them.
+struct Provenance
+{
+  std::string version;
+  std::string commit;
+  std::string input_file;
+  std::vector<InputEntry> input;
+  std::string processor;
+  unsigned int n_threads = 1;
+};
+
+/// A finished test with its results.
+struct FinishedTest
+{
+  TestRecord record;
+  TestResults results;
+  std::string name; ///< of its files and figures, e.g. direct_tension_seed_1
+};
+} // namespace feldspar

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// A sample of equally trusted values.
+struct Statistics
+{
+  std::size_t n = 0;
+  double mean = 0.0;
+  std::optional<double> standard_deviation; ///< of the sample (n - 1); none for one value
+  std::optional<double> standard_error;     ///< of the mean
+};
+
+/// None for no values.
+std::optional<Statistics> statistics(const std::vector<double>& values);
+} // namespace feldspar

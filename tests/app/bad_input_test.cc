@@ -1,0 +1,207 @@
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// A user's mistake: one line on standard error that says where and what, exit code 2, and nothing written.
+namespace feldspar
+{
+namespace
+{
+using tests::Outcome;
+using tests::run_feldspar;
+using tests::TemporaryFolder;
+
+std::set<std::string> names_in(const std::filesystem::path& folder)
+{
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.insert(entry.path().string());
+  return names;
+}
+
+/// Runs, and checks all that every mistake has in common; `start` is how the line begins after `feldspar: `.
+void expect_mistake(const TemporaryFolder& folder, const std::string& arguments, const std::string_view start)
+{
+  const std::set<std::string> before = names_in(folder.path());
+  const Outcome outcome = run_feldspar(folder.path(), arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_EQ(outcome.error.find("feldspar: " + std::string(start)), 0u)
+    << "found: " << outcome.error << "wanted: " << start;
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_EQ(names_in(folder.path()), before) << outcome.error;
+}
+
+constexpr std::string_view good_path = "normal_m,shear_m,rotation_rad\n0,0,0\n-1e-6,0,0\n";
+
+/// A contact input that would run, but for the text added.
+std::string contact_prm(const std::string_view added)
+{
+  return "subsection Contact path\n  set File = path.csv\nend\n" + std::string(added);
+}
+
+struct Mistake
+{
+  std::string_view added;
+  std::string_view error;
+
+  friend std::ostream& operator<<(std::ostream& stream, const Mistake& mistake) { return stream << mistake.added; }
+};
+
+class BadPrm : public testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(BadPrm, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", good_path);
+  folder.write("bad.prm", contact_prm(GetParam().added));
+  expect_mistake(folder, "contact bad.prm", GetParam().error);
+}
+
+#define STRENGTH(text) "subsection Flat joint\n  set Bond tensile strength = " text "\nend\n"
+#define STRENGTH_ERROR(text) "bad.prm:5: Flat joint/Bond tensile strength = " text ": "
+
+INSTANTIATE_TEST_SUITE_P(
+  Mistakes, BadPrm,
+  testing::Values(
+    Mistake{STRENGTH("22"), STRENGTH_ERROR("22") "a unit is missing; write a stress, e.g. \"22 MPa\""},
+    Mistake{STRENGTH("22 mm"), STRENGTH_ERROR("22 mm") "\"mm\" is not the unit of a stress"},
+    Mistake{STRENGTH("22 MPa 3"), STRENGTH_ERROR("22 MPa 3") "\"MPa 3\" is not one unit"},
+    Mistake{STRENGTH("5 10 MPa"), STRENGTH_ERROR("5 10 MPa") "\"10 MPa\" is not one unit"},
+    Mistake{STRENGTH("MPa"), STRENGTH_ERROR("MPa") "a number is missing"},
+    Mistake{STRENGTH("nan MPa"), STRENGTH_ERROR("nan MPa") "\"nan\" is not a decimal number"},
+    Mistake{STRENGTH("1,5 MPa"), STRENGTH_ERROR("1,5 MPa") "\"1,5\" is not a decimal number"},
+    Mistake{STRENGTH(""), STRENGTH_ERROR("") "a number is missing"},
+    Mistake{"subsection Specimen\nset Minimum radius = -0.6 mm\nend", "bad.prm:5: Specimen/Minimum radius = -0.6 mm: "},
+    Mistake{"subsection Contact\nset Radius 1 = 0 mm\nend", "bad.prm:5: Contact/Radius 1 = 0 mm: must be > 0 mm"},
+    Mistake{"subsection Specimen\nset Radius ratio = 0.9\nend", "bad.prm:5: Specimen/Radius ratio = 0.9: must be >= 1"},
+    Mistake{"subsection Flat joint\nset Segments = 0\nend", "bad.prm:5: Flat joint/Segments = 0: "},
+    Mistake{"subsection Flat joint\nset Bond friction angle = 95 deg\nend",
+            "bad.prm:5: Flat joint/Bond friction angle = 95 deg: must lie in [0 deg, 90 deg)"},
+    Mistake{"subsection Specimen\nset Height = 4 mm\nend", "bad.prm:5: Specimen/Height = 4 mm: must be at least"},
+    Mistake{"subsection Specimen\nset Dimension = 3\nend", "bad.prm:5: Specimen/Dimension = 3: must be 2"},
+    Mistake{"subsection Flat joint\nset Segmnts = 3\nend", "bad.prm:5: Flat joint/Segmnts: no such entry"},
+    Mistake{"subsection Contact path\nset File = path.csv\nend",
+            "bad.prm:5: Contact path/File: is given twice, first in bad.prm:2"},
+    Mistake{"subsection Flat joint\nset Segments = 3\n", "bad.prm:4: subsection Flat joint: is not closed"},
+    Mistake{"end\n", "bad.prm:4: end: there is no open subsection"}));
+
+class BadJson : public testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(BadJson, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", good_path);
+  folder.write("bad.json", R"({"Contact path": {"File": "path.csv"}, )" + std::string(GetParam().added) + "}");
+  expect_mistake(folder, "contact bad.json", GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Mistakes, BadJson,
+  testing::Values(Mistake{R"("Flat joint": {"Bond tensile strength": 22})",
+                          "bad.json: Flat joint/Bond tensile strength = 22: a unit is missing"},
+                  Mistake{R"("Flat joint": {"Bond friction angle": "95 deg"})",
+                          "bad.json: Flat joint/Bond friction angle = 95 deg: "},
+                  Mistake{R"("Contact path": {})", "bad.json: Contact path: is given twice"},
+                  Mistake{R"("Flat joint": {"Segmnts": 4})", "bad.json: Flat joint/Segmnts: no such entry"},
+                  Mistake{R"("Flat joint": {"Segments": 4)", "bad.json:1:69: is not valid JSON: "}));
+
+class BadPath : public testing::TestWithParam<Mistake>
+{
+};
+
+TEST_P(BadPath, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", GetParam().added);
+  folder.write("bad.prm", contact_prm(""));
+  expect_mistake(folder, "contact bad.prm", GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Mistakes, BadPath,
+  testing::Values(
+    Mistake{"", "path.csv:1: the header is \"\""},
+    Mistake{"0,0,0\n", "path.csv:1: the header is \"0,0,0\"; it must be \"normal_m,shear_m,rotation_rad\""},
+    Mistake{"shear_m,normal_m,rotation_rad\n0,0,0\n", "path.csv:1: the header is "},
+    Mistake{"normal_m,shear_m,rotation_rad\n", "path.csv: there is no row"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n", "path.csv:3: there must be 3 numbers"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0,5\n", "path.csv:2: there must be 3 numbers"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,nan,0\n", "path.csv:2: shear_m: \"nan\" is not a decimal number"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,\n", "path.csv:2: rotation_rad: a number is missing"}));
+
+TEST(BadFile, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "folder.prm");
+  folder.write("input.txt", "");
+  folder.write("binary.prm", std::string_view("\0\1\2", 3));
+  folder.write("no_path.prm", "subsection Contact path\n  set File = path.csv\nend\n");
+  folder.write("empty.prm", "");
+  expect_mistake(folder, "contact missing.prm", "missing.prm: cannot be read: No such file");
+  expect_mistake(folder, "contact folder.prm", "folder.prm: is a folder");
+  expect_mistake(folder, "contact input.txt", "input.txt: the name must end in .prm or .json");
+  expect_mistake(folder, "contact binary.prm", "binary.prm: is not a text file");
+  expect_mistake(folder, "contact no_path.prm", "no_path.prm:2: Contact path/File = path.csv: there is no file");
+  expect_mistake(folder, "contact empty.prm", "empty.prm: Contact path/File: is missing");
+}
+
+TEST(BadCommandLine, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", good_path);
+  folder.write("good.prm", contact_prm(""));
+  expect_mistake(folder, "contct good.prm", "contct: no such command; did you mean \"contact\"?");
+  expect_mistake(folder, "contact", "INPUT is required");
+  expect_mistake(folder, "contact good.prm --threads 0", "--threads: ");
+  expect_mistake(folder, "contact good.prm --sideways", "The following argument was not expected: --sideways");
+  expect_mistake(folder, "--sideways", "The following argument was not expected: --sideways");
+  expect_mistake(folder, "parameters 'Flat joints'", "Flat joints: no such section; did you mean \"Flat joint\"?");
+}
+
+TEST(BadOutputFolder, IsToldInOneLine)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", good_path);
+  folder.write("good.prm", contact_prm(""));
+  std::filesystem::create_directory(folder.path() / "used");
+  folder.write("used/notes.txt", "mine");
+  expect_mistake(folder, "contact good.prm --output used", "used: is not empty; choose another folder, or --force");
+  expect_mistake(folder, "contact good.prm --output good.prm", "good.prm: cannot be written into: Not a directory");
+  // Even root cannot make a folder below a file or in /proc; parents made on the way must go again.
+  expect_mistake(folder, "contact good.prm --output good.prm/results", "good.prm/results: cannot be written into: ");
+  expect_mistake(folder, "contact good.prm --output new/../good.prm/a", "new/../good.prm/a: cannot be written into: ");
+  expect_mistake(folder, "contact good.prm --output /proc/results", "/proc/results: cannot be written into: ");
+}
+
+TEST(OutputFolder, IsFreshAndNumberedOrNamed)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", good_path);
+  folder.write("good.prm", contact_prm(""));
+  EXPECT_EQ(run_feldspar(folder.path(), "contact good.prm").exit_code, 0);
+  EXPECT_EQ(run_feldspar(folder.path(), "contact good.prm --quiet").output, "");
+  EXPECT_EQ(run_feldspar(folder.path(), "contact good.prm --output some/where/").exit_code, 0);
+  for (const char* name : {"good-results-001", "good-results-002", "some/where"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / name / "contact.csv")) << name;
+
+  folder.write("some/where/contact.csv", "old");
+  folder.write("some/where/notes.txt", "mine");
+  EXPECT_EQ(run_feldspar(folder.path(), "contact good.prm --output some/where --force").exit_code, 0);
+  EXPECT_GT(std::filesystem::file_size(folder.path() / "some/where/contact.csv"), 3u);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "some/where/notes.txt"));
+}
+} // namespace
+} // namespace feldspar

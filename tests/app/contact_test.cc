@@ -1,0 +1,176 @@
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// `feldspar contact` against the closed forms of an intact joint and of its first break.
+namespace feldspar
+{
+namespace
+{
+using tests::run_feldspar;
+using tests::TemporaryFolder;
+
+// The joint of the input below.
+constexpr double radius_1 = 1e-3;
+constexpr double radius_2 = 2e-3;
+constexpr double k_n = 80e9 / (radius_1 + radius_2); // [Pa/m]
+constexpr double k_s = k_n / 1.25;
+constexpr double face_length = 2.0 * radius_1; // of the smaller grain, λ = 1; 1 m thick [m]
+constexpr int n_segments = 4;
+
+constexpr std::string_view input = R"(subsection Contact path
+  set File = path.csv
+end
+subsection Contact
+  set Radius 1 = 1 mm
+  set Radius 2 = 2 mm
+end
+subsection Flat joint
+  set Segments = 4
+  set Modulus = 80 GPa
+  set Stiffness ratio = 1.25
+  set Bond tensile strength = 22 MPa
+  set Bond cohesion = 400 MPa
+  set Friction = 0.5
+end
+)";
+
+struct Table
+{
+  std::string header;
+  std::vector<std::vector<double>> rows;
+};
+
+Table read_table(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  Table table;
+  std::getline(stream, table.header);
+  for (std::string line; std::getline(stream, line);)
+    {
+      std::vector<double> row;
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');)
+        {
+          double value = std::nan("");
+          std::from_chars(cell.data(), cell.data() + cell.size(), value);
+          row.push_back(value);
+        }
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+Table run_contact(const std::string& path, const std::string& environment = "")
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", "normal_m,shear_m,rotation_rad\n" + path);
+  folder.write("joint.prm", input);
+  const auto outcome = run_feldspar(folder.path(), "contact joint.prm --output results", environment);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  return read_table(folder.path() / "results/contact.csv");
+}
+
+double sigma(const std::vector<double>& row, const int segment) { return row.at(3 + 3 * (segment - 1)); }
+
+double tau(const std::vector<double>& row, const int segment) { return row.at(4 + 3 * (segment - 1)); }
+
+double bonded(const std::vector<double>& row, const int segment) { return row.at(5 + 3 * (segment - 1)); }
+
+void expect_near(const double found, const double expected)
+{
+  EXPECT_NEAR(found, expected, 1e-12 * std::abs(expected)); // a few roundings
+}
+
+TEST(Contact, NamesItsColumns)
+{
+  EXPECT_EQ(run_contact("0,0,0\n").header,
+            "normal_force_N,shear_force_N,moment_Nm,sigma_1_Pa,tau_1_Pa,bonded_1,sigma_2_Pa,tau_2_Pa,bonded_2,"
+            "sigma_3_Pa,tau_3_Pa,bonded_3,sigma_4_Pa,tau_4_Pa,bonded_4");
+}
+
+TEST(Contact, IntactJointIsLinear)
+{
+  // Within the strengths: tension 22 MPa at an opening of 0.8 µm, shear 400 MPa at 18 µm.
+  constexpr double normal = 1e-7;
+  constexpr double shear = 2e-6;
+  constexpr double rotation = 2e-4;
+  const Table table = run_contact("0,0,0\n1e-7,0,0\n-1e-7,0,0\n-1e-7,2e-6,0\n-1e-7,2e-6,2e-4\n0,0,0\n");
+  ASSERT_EQ(table.rows.size(), 6u);
+  for (const std::vector<double>& row : table.rows)
+    {
+      ASSERT_EQ(row.size(), 3u + 3u * n_segments);
+      for (int i = 1; i <= n_segments; ++i)
+        EXPECT_EQ(bonded(row, i), 1.0);
+    }
+  for (const double value : {table.rows[0][0], table.rows[0][1], table.rows[0][2], sigma(table.rows[0], 1)})
+    EXPECT_EQ(value, 0.0);
+
+  // Opening is tension: the normal force, compression positive, is negative and the stress positive.
+  expect_near(table.rows[1][0], -k_n * face_length * normal);
+  expect_near(sigma(table.rows[1], 1), k_n * normal);
+  expect_near(table.rows[2][0], k_n * face_length * normal);
+  expect_near(sigma(table.rows[2], 4), -k_n * normal);
+
+  // Grain 2 moved along t is drawn back.
+  expect_near(table.rows[3][1], -k_s * face_length * shear);
+  for (int i = 1; i <= n_segments; ++i)
+    expect_near(tau(table.rows[3], i), -k_s * shear);
+
+  // Turned by θ, the face gives the couple -k_n θ I, I = (2R̄)³/12, whatever N; segment 1 (ρ > 0) is pressed by θρ.
+  expect_near(table.rows[4][2], -k_n * rotation * std::pow(face_length, 3) / 12.0);
+  const double rho_1 = 0.5 * face_length * (n_segments - 1.0) / n_segments;
+  expect_near(sigma(table.rows[4], 1), k_n * (-normal - rotation * rho_1));
+  expect_near(sigma(table.rows[4], 4), k_n * (-normal + rotation * rho_1));
+
+  // Back at rest: no more than the round-off of the shear's way there and back.
+  EXPECT_EQ(table.rows[5][0], 0.0);
+  EXPECT_EQ(table.rows[5][1], 0.0);
+  EXPECT_EQ(table.rows[5][2], 0.0);
+}
+
+TEST(Contact, BreaksInTensionBeyondItsMeanStrength)
+{
+  // 22 MPa / k_n = 0.825 µm. The input leaves the standard deviations at their defaults: they must not enter.
+  const Table table = run_contact("8.24e-7,0,0\n8.26e-7,0,0\n-1e-7,0,0\n");
+  for (int i = 1; i <= n_segments; ++i)
+    {
+      EXPECT_EQ(bonded(table.rows[0], i), 1.0);
+      EXPECT_EQ(bonded(table.rows[1], i), 0.0);
+      EXPECT_EQ(sigma(table.rows[1], i), 0.0);
+    }
+  EXPECT_EQ(table.rows[1][0], 0.0);
+  expect_near(table.rows[2][0], k_n * face_length * 1e-7); // the broken face still closes
+}
+
+TEST(Contact, ARowIsOneUpdate)
+{
+  // Broken and 0.5 µm open, the joint moves by 1 µm towards closing and by 1 µm in shear. It is closed for half of the
+  // row: the shear k_s · 0.5 µm = 10.7 MPa is beyond the friction 0.5 · k_n · 0.5 µm = 6.7 MPa, and the faces slide.
+  const Table table = run_contact("1e-6,0,0\n5e-7,0,0\n-5e-7,1e-6,0\n");
+  for (int i = 1; i <= n_segments; ++i)
+    expect_near(tau(table.rows[2], i), -0.5 * k_n * 5e-7);
+
+  // With a tenth of the shear they stick, at half of k_s · 0.1 µm; the whole increment would give twice that.
+  const Table sticking = run_contact("1e-6,0,0\n5e-7,0,0\n-5e-7,1e-7,0\n");
+  for (int i = 1; i <= n_segments; ++i)
+    expect_near(tau(sticking.rows[2], i), -k_s * 0.5e-7);
+}
+
+TEST(Contact, WritesTheSameWhereTheDecimalSignIsAComma)
+{
+  const TemporaryFolder folder;
+  tests::make_german_locale(folder.path());
+  const std::string german = "LOCPATH='" + folder.path().string() + "' LC_ALL=de_DE.UTF-8";
+  EXPECT_EQ(run_contact("1.5e-7,2.5e-6,1e-4\n", german).rows, run_contact("1.5e-7,2.5e-6,1e-4\n").rows);
+}
+} // namespace
+} // namespace feldspar

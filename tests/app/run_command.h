@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <sys/wait.h>
+
+namespace feldspar::tests
+{
+struct Outcome
+{
+  int exit_code;
+  std::string output; ///< standard output
+  std::string error;  ///< standard error
+};
+
+/// Runs `feldspar ARGUMENTS` by the shell in `folder`. `environment`: assignments before the command.
+inline Outcome run_feldspar(const std::filesystem::path& folder, const std::string& arguments,
+                            const std::string& environment = "")
+{
+  // Beside the folder, not in it: tests look at what a run leaves there.
+  const std::string error_file = folder.string() + ".stderr";
+  const std::string command = "cd '" + folder.string() + "' && " + environment + " '" FELDSPAR_COMMAND "' " +
+                              arguments + " 2>'" + error_file + "'";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe)
+    throw std::runtime_error("no shell");
+  Outcome outcome{};
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+    outcome.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  std::ifstream error(error_file);
+  outcome.error.assign(std::istreambuf_iterator<char>(error), {});
+  std::filesystem::remove(error_file);
+  return outcome;
+}
+} // namespace feldspar::tests

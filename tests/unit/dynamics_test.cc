@@ -1,0 +1,198 @@
+#include "dem/dynamics.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+const DynamicsParameters undamped{0.0, 0.8};
+
+TEST(Dynamics, FreeFallIsExactAtWholeSteps)
+{
+  // Velocities at half steps make x(n) = -½ g t² to round-off. Starting with a whole kick instead of half of one would
+  // give -½ g t (t + Δt), off by one part in n.
+  Dynamics<2> dynamics(placed_specimen({1e-3}, {{{0.5}, {0.5}}}), undamped, ZeroForce::at_touch);
+  dynamics.set_gravity({0.0, -9.81});
+  const int n_steps = 1000;
+  for (int n = 0; n < n_steps; ++n)
+    dynamics.step();
+  const double fallen = 0.5 * 9.81 * dynamics.time() * dynamics.time();
+  EXPECT_NEAR(dynamics.specimen().grains.position[1][0], 0.5 - fallen, 1e-12 * fallen + 1e-15);
+  // Its energy: kinetic ½ m v² with v = g t, equal to the work of gravity.
+  const auto energies = dynamics.energies();
+  const double mass = dynamics.specimen().grains.mass[0];
+  // The way is the difference of two positions near 0.5 m, each good to 1e-16 m.
+  EXPECT_NEAR(energies.boundary_work, mass * 9.81 * fallen, mass * 9.81 * 1e-15);
+  EXPECT_NEAR(energies.kinetic, energies.boundary_work, 1e-5 * energies.boundary_work);
+}
+
+TEST(Dynamics, TwoGrainsBounceApartAsTheyCame)
+{
+  // Linear contact without damping: half a period π√(m/2k) of the oscillator of reduced mass m/2, then the velocities
+  // are exchanged. Discrete time leaves a small part of (ωΔt)²; forces evaluated half a step late (an explicit Euler
+  // scheme) would add energy of order ωΔt, here several percent.
+  const double radius = 1e-3;
+  const double speed = 0.01;
+  auto specimen = placed_specimen({radius, radius}, {{{0.5, 0.5 + 2.0005 * radius}, {0.5, 0.5}}});
+  specimen.grains.velocity[0] = {speed, -speed};
+  Dynamics<2> dynamics(std::move(specimen), {0.0, 0.05}, ZeroForce::at_touch);
+  double in_touch = 0.0;
+  bool touched = false;
+  for (;;)
+    {
+      dynamics.step();
+      const bool touching = dynamics.faceless_coordination_number() > 0.0;
+      if (touching)
+        in_touch += dynamics.time_step();
+      touched = touched || touching;
+      if (touched && !touching)
+        break;
+    }
+  const auto& grains = dynamics.specimen().grains;
+  EXPECT_NEAR(grains.velocity[0][0], -speed, 1e-3 * speed);
+  EXPECT_NEAR(grains.velocity[0][1], speed, 1e-3 * speed);
+  const double stiffness = dynamics.specimen().particle_contact.modulus; // E/(2R)·2R·t
+  const double half_period = std::numbers::pi * std::sqrt(0.5 * grains.mass[0] / stiffness);
+  EXPECT_NEAR(in_touch, half_period, 2.0 * dynamics.time_step()); // its ends fall between steps
+}
+
+struct Drift
+{
+  double energy;   ///< largest change of the total over the kinetic energy at the start
+  double momentum; ///< largest change over the sum of |m v|
+};
+
+/// A free, unbreakable, undamped assembly with random velocities, for a fixed time.
+Drift drift(const double time_step_safety)
+{
+  auto specimen = small_specimen(3, 1e6);
+  specimen.particle_contact.friction = 0.0;
+  double scale = 0.0;
+  Vector<2> momentum_before = Vector<2>::Zero();
+  double kinetic = 0.0;
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    {
+      const Vector<2> velocity(2.0 * std::sin(12.9 * double(i)), 2.0 * std::sin(78.2 * double(i)));
+      set<2>(specimen.grains.velocity, i, velocity);
+      momentum_before += specimen.grains.mass[i] * velocity;
+      scale += specimen.grains.mass[i] * velocity.norm();
+      kinetic += 0.5 * specimen.grains.mass[i] * velocity.squaredNorm();
+    }
+  Dynamics<2> dynamics(std::move(specimen), {0.0, time_step_safety}, ZeroForce::as_placed);
+  Drift worst{0.0, 0.0};
+  while (dynamics.time() < 3e-6)
+    {
+      dynamics.step();
+      const auto energies = dynamics.energies();
+      worst.energy = std::max(worst.energy, std::abs(energies.kinetic + energies.strain) / kinetic);
+    }
+  // Momentum lives at half steps, as velocity does; internal forces cannot change it.
+  Vector<2> momentum = Vector<2>::Zero();
+  const auto& grains = dynamics.specimen().grains;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    momentum += grains.mass[i] * at<2>(grains.velocity, i);
+  worst.momentum = (momentum - momentum_before).norm() / scale;
+  return worst;
+}
+
+TEST(Dynamics, AnUndampedAssemblyKeepsMomentumAndEnergy)
+{
+  // At a tenth of the usual step energy stays within 0.1 %, and its error falls as Δt²: halving the step quarters it,
+  // within the scatter of where in an oscillation the worst falls.
+  const auto coarse = drift(0.08);
+  const auto fine = drift(0.04);
+  EXPECT_LT(coarse.momentum, 1e-13);
+  EXPECT_LT(coarse.energy, 1e-3);
+  EXPECT_NEAR(coarse.energy / fine.energy, 4.0, 0.8);
+  RecordProperty("energy_error", std::to_string(coarse.energy));
+}
+
+TEST(Dynamics, IsTheSameForAnyNumberOfThreads)
+{
+  // 20 × 20 mm leaves too few joints to be handed out, so the sweep is given a large lattice: 120 × 120 grains.
+  const double radius = 1e-3;
+  Components<2> positions;
+  std::vector<double> radii;
+  for (int row = 0; row < 120; ++row)
+    for (int column = 0; column < 120; ++column)
+      {
+        radii.push_back(radius * (1.0 - 0.05 * std::abs(std::sin(double(radii.size())))));
+        positions[0].push_back(radius * (1.0 + 2.0 * column + (row % 2)));
+        positions[1].push_back(radius * (1.0 + std::sqrt(3.0) * row));
+      }
+  const auto run = [&](const std::size_t n_threads) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
+    auto specimen = placed_specimen(radii, positions);
+    FlatJointParameters wanted;
+    wanted.installation_gap_ratio = 0.2;
+    install_joints(specimen, wanted);
+    EXPECT_GT(specimen.joints.size(), 20000u);
+    for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+      specimen.grains.velocity[0][i] = 30.0 * std::sin(0.1 * double(i));
+    Dynamics<2> dynamics(std::move(specimen), {0.7, 0.8}, ZeroForce::as_placed);
+    std::size_t n_broken = 0;
+    for (int n = 0; n < 60; ++n)
+      n_broken += dynamics.step().size();
+    EXPECT_GT(n_broken, 100u);
+    return std::pair(dynamics.specimen().grains.position, dynamics.energies().damping);
+  };
+  const auto alone = run(1);
+  const auto together = run(4);
+  EXPECT_EQ(alone.first, together.first);
+  EXPECT_EQ(alone.second, together.second);
+}
+
+TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
+{
+  // Pulled apart by more than the face's length and pushed back: the second touch is the linear law's, at R1 + R2.
+  const double radius = 1e-3;
+  auto specimen = placed_specimen({radius, radius}, {{{0.5, 0.5 + 2.0 * radius}, {0.5, 0.5}}});
+  FlatJointParameters wanted;
+  wanted.installation_gap_ratio = 0.1;
+  install_joints(specimen, wanted);
+  ASSERT_EQ(specimen.joints.size(), 1u);
+  specimen.grains.velocity[0] = {-50.0, 50.0};
+  Dynamics<2> dynamics(std::move(specimen), undamped, ZeroForce::as_placed);
+  std::size_t n_broken = 0;
+  while (dynamics.specimen().joints.size() > 0 && dynamics.n_steps() < 100000)
+    n_broken += dynamics.step().size();
+  EXPECT_EQ(n_broken, 4u);
+  const auto& position = dynamics.specimen().grains.position[0];
+  EXPECT_GT(position[1] - position[0], 4.0 * radius); // rest distance and face length, 2R each
+
+  dynamics.specimen().grains.velocity[0] = {50.0, -50.0};
+  while (dynamics.faceless_coordination_number() == 0.0 && dynamics.n_steps() < 200000)
+    dynamics.step();
+  EXPECT_NEAR(position[1] - position[0], 2.0 * radius, 100.0 * dynamics.time_step()); // one step of their speed
+}
+
+TEST(Dynamics, ABrokenInterlockedPairSlidesWithFriction)
+{
+  // Energies of a stirred, breaking, damped specimen balance: each is integrated on its own.
+  auto specimen = small_specimen(2);
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    set<2>(specimen.grains.velocity, i, Vector<2>(3.0 * std::sin(3.1 * double(i)), 3.0 * std::cos(7.7 * double(i))));
+  Dynamics<2> dynamics(std::move(specimen), {0.2, 0.08}, ZeroForce::as_placed);
+  std::size_t n_broken = 0;
+  while (dynamics.time() < 2e-5)
+    n_broken += dynamics.step().size();
+  EXPECT_GT(n_broken, 200u);
+  const auto energies = dynamics.energies();
+  EXPECT_GT(energies.slip, 0.0);
+  EXPECT_GT(energies.released, 0.0);
+  EXPECT_GT(energies.damping, 0.0);
+  // A break drops its force within one step: half that step's work, about one part in a thousand here.
+  EXPECT_LT(energies.imbalance(), 0.01);
+  Energies wrong = energies;
+  wrong.slip *= 2.0;
+  EXPECT_GT(wrong.imbalance(), 0.01);
+}
+} // namespace
+} // namespace feldspar

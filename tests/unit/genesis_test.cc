@@ -1,0 +1,230 @@
+#include "dem/fragments.h"
+#include "dem/input_error.h"
+#include "dem/neighbours.h"
+#include "dem/random.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace feldspar
+{
+namespace
+{
+const GenesisMonitor silent = [](std::string_view, double) {};
+
+TEST(Genesis, MeetsWhatItPromises)
+{
+  const auto specimen = small_specimen();
+  const auto& report = specimen.report;
+  EXPECT_NEAR(report.packing_stress, 1e-4 * 80e9, 0.01 * 1e-4 * 80e9);
+  // Walls leave voids some 0.15 diameters wide: 4 % of this small box's area, so 2 % of the radii.
+  EXPECT_NEAR(report.radius_multiplier, 0.98, 0.015);
+  // The number of joints is the nearest whole number.
+  EXPECT_NEAR(report.coordination_number, 4.2, 1.0 / double(report.n_grains));
+  // Stress free and at rest.
+  for (const double opening : specimen.joints.opening)
+    EXPECT_EQ(opening, 0.0);
+  for (const auto& component : specimen.grains.velocity)
+    for (const double v : component)
+      EXPECT_EQ(v, 0.0);
+  // Bulk density over the box, whatever the porosity came out as.
+  double mass = 0.0;
+  for (const double m : specimen.grains.mass)
+    mass += m;
+  EXPECT_NEAR(mass, 2700.0 * specimen.volume(), 1e-9 * mass);
+}
+
+TEST(Genesis, SameSeedSameBitsOtherSeedOtherRock)
+{
+  const auto one = small_specimen(5);
+  const auto again = small_specimen(5);
+  const auto other = small_specimen(6);
+  EXPECT_EQ(one.grains.position, again.grains.position);
+  EXPECT_EQ(one.joints.tensile_strength, again.joints.tensile_strength);
+  EXPECT_NE(one.joints.tensile_strength, other.joints.tensile_strength);
+}
+
+TEST(Genesis, TheGapOfACoordinationNumberGivesThatCoordinationNumber)
+{
+  auto specimen = small_specimen();
+  const auto n_joints = specimen.joints.size();
+  FlatJointParameters by_gap;
+  by_gap.installation_gap_ratio = specimen.report.installation_gap_ratio * (1.0 + 1e-9);
+  install_joints(specimen, by_gap);
+  EXPECT_EQ(specimen.joints.size(), n_joints);
+}
+
+TEST(Genesis, StrengthsHaveTheirMeanAndDeviation)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.02;
+  wanted.height = 0.04;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  flat_joint.bond_tensile_strength_deviation = 2.2e6;
+  const auto specimen = make_specimen<2>(wanted, flat_joint, {}, 4, silent);
+  const auto& strength = specimen.joints.tensile_strength;
+  const auto n = double(strength.size());
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double s : strength)
+    mean += s / n;
+  for (const double s : strength)
+    squares += (s - mean) * (s - mean) / n;
+  // Four standard errors: sd/√n and sd/√(2n).
+  EXPECT_NEAR(mean, 22e6, 4.0 * 2.2e6 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(squares), 2.2e6, 4.0 * 2.2e6 / std::sqrt(2.0 * n));
+
+  flat_joint.strength_draw = StrengthDraw::per_contact;
+  const auto per_contact = make_specimen<2>(wanted, flat_joint, {}, 4, silent);
+  for (std::size_t j = 0; j < per_contact.joints.size(); ++j)
+    for (unsigned int i = 1; i < 4; ++i)
+      EXPECT_EQ(per_contact.joints.cohesion[per_contact.joints.segment(i, j)],
+                per_contact.joints.cohesion[per_contact.joints.segment(0, j)]);
+}
+
+TEST(Genesis, DrawsGappedAndSlitJointsByLot)
+{
+  auto specimen = small_specimen();
+  FlatJointParameters wanted;
+  wanted.coordination_number = 4.2;
+  wanted.gapped_fraction = 0.25;
+  wanted.slit_fraction = 0.25;
+  wanted.initial_gap = 1e-6;
+  install_joints(specimen, wanted);
+  const auto& joints = specimen.joints;
+  std::size_t n_gapped = 0;
+  std::size_t n_slit = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (!joints.holds(j))
+      ++(joints.opening[j] > 0.0 ? n_gapped : n_slit);
+  EXPECT_EQ(n_gapped, std::size_t(std::llround(0.25 * double(joints.size()))));
+  EXPECT_EQ(n_slit, n_gapped);
+}
+
+TEST(Genesis, SaysWhichCoordinationNumbersCanBeHad)
+{
+  auto specimen = small_specimen();
+  for (const double z : {1.0, 40.0})
+    {
+      FlatJointParameters wanted;
+      wanted.coordination_number = z;
+      try
+        {
+          install_joints(specimen, wanted);
+          FAIL() << "z = " << z << " was accepted";
+        }
+      catch (const InputError& error)
+        {
+          EXPECT_NE(std::string(error.what()).find("this packing allows"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(Neighbours, AreThoseOfEveryPairTried)
+{
+  const auto specimen = small_specimen();
+  const auto& grains = specimen.grains;
+  const double gap = 3e-4;
+  std::vector<GrainPair> tried;
+  for (std::uint32_t i = 0; i < grains.size(); ++i)
+    for (std::uint32_t j = i + 1; j < grains.size(); ++j)
+      if ((at<2>(grains.position, j) - at<2>(grains.position, i)).norm() < grains.radius[i] + grains.radius[j] + gap)
+        tried.emplace_back(i, j);
+  EXPECT_EQ(pairs_within(grains, gap), tried);
+}
+
+TEST(Fragments, FollowTheBonds)
+{
+  auto specimen = small_specimen();
+  EXPECT_EQ(fragments(specimen.joints, specimen.grains.size())[0], 0u);
+  // Cut everything off grain 0.
+  auto& joints = specimen.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints.grain_1[j] == 0)
+      for (unsigned int i = 0; i < joints.n_segments; ++i)
+        joints.bonded[joints.segment(i, j)] = 0.0;
+  const auto number = fragments(joints, specimen.grains.size());
+  EXPECT_GT(number[0], 0u);
+  EXPECT_EQ(number[1], 0u);
+}
+
+/// A packing file in the temporary folder, gone at the end.
+class PackingFile
+{
+public:
+  explicit PackingFile(const std::string& text)
+    : path(std::filesystem::temp_directory_path() /
+           (std::string("packing_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt"))
+  {
+    std::ofstream(path) << text;
+  }
+  ~PackingFile() { std::filesystem::remove(path); }
+  PackingFile(const PackingFile&) = delete;
+  PackingFile& operator=(const PackingFile&) = delete;
+
+  SpecimenParameters wanted() const
+  {
+    SpecimenParameters parameters;
+    parameters.width = 0.01;
+    parameters.height = 0.01;
+    parameters.packing_file = path.string();
+    return parameters;
+  }
+
+  std::string refusal() const
+  {
+    FlatJointParameters flat_joint;
+    flat_joint.installation_gap_ratio = 0.1;
+    try
+      {
+        make_specimen<2>(wanted(), flat_joint, {}, 1, silent);
+      }
+    catch (const InputError& error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+private:
+  std::filesystem::path path;
+};
+
+TEST(PackingImport, TakesGrainsAsTheyAre)
+{
+  const PackingFile file("# a row of three\n0.002 0.005 0.001\n0.004 0.005 0.001\n\n0.00599 0.005 1e-3 # touches\n");
+  FlatJointParameters flat_joint;
+  flat_joint.installation_gap_ratio = 0.01;
+  const auto specimen = make_specimen<2>(file.wanted(), flat_joint, {}, 1, silent);
+  EXPECT_EQ(specimen.grains.size(), 3u);
+  EXPECT_EQ(specimen.joints.size(), 2u);
+}
+
+TEST(PackingImport, RefusesWordsMissingNumbersStrayAndOverlappingGrains)
+{
+  EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.004 abc 0.001\n").refusal().find(":2:"), std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005\n").refusal().find("2 numbers found"), std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005 -0.001\n0.004 0.005 0.001\n").refusal().find("radius"), std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.04 0.005 0.001\n").refusal().find("outside"), std::string::npos);
+  EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.003 0.005 0.001\n").refusal().find("overlaps"), std::string::npos);
+  EXPECT_NE(PackingFile("").refusal().find("at least two"), std::string::npos);
+}
+
+TEST(Random, IsTheStreamItAlwaysWas)
+{
+  // mt19937_64 seeded by seed_seq, both fixed by the C++ standard: these numbers must never change.
+  Random random(1, RandomStream::radii);
+  const double first = random.uniform();
+  const double second = random.uniform();
+  EXPECT_EQ(first, Random(1, RandomStream::radii).uniform());
+  EXPECT_NE(first, second);
+  EXPECT_NE(first, Random(1, RandomStream::positions).uniform());
+  EXPECT_NE(first, Random(2, RandomStream::radii).uniform());
+}
+} // namespace
+} // namespace feldspar

@@ -1,0 +1,424 @@
+#include "app/input.h"
+
+#include "app/input_structure.h"
+#include "app/parameter_table.h"
+#include "dem/input_error.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+/// Every entry there is, each away from its default where it has a choice.
+constexpr std::string_view everything = R"(# all of it
+subsection Specimen
+  set Dimension = 2
+  set Shape = box
+  set Width = 5.4 cm
+  set Height = 108 mm
+  set Minimum radius = 0.3 mm      # a comment
+  set Radius ratio = 2
+  set Porosity = 0.15
+  set Density = 2.65 g/cm^3
+  set Packing stress ratio = 4e-4
+  set Packing file = grains.txt
+  set Specimen file = none
+end
+SUBSECTION Flat joint
+  SET Segments = 3
+  set Modulus = 70 GPa
+  set Stiffness ratio = 1.5
+  set Friction = 0.6
+  set Radius multiplier = 0.9
+  set Bond tensile strength = 20 MPa
+  set Bond tensile \
+      strength standard deviation = 2 MPa
+  set Bond cohesion = 300 MPa
+  set Bond cohesion standard deviation = 30 MPa
+  set Bond friction angle = 15 deg
+  set Strength draw = per contact
+  set Installation gap ratio = 0.05
+  set Coordination number = none
+  set Gapped fraction = 0.1
+  set Slit fraction = 0.2
+  set Initial gap = 1 um
+END
+subsection Particle contact
+  set Modulus = 60 GPa
+  set Stiffness ratio = 2.5
+  set Friction = 0.4
+end
+subsection Dynamics
+  set Damping = 0
+  set Time step safety = 0.5
+end
+subsection Tests
+  set List = uniaxial_compression
+  set Compression strain rate = 0.5 1/s
+  set Tension strain rate = 0.082 1/s
+  set Compression sampling strain = 2e-5
+  set Tension sampling strain = 2e-6
+  set Grip ratio = 0.2
+  set Stop strain over peak strain = 1.5
+  set Stop strain = 0.004
+  set Stop stress over peak = 0.5
+end
+subsection Seeds
+  set Seeds = 7, 1..3
+end
+subsection Contact
+  set Radius 1 = 2 mm
+  set Radius 2 = 3 mm
+end
+subsection Contact path
+  set File = path.csv
+end
+subsection Report
+  set Reference file = rock.json
+end
+)";
+
+std::string error_of(const std::string_view name, const std::string_view text)
+{
+  const TemporaryFolder folder;
+  try
+    {
+      read_input(folder.write(name, text));
+    }
+  catch (const InputError& error)
+    {
+      return std::string(error.what()).substr(folder.path().string().size() + 1);
+    }
+  return {};
+}
+
+std::string error_of_entry(const std::string_view section, const std::string_view setting)
+{
+  return error_of("a.prm", fmt::format("subsection {}\n  set {}\nend\n", section, setting));
+}
+
+TEST(Input, AnEmptyFileMeansTheDefaults)
+{
+  const TemporaryFolder folder;
+  const Input input = read_input(folder.write("empty.prm", "# nothing\n"));
+  for (const Parameter& parameter : parameter_table())
+    EXPECT_EQ(parameter.write(input), parameter.default_text()) << parameter.name();
+  EXPECT_EQ(input.flat_joint.coordination_number, 4.2);
+  EXPECT_EQ(input.flat_joint.installation_gap_ratio, std::nullopt);
+}
+
+TEST(Input, ADefaultWrittenOutIsTheDefault)
+{
+  for (const Parameter& parameter : parameter_table())
+    {
+      Input input;
+      parameter.read(input, parameter.default_text());
+      EXPECT_EQ(parameter.write(input), parameter.default_text()) << parameter.name();
+    }
+}
+
+TEST(Input, EveryEntryReachesItsMember)
+{
+  const TemporaryFolder folder;
+  folder.write("grains.txt", "");
+  folder.write("path.csv", "");
+  folder.write("rock.json", "{}");
+  const Input input = read_input(folder.write("everything.prm", everything));
+  EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size(), parameter_table().size());
+
+  EXPECT_EQ(input.specimen.dimension, 2u);
+  EXPECT_EQ(input.specimen.shape, "box");
+  EXPECT_DOUBLE_EQ(input.specimen.width, 0.054);
+  EXPECT_DOUBLE_EQ(input.specimen.height, 0.108);
+  EXPECT_DOUBLE_EQ(input.specimen.minimum_radius, 3e-4);
+  EXPECT_EQ(input.specimen.radius_ratio, 2.0);
+  EXPECT_EQ(input.specimen.porosity, 0.15);
+  EXPECT_DOUBLE_EQ(input.specimen.bulk_density, 2650.0);
+  EXPECT_EQ(input.specimen.packing_stress_ratio, 4e-4);
+  EXPECT_EQ(input.specimen.packing_file, (folder.path() / "grains.txt").string());
+  EXPECT_EQ(input.specimen.specimen_file, "");
+
+  EXPECT_EQ(input.flat_joint.n_segments, 3u);
+  EXPECT_EQ(input.flat_joint.modulus, 70e9);
+  EXPECT_EQ(input.flat_joint.stiffness_ratio, 1.5);
+  EXPECT_EQ(input.flat_joint.friction, 0.6);
+  EXPECT_EQ(input.flat_joint.radius_multiplier, 0.9);
+  EXPECT_EQ(input.flat_joint.bond_tensile_strength, 20e6);
+  EXPECT_EQ(input.flat_joint.bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(input.flat_joint.bond_cohesion, 300e6);
+  EXPECT_EQ(input.flat_joint.bond_cohesion_deviation, 30e6);
+  EXPECT_DOUBLE_EQ(input.flat_joint.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(input.flat_joint.strength_draw, StrengthDraw::per_contact);
+  EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
+  EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
+  EXPECT_EQ(input.flat_joint.gapped_fraction, 0.1);
+  EXPECT_EQ(input.flat_joint.slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(input.flat_joint.initial_gap, 1e-6);
+
+  EXPECT_EQ(input.particle_contact.modulus, 60e9);
+  EXPECT_EQ(input.particle_contact.stiffness_ratio, 2.5);
+  EXPECT_EQ(input.particle_contact.friction, 0.4);
+  EXPECT_EQ(input.dynamics.damping, 0.0);
+  EXPECT_EQ(input.dynamics.time_step_safety, 0.5);
+
+  EXPECT_EQ(input.test_list, std::vector{TestKind::uniaxial_compression});
+  EXPECT_EQ(input.tests.compression_strain_rate, 0.5);
+  EXPECT_EQ(input.tests.tension_strain_rate, 0.082);
+  EXPECT_EQ(input.tests.compression_sampling_strain, 2e-5);
+  EXPECT_EQ(input.tests.tension_sampling_strain, 2e-6);
+  EXPECT_EQ(input.tests.grip_ratio, 0.2);
+  EXPECT_EQ(input.tests.stop_strain_over_peak_strain, 1.5);
+  EXPECT_EQ(input.tests.stop_strain, 0.004);
+  EXPECT_EQ(input.tests.stop_stress_over_peak, 0.5);
+  EXPECT_EQ(input.seeds, (std::vector<std::uint64_t>{7, 1, 2, 3}));
+  EXPECT_DOUBLE_EQ(input.contact.radius_1, 0.002);
+  EXPECT_DOUBLE_EQ(input.contact.radius_2, 0.003);
+  EXPECT_EQ(input.contact.path_file, (folder.path() / "path.csv").string());
+  EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
+}
+
+TEST(Input, JsonSaysTheSame)
+{
+  const TemporaryFolder folder;
+  const Input from_prm = read_input(folder.write("a.prm", R"(subsection Flat joint
+  set Bond tensile strength = 21.5 MPa
+  set Segments = 3
+  set Friction = 0.35
+  set Installation gap ratio = 0.05
+end
+subsection Seeds
+  set Seeds = 1, 2, 18446744073709551615
+end
+subsection Tests
+  set List = uniaxial_compression, direct_tension
+  set Stop strain = none
+end
+)"));
+  const Input from_json = read_input(folder.write("a.json", R"({
+  "Flat joint": {"Bond tensile strength": "21.5 MPa", "Segments": 3, "Friction": 0.35,
+                 "Installation gap ratio": 5e-2},
+  "Seeds": {"Seeds": [1, 2, 18446744073709551615]},
+  "Tests": {"List": ["uniaxial_compression", "direct_tension"], "Stop strain": null}
+})"));
+  for (const Parameter& parameter : parameter_table())
+    EXPECT_EQ(parameter.write(from_json), parameter.write(from_prm)) << parameter.name();
+  EXPECT_EQ(from_json.flat_joint.bond_tensile_strength, 21.5e6);
+}
+
+TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
+{
+  const TemporaryFolder folder;
+  folder.write("grains.txt", "");
+  folder.write("path.csv", "");
+  folder.write("rock.json", "{}");
+  const std::filesystem::path prm = folder.write("everything.prm", everything);
+  const std::filesystem::path json = folder.write("a.json", R"({"Flat joint": {"Friction": 0.35}})");
+  const Input in_c = read_input(prm);
+
+  tests::make_german_locale(folder.path());
+  setenv("LOCPATH", folder.path().c_str(), 1);
+  ASSERT_NE(std::setlocale(LC_ALL, "de_DE.UTF-8"), nullptr);
+  const Input in_german = read_input(prm);
+  const Input json_in_german = read_input(json);
+  std::setlocale(LC_ALL, "C");
+  unsetenv("LOCPATH");
+
+  for (const Parameter& parameter : parameter_table())
+    EXPECT_EQ(parameter.write(in_german), parameter.write(in_c)) << parameter.name();
+  EXPECT_EQ(in_german.flat_joint.modulus, in_c.flat_joint.modulus);
+  EXPECT_EQ(json_in_german.flat_joint.friction, 0.35);
+}
+
+TEST(Input, AllowsWindowsLinesAndTheMarkOfUtf8)
+{
+  const TemporaryFolder folder;
+  const Input input =
+    read_input(folder.write("a.prm", "\xEF\xBB\xBFsubsection Flat joint\r\n\tset Segments\t=\t5\r\nend\r\n"));
+  EXPECT_EQ(input.flat_joint.n_segments, 5u);
+}
+
+TEST(Input, ErrorsNameTheLineOnWhichAnEntryStarts)
+{
+  EXPECT_EQ(error_of("a.prm", "# one\n\nsubsection Flat joint\n  set Bond friction \\\n  angle = \\\n  95 deg\nend\n"),
+            "a.prm:4: Flat joint/Bond friction angle = 95 deg: must lie in [0 deg, 90 deg)");
+}
+
+TEST(Input, ChecksEveryRange)
+{
+  const std::vector<std::pair<std::string_view, std::string_view>> mistakes{
+    {"Specimen", "Dimension = 3"},
+    {"Specimen", "Shape = cylinder"},
+    {"Specimen", "Width = 0 mm"},
+    {"Specimen", "Height = -1 mm"},
+    {"Specimen", "Minimum radius = 0 mm"},
+    {"Specimen", "Radius ratio = 0.99"},
+    {"Specimen", "Porosity = 1"},
+    {"Specimen", "Density = 0 kg/m^3"},
+    {"Specimen", "Packing stress ratio = 0"},
+    {"Specimen", "Packing file = nowhere.txt"},
+    {"Specimen", "Specimen file = ."},
+    {"Flat joint", "Segments = 0"},
+    {"Flat joint", "Segments = 33"},
+    {"Flat joint", "Segments = 2.5"},
+    {"Flat joint", "Segments = -1"},
+    {"Flat joint", "Modulus = 0 GPa"},
+    {"Flat joint", "Stiffness ratio = 0"},
+    {"Flat joint", "Friction = -0.1"},
+    {"Flat joint", "Radius multiplier = 0"},
+    {"Flat joint", "Bond tensile strength = -1 MPa"},
+    {"Flat joint", "Bond tensile strength standard deviation = -1 MPa"},
+    {"Flat joint", "Bond cohesion = -1 MPa"},
+    {"Flat joint", "Bond cohesion standard deviation = -1 MPa"},
+    {"Flat joint", "Bond friction angle = 90 deg"},
+    {"Flat joint", "Bond friction angle = -1 deg"},
+    {"Flat joint", "Strength draw = per grain"},
+    {"Flat joint", "Installation gap ratio = -0.1"},
+    {"Flat joint", "Coordination number = 0"},
+    {"Flat joint", "Gapped fraction = 1.1"},
+    {"Flat joint", "Slit fraction = -0.1"},
+    {"Flat joint", "Initial gap = -1 mm"},
+    {"Particle contact", "Modulus = 0 GPa"},
+    {"Particle contact", "Stiffness ratio = -1"},
+    {"Particle contact", "Friction = -1"},
+    {"Dynamics", "Damping = 1"},
+    {"Dynamics", "Time step safety = 0"},
+    {"Dynamics", "Time step safety = 1.1"},
+    {"Tests", "List = shear"},
+    {"Tests", "List ="},
+    {"Tests", "List = direct_tension, direct_tension"},
+    {"Tests", "Compression strain rate = 0 1/s"},
+    {"Tests", "Tension strain rate = -1 1/s"},
+    {"Tests", "Compression sampling strain = 0"},
+    {"Tests", "Tension sampling strain = 0"},
+    {"Tests", "Grip ratio = 0.41"},
+    {"Tests", "Stop strain over peak strain = 1"},
+    {"Tests", "Stop strain = 0"},
+    {"Tests", "Stop stress over peak = 1"},
+    {"Seeds", "Seeds = -1"},
+    {"Seeds", "Seeds = 1, 2, 1"},
+    {"Seeds", "Seeds = 1, 0..3"},
+    {"Seeds", "Seeds = 3..1"},
+    {"Seeds", "Seeds = 1..3..5"},
+    {"Seeds", "Seeds = 0..18446744073709551615"},
+    {"Contact", "Radius 1 = 0 mm"},
+    {"Contact", "Radius 2 = -1 mm"},
+    {"Contact path", "File = nowhere.csv"},
+    {"Report", "Reference file = nowhere.json"}};
+  for (const auto& [section, setting] : mistakes)
+    EXPECT_EQ(error_of_entry(section, setting)
+                .find(fmt::format("a.prm:2: {}/{}: ", section, setting.ends_with('=') ? "List = " : setting)),
+              0u)
+      << section << "/" << setting << " gave: " << error_of_entry(section, setting);
+}
+
+TEST(Input, ADimensionlessEntryHasNoUnit)
+{
+  EXPECT_EQ(error_of_entry("Flat joint", "Friction = 0.5 MPa"),
+            "a.prm:2: Flat joint/Friction = 0.5 MPa: must be a number without unit, e.g. \"0.5\"");
+}
+
+TEST(Input, TheInstallationGapFollowsFromOneEntry)
+{
+  const TemporaryFolder folder;
+  const Input by_gap =
+    read_input(folder.write("a.prm", "subsection Flat joint\nset Installation gap ratio = 0.1\nend"));
+  EXPECT_EQ(by_gap.flat_joint.installation_gap_ratio, 0.1);
+  EXPECT_EQ(by_gap.flat_joint.coordination_number, std::nullopt);
+  EXPECT_NE(error_of("a.prm", "subsection Flat joint\n"
+                              "set Installation gap ratio = 0.1\nset Coordination number = 4.2\nend"),
+            "");
+  EXPECT_NE(error_of_entry("Flat joint", "Coordination number = none"), "");
+}
+
+TEST(Input, FractionsAddUpToOneAtMost)
+{
+  EXPECT_EQ(error_of("a.prm", "subsection Flat joint\nset Gapped fraction = 0.5\nset Slit fraction = 0.5\nend"), "");
+  EXPECT_NE(error_of("a.prm", "subsection Flat joint\nset Gapped fraction = 0.5\nset Slit fraction = 0.6\nend"), "");
+}
+
+TEST(Input, ASpecimenHasRoomForTwoGrains)
+{
+  // Two of the largest grains, of 1.66 × 0.62 mm radius, side by side: 4.1168 mm.
+  EXPECT_EQ(error_of_entry("Specimen", "Width = 4.2 mm"), "");
+  EXPECT_NE(error_of_entry("Specimen", "Width = 4.1 mm").find("4.1168 mm"), std::string::npos);
+  EXPECT_NE(error_of_entry("Specimen", "Height = 4.1 mm"), "");
+  EXPECT_NE(error_of_entry("Specimen", "Minimum radius = 10 mm"), "");
+}
+
+TEST(Input, OneSourceOfGrains)
+{
+  const TemporaryFolder folder;
+  folder.write("grains", "");
+  const auto both =
+    folder.write("a.prm", "subsection Specimen\nset Packing file = grains\nset Specimen file = grains\nend");
+  EXPECT_THROW(read_input(both), InputError);
+}
+
+TEST(Input, TellsWhatIsWrongWithTheStructure)
+{
+  const std::vector<std::pair<std::string_view, std::string_view>> mistakes{
+    {"subsection Flat joint\nset Segments = 3\nset Segments = 4\nend", "a.prm:3: Flat joint/Segments: is given twice"},
+    {"subsection Flat joint\nset Segments = 3\nend\nsubsection Flat joint\nset Segments = 3\nend",
+     "a.prm:5: Flat joint/Segments: is given twice"},
+    {"subsection Flat joint\nset Segments = 3\n", "a.prm:1: subsection Flat joint: is not closed"},
+    {"subsection Flat joint\nsubsection Seeds\nend\nend", "a.prm:2: subsection Seeds: opens inside Flat joint"},
+    {"end", "a.prm:1: end: "},
+    {"subsection Seeds\nend\nend", "a.prm:3: end: "},
+    {"subsection Seeds\nend of it", "a.prm:2: \"end of it\": "},
+    {"set Segments = 3", "a.prm:1: Segments: stands outside"},
+    {"subsection Flat joint\nset Segments 3\nend", "a.prm:2: \"set Segments 3\": "},
+    {"subsection Flat joint\nSegments = 3\nend", "a.prm:2: \"Segments = 3\": "},
+    {"Set Segments = 3", "a.prm:1: \"Set Segments = 3\": "},
+    {"include other.prm", "a.prm:1: include: "},
+    {"subsection Flat joints\nend", "a.prm:1: Flat joints: no such section; did you mean \"Flat joint\"?"},
+    {"subsection Flat joint\nset Bond tensile strenght = 3 MPa\nend",
+     "a.prm:2: Flat joint/Bond tensile strenght: no such entry; did you mean \"Bond tensile strength\"?"},
+    {"subsection Flat joint\nset segments = 3\nend", "a.prm:2: Flat joint/segments: no such entry"},
+    {std::string_view("a\0b", 3), "a.prm: is not a text file"},
+    {"subsection Fl\xFF", "a.prm: is not encoded in UTF-8"}};
+  for (const auto& [text, error] : mistakes)
+    EXPECT_EQ(error_of("a.prm", text).find(error), 0u) << text << "\ngave: " << error_of("a.prm", text);
+}
+
+TEST(Input, TellsWhatIsWrongWithJson)
+{
+  const std::vector<std::pair<std::string_view, std::string_view>> mistakes{
+    {R"({"Flat joint": {"Bond tensile strength": 22}})", "a.json: Flat joint/Bond tensile strength = 22: a unit is"},
+    {R"({"Flat joint": {"Segments": 0}})", "a.json: Flat joint/Segments = 0: must be"},
+    {R"({"Flat joint": {"Segments": 3, "Segments": 4}})", "a.json: Flat joint/Segments: is given twice"},
+    {R"({"Flat joint": {}, "Flat joint": {}})", "a.json: Flat joint: is given twice"},
+    {R"({"Flat joints": {}})", "a.json: Flat joints: no such section; did you mean \"Flat joint\"?"},
+    {R"({"Flat joint": {"Segment": 4}})", "a.json: Flat joint/Segment: no such entry; did you mean \"Segments\"?"},
+    {R"({"Flat joint": 4})", "a.json: Flat joint: must be an object"},
+    {R"({"Flat joint": {"Segments": {"value": 4}}})", "a.json: Flat joint/Segments: found object"},
+    {R"({"Flat joint": {"Segments": true}})", "a.json: Flat joint/Segments: found boolean"},
+    {R"({"Flat joint": {"Segments": [[4]]}})", "a.json: Flat joint/Segments: found array"},
+    {"{\"Flat joint\":\n  {\"Segments\": 4", "a.json:2:17: is not valid JSON: "},
+    {R"({"Flat joint": {"Friction": NaN}})", "a.json:1:29: is not valid JSON: "},
+    {R"({"Flat joint": {"Friction": 1e999}})", "a.json: a number is beyond"},
+    {"[]", "a.json: the file must be one object"},
+    {"", "a.json:1:1: is not valid JSON: "}};
+  for (const auto& [text, error] : mistakes)
+    EXPECT_EQ(error_of("a.json", text).find(error), 0u) << text << "\ngave: " << error_of("a.json", text);
+}
+
+TEST(Input, TellsWhatIsWrongWithTheFile)
+{
+  const TemporaryFolder folder;
+  EXPECT_THROW(read_input(folder.path() / "missing.prm"), InputError);
+  EXPECT_THROW(read_input(folder.path()), InputError);
+  EXPECT_THROW(read_input(folder.write("a.txt", "")), InputError);
+  EXPECT_THROW(read_input(std::string(5000, 'a') + ".prm"), InputError);
+}
+} // namespace
+} // namespace feldspar

@@ -1,0 +1,97 @@
+#include "dem/lab_results.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+/// A compression curve with known answers: modulus 70 GPa to 50 MPa, then 35 GPa to the peak of 100 MPa, then down;
+/// Poisson's ratio 0.2, and volumetric strain that turns round at 80 MPa; a crack a row from 42 MPa on.
+TestRecord known_compression()
+{
+  TestRecord record;
+  record.kind = TestKind::uniaxial_compression;
+  record.size = {0.05, 0.1, 0.0};
+  record.bulk_density = 2700.0;
+  const double strain_at_50 = 50e6 / 70e9;
+  const double strain_at_peak = strain_at_50 + 50e6 / 35e9;
+  const double strain_at_80 = strain_at_50 + 30e6 / 35e9;
+  std::uint64_t n_cracks = 0;
+  for (int k = 0; k <= 1000; ++k)
+    {
+      const double strain = 1.5 * strain_at_peak * k / 1000.0;
+      const double stress = strain < strain_at_50     ? 70e9 * strain
+                            : strain < strain_at_peak ? 50e6 + 35e9 * (strain - strain_at_50)
+                                                      : 100e6 - 60e9 * (strain - strain_at_peak);
+      CurveSample row; // inside: tension positive
+      row.time = strain;
+      row.axial_strain = -strain;
+      row.axial_stress = -stress;
+      row.gauge_axial_strain = -strain;
+      row.gauge_lateral_strain = 0.2 * strain;
+      row.gauge_volumetric_strain = -0.8 * std::min(strain, strain_at_80) + std::max(0.0, strain - strain_at_80);
+      if (stress >= 42e6 || strain > strain_at_50)
+        ++n_cracks;
+      row.n_tension_cracks = n_cracks;
+      row.energies.strain = 1.0;
+      record.curve.push_back(row);
+    }
+  return record;
+}
+
+TEST(LabResults, AreThoseOfAKnownCurve)
+{
+  const auto results = evaluate(known_compression());
+  const double row = 1.5 * (50e6 / 70e9 + 50e6 / 35e9) / 1000.0; // strain between two rows
+  EXPECT_NEAR(*results.peak_stress.value, 100e6, 70e9 * row);
+  EXPECT_NEAR(*results.strain_at_peak.value, 50e6 / 70e9 + 50e6 / 35e9, row);
+  EXPECT_NEAR(*results.youngs_modulus_initial.value, 70e9, 1e-6 * 70e9);
+  // Secant to 50 % of the peak: still on the first branch, but for the row at which the peak was missed.
+  EXPECT_NEAR(*results.youngs_modulus_secant.value, 70e9, 0.002 * 70e9);
+  // Half of 40 to 60 % on either branch: between both moduli.
+  EXPECT_GT(*results.youngs_modulus_tangent.value, 35e9);
+  EXPECT_LT(*results.youngs_modulus_tangent.value, 70e9);
+  EXPECT_NEAR(*results.poissons_ratio_initial.value, 0.2, 1e-9);
+  EXPECT_NEAR(*results.poissons_ratio_secant.value, 0.2, 1e-9);
+  EXPECT_NEAR(*results.crack_damage_stress.value, 80e6, 35e9 * row);
+  // One crack a row: 1 % of those at the peak come within a few rows of the first.
+  EXPECT_NEAR(*results.crack_initiation_stress.value, 42e6, 10 * 70e9 * row);
+  EXPECT_NEAR(*results.post_peak_drop.value, 0.6 * 1.0714285714, 0.01);
+}
+
+TEST(LabResults, SayWhyWhenACurveNeverPeaks)
+{
+  auto record = known_compression();
+  record.curve.resize(200);
+  const auto results = evaluate(record);
+  EXPECT_FALSE(results.peak_stress.value);
+  EXPECT_EQ(results.peak_stress.reason, "the stress never peaked");
+  EXPECT_EQ(results.youngs_modulus_initial.reason, "the stress never peaked");
+  record.interrupted = true;
+  EXPECT_EQ(evaluate(record).peak_stress.reason, "interrupted before the peak");
+}
+
+TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)
+{
+  auto record = known_compression();
+  std::vector<CurveSample> coarse;
+  for (std::size_t k = 0; k < record.curve.size(); k += 200)
+    coarse.push_back(record.curve[k]);
+  record.curve = coarse;
+  const auto results = evaluate(record);
+  EXPECT_FALSE(results.youngs_modulus_initial.value);
+  EXPECT_NE(results.youngs_modulus_initial.reason.find("sampling strain"), std::string::npos);
+}
+
+TEST(Energies, ImbalanceSeesADoubledTerm)
+{
+  Energies energies{10.0, 1.0, 4.0, 2.0, 1.0, 2.0};
+  EXPECT_NEAR(energies.imbalance(), 0.0, 1e-15);
+  energies.slip *= 2.0;
+  EXPECT_GT(energies.imbalance(), 0.05); // 2 of 22
+}
+} // namespace
+} // namespace feldspar

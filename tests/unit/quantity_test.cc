@@ -1,0 +1,159 @@
+#include "app/quantity.h"
+
+#include "dem/input_error.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+template <typename Parse>
+std::string error_of(const Parse& parse)
+{
+  try
+    {
+      parse();
+    }
+  catch (const InputError& error)
+    {
+      return error.what();
+    }
+  return {};
+}
+
+std::string stress_error(const std::string& text)
+{
+  return error_of([&] { parse_quantity(text, stress); });
+}
+
+TEST(Quantity, IsConvertedToSI)
+{
+  EXPECT_EQ(parse_quantity("22 MPa", stress), 22e6);
+  EXPECT_EQ(parse_quantity("22 N/mm^2", stress), 22e6);
+  EXPECT_EQ(parse_quantity("2.2e1 MN.m-2", stress), 22e6);
+  EXPECT_EQ(parse_quantity("+.5 GPa", stress), 5e8);
+  EXPECT_EQ(parse_quantity("-1 Pa", stress), -1.0);
+  EXPECT_EQ(parse_quantity("2.7 g/cm^3", density), 2700.0);
+  EXPECT_EQ(parse_quantity("0.164 1/s", rate), 0.164);
+  EXPECT_EQ(parse_quantity("0.164 s^-1", rate), 0.164);
+  EXPECT_DOUBLE_EQ(parse_quantity("5 \u00B5m", length), 5e-6);
+}
+
+TEST(Quantity, TakesAnglesInDegreesOrRadians)
+{
+  const double ten_degrees = std::numbers::pi / 18.0;
+  for (const char* text : {"10 deg", "10 degree", "10 degrees", "10 \u00B0"})
+    EXPECT_DOUBLE_EQ(parse_quantity(text, angle), ten_degrees) << text;
+  EXPECT_EQ(parse_quantity("0.5 rad", angle), 0.5);
+}
+
+TEST(Quantity, RefusesUnitsOfAnotherDimension)
+{
+  EXPECT_NE(stress_error("22 mm"), "");
+  EXPECT_NE(stress_error("22 deg"), "");
+  EXPECT_NE(stress_error("22 MPa.rad"), "");
+  for (const char* text : {"22 MPa", "22 %", "22 percent", "22 sr", "22 m"})
+    EXPECT_NE(error_of([&] { parse_quantity(text, angle); }), "") << text;
+}
+
+TEST(Quantity, MustBeOneNumberOneSpaceOneUnit)
+{
+  // UDUNITS alone would take most of these: `22 MPa 3` as 66 MPa, `MPa since 1990` with an origin.
+  for (const char* text : {"",
+                           " ",
+                           "22",
+                           "MPa",
+                           "22MPa",
+                           "22  MPa",
+                           "22 MPa ",
+                           " 22 MPa",
+                           "22 MPa 3",
+                           "5 10 MPa",
+                           "22 3MPa",
+                           "22 3.MPa",
+                           "22 MPa.3",
+                           "22 MPa*3",
+                           "22 MPa/3",
+                           "22 1",
+                           "22 MPa since 1990",
+                           "22 Pa@3",
+                           "22 lg(re_Pa)",
+                           "22 (MPa)",
+                           "22 MPa^",
+                           "22 MPa-",
+                           "22 Quark",
+                           "1,5 MPa",
+                           "1e MPa",
+                           "1.2.3 MPa",
+                           ". MPa",
+                           "- MPa",
+                           "--1 MPa",
+                           "0x1p3 MPa",
+                           "nan MPa",
+                           "NaN MPa",
+                           "inf MPa",
+                           "-inf MPa",
+                           "1e999 MPa",
+                           "5, 10, 20 MPa"})
+    EXPECT_NE(stress_error(text), "") << text;
+}
+
+TEST(Quantity, ErrorsShowTheRightForm)
+{
+  EXPECT_EQ(stress_error("22"), "a unit is missing; write a stress, e.g. \"22 MPa\"");
+  EXPECT_EQ(stress_error("MPa"), "a number is missing; write a stress, e.g. \"22 MPa\"");
+  EXPECT_NE(error_of([] { parse_quantity("22 m", angle); }).find("\"10 deg\""), std::string::npos);
+}
+
+TEST(Quantity, ListHasItsUnitAtTheEnd)
+{
+  EXPECT_EQ(parse_quantities("5, 10,20 MPa", stress), (std::vector<double>{5e6, 10e6, 20e6}));
+  EXPECT_EQ(parse_quantities("5 MPa", stress), (std::vector<double>{5e6}));
+  for (const char* text : {"5, 10, 20", "5 MPa, 10 MPa", "5,, 20 MPa", "5, 20 MPa,", "5 10 MPa", ""})
+    EXPECT_NE(error_of([&] { parse_quantities(text, stress); }), "") << text;
+}
+
+TEST(Quantity, IsWrittenAsItIsRead)
+{
+  EXPECT_EQ(format_quantity(22e6, "MPa", stress), "22 MPa");
+  EXPECT_EQ(format_quantity(6.2e-4, "mm", length), "0.62 mm");
+  EXPECT_EQ(format_quantity(std::numbers::pi / 18.0, "deg", angle), "10 deg");
+}
+
+TEST(Number, IsDecimalAndBare)
+{
+  EXPECT_EQ(parse_number("-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(parse_number("+4"), 4.0);
+  for (const char* text : {"", "nan", "inf", "1,5", "0x10", "1 2", "4 MPa", "1e999"})
+    EXPECT_NE(error_of([&] { parse_number(text); }), "") << text;
+}
+
+TEST(Quantity, ReadsTheSameWhereTheDecimalSignIsAComma)
+{
+  const tests::TemporaryFolder folder;
+  tests::make_german_locale(folder.path());
+  setenv("LOCPATH", folder.path().c_str(), 1);
+  ASSERT_NE(std::setlocale(LC_NUMERIC, "de_DE.UTF-8"), nullptr);
+  const bool comma = std::string_view(std::localeconv()->decimal_point) == ",";
+  const double megapascals = parse_quantity("22.5 MPa", stress);
+  const double inches = parse_quantity("1.5 inch", length); // 2.54 cm in the tables of UDUNITS
+  const std::string refused = stress_error("22,5 MPa");
+  const std::string written = format_quantity(22.5e6, "MPa", stress);
+  std::setlocale(LC_NUMERIC, "C");
+  unsetenv("LOCPATH");
+
+  EXPECT_TRUE(comma);
+  EXPECT_EQ(megapascals, 22.5e6);
+  EXPECT_DOUBLE_EQ(inches, 0.0381);
+  EXPECT_NE(refused, "");
+  EXPECT_EQ(written, "22.5 MPa");
+}
+} // namespace
+} // namespace feldspar

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "dem/genesis.h"
+
+/// Specimens for tests that need one quickly.
+namespace feldspar
+{
+/// Table 1 in a box of 12 × 20 mm: some ninety grains.
+inline Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.012;
+  wanted.height = 0.020;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  flat_joint.bond_tensile_strength *= bond_strength_factor;
+  flat_joint.bond_cohesion *= bond_strength_factor;
+  return make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+}
+
+/// Grains where one wants them, density 3000 kg/m³, no joints.
+inline Specimen<2> placed_specimen(const std::vector<double>& radii, const Components<2>& positions)
+{
+  Specimen<2> specimen;
+  specimen.size = {1.0, 1.0};
+  specimen.particle_contact.friction = 0.0;
+  specimen.grains.place(radii, positions);
+  specimen.grains.set_density(3000.0, specimen.thickness);
+  return specimen;
+}
+} // namespace feldspar

@@ -1,0 +1,71 @@
+#include "dem/input_error.h"
+#include "dem/specimen_file.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace feldspar
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+class SpecimenFile : public testing::Test
+{
+protected:
+  fs::path file = fs::temp_directory_path() /
+                  (std::string("specimen_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+  ~SpecimenFile() override { fs::remove(file); }
+
+  std::string refusal() const
+  {
+    try
+      {
+        read_specimen<2>(file);
+      }
+    catch (const InputError& error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+};
+
+TEST_F(SpecimenFile, ComesBackBitForBit)
+{
+  const auto specimen = small_specimen();
+  write_specimen(specimen, file);
+  const auto back = read_specimen<2>(file);
+  EXPECT_EQ(back.size, specimen.size);
+  EXPECT_EQ(back.seed, specimen.seed);
+  EXPECT_EQ(back.grains.position, specimen.grains.position);
+  EXPECT_EQ(back.grains.mass, specimen.grains.mass);
+  EXPECT_EQ(back.grains.moment_of_inertia, specimen.grains.moment_of_inertia);
+  EXPECT_EQ(back.joints.grain_2, specimen.joints.grain_2);
+  EXPECT_EQ(back.joints.rest_distance, specimen.joints.rest_distance);
+  EXPECT_EQ(back.joints.tensile_strength, specimen.joints.tensile_strength);
+  EXPECT_EQ(back.joints.friction_slope, specimen.joints.friction_slope);
+  EXPECT_EQ(back.report.installation_gap_ratio, specimen.report.installation_gap_ratio);
+}
+
+TEST_F(SpecimenFile, RefusesMissingForeignAndTruncatedFiles)
+{
+  EXPECT_NE(refusal().find("no such file"), std::string::npos);
+
+  std::ofstream(file) << "not HDF5 at all";
+  EXPECT_NE(refusal().find("not an HDF5 file"), std::string::npos) << refusal();
+
+  write_specimen(small_specimen(), file);
+  const auto whole = fs::file_size(file);
+  for (const double share : {0.1, 0.5, 0.9, 0.999})
+    {
+      write_specimen(small_specimen(), file);
+      fs::resize_file(file, std::uintmax_t(share * double(whole)));
+      EXPECT_NE(refusal(), "") << share;
+    }
+}
+} // namespace
+} // namespace feldspar
