@@ -56,12 +56,13 @@ std::string csv_header(const unsigned int n_segments)
   return header + '\n';
 }
 
-std::string csv_row(const FaceResultants<2, double>& face, const Segments& segments)
+std::string csv_row(const flat_joint::Face<double>& face, const FaceResultants<2, double>& sum,
+                    const Segments& segments)
 {
   // Adding zero turns -0 into 0.
-  std::string row = fmt::format("{},{},{}", face.normal_force + 0.0, face.shear_force[0] + 0.0, face.moment + 0.0);
+  std::string row = fmt::format("{},{},{}", sum.normal_force + 0.0, sum.shear_force[0] + 0.0, sum.moment + 0.0);
   for (const auto& segment : segments.updates)
-    fmt::format_to(std::back_inserter(row), ",{},{},{:d}", segment.normal.mean_stress + 0.0,
+    fmt::format_to(std::back_inserter(row), ",{},{},{:d}", mean_stress(face, segment.normal) + 0.0,
                    segment.state.shear_stress[0] + 0.0, segment.state.bonded);
   return row + '\n';
 }
@@ -87,7 +88,7 @@ int run_contact(const CommonOptions& options)
                                          .slope_before = before[2],
                                          .slope = now[2],
                                          .shear_increment = {now[1] - before[1]}};
-      table += csv_row(update_face(face, input.flat_joint.n_segments, motion, segments), segments);
+      table += csv_row(face, update_face(face, input.flat_joint.n_segments, motion, segments), segments);
       before = now;
     }
   write_text_file(folder.path() / "contact.csv", table);

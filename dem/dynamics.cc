@@ -14,8 +14,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::uint64_t steps_between_searches = 10;   // at least; a search costs as much as some steps
-constexpr std::uint64_t steps_between_time_steps = 50; // the safety factor covers contacts made meanwhile
+constexpr std::uint64_t most_steps_between_looks = 10; // for grains that have come near each other
 constexpr double skin_over_smallest_radius = 0.3;
 
 double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
@@ -67,13 +66,13 @@ std::vector<Break> Dynamics<dim>::step()
 {
   if (!started)
     start();
-  else if (steps % steps_between_searches == 0 && contacts_may_be_missed())
+  else if (steps == next_look && contacts_may_be_missed())
     {
       remove_torn_faces();
       find_contacts();
       choose_time_step();
     }
-  else if (steps % steps_between_time_steps == 0)
+  else if (contact_made)
     choose_time_step();
 
   add_boundary_work(dt, 0.5);
@@ -111,6 +110,7 @@ void Dynamics<dim>::start()
   choose_time_step();
   previous_dt = 0.0; // the first kick is half a step
   position_at_start = body.grains.position;
+  next_look = steps + 1;
   started = true;
   const Energies initial = energies();
   kinetic_energy_at_start += initial.kinetic;
@@ -258,8 +258,9 @@ void Dynamics<dim>::find_contacts()
   position_at_search = grains.position;
 }
 
+/// Whether a pair that was not near at the last search could touch before the next look; sets when that is.
 template <int dim>
-bool Dynamics<dim>::contacts_may_be_missed() const
+bool Dynamics<dim>::contacts_may_be_missed()
 {
   double farthest = 0.0;
   double fastest = 0.0;
@@ -268,8 +269,13 @@ bool Dynamics<dim>::contacts_may_be_missed() const
       farthest = std::max(farthest, (at<dim>(body.grains.position, i) - at<dim>(position_at_search, i)).squaredNorm());
       fastest = std::max(fastest, squared_norm<dim>(body.grains.velocity, i));
     }
-  // Twice the way to the next look, for what accelerates meanwhile.
-  return std::sqrt(farthest) + 2.0 * double(steps_between_searches) * dt * std::sqrt(fastest) > 0.5 * skin;
+  // Twice the way of the fastest, for what accelerates meanwhile; half the skin, for both grains move.
+  const double way_of_a_step = 2.0 * dt * std::sqrt(fastest);
+  const double way_left = 0.5 * skin - std::sqrt(farthest);
+  const bool missed = way_left <= double(most_steps_between_looks) * way_of_a_step;
+  const double steps_allowed = 0.5 * skin / std::max(way_of_a_step, std::numeric_limits<double>::min());
+  next_look = steps + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_looks)));
+  return missed;
 }
 
 template <int dim>
@@ -338,6 +344,7 @@ void Dynamics<dim>::choose_time_step()
     for (std::size_t i = 0; i < grains.size(); ++i)
       largest = std::max(largest, 4.0 * touch_stiffness(grains.radius[i], grains.radius[i]) / grains.mass[i]);
   dt = parameters.time_step_safety / std::sqrt(largest);
+  contact_made = false;
 }
 
 template <int dim>
@@ -424,6 +431,8 @@ void Dynamics<dim>::update_touches(const double step)
           }
         const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
                                                           touch.zero_distance - now.distance, slip);
+        if (!touch.touching)
+          contact_made = true;
         touch.touching = true;
         touch.distance = now.distance;
         touch.normal = now.normal;
@@ -488,7 +497,10 @@ void Dynamics<dim>::press_walls()
       for (auto& touch : wall_touches[w])
         {
           const double distance = (grains.position[wall.axis][touch.grain] - wall.position) * wall.side;
-          touch.overlap = std::max(0.0, touch.zero_distance - distance);
+          const double overlap = std::max(0.0, touch.zero_distance - distance);
+          if (touch.overlap == 0.0 && overlap > 0.0)
+            contact_made = true;
+          touch.overlap = overlap;
           const double force = wall_stiffness(grains.radius[touch.grain]) * touch.overlap;
           grains.force[wall.axis][touch.grain] += wall.side * force;
           sum += force;
@@ -540,9 +552,8 @@ Energies Dynamics<dim>::energies() const
         {
           const std::size_t k = joints.segment(i, j);
           const double rho = flat_joint::segment_offset(i, joints.n_segments, joints.half_length[j]);
-          sum.strain += flat_joint::normal_response(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
-                                                    joints.slope[j], joints.bonded[k] > 0.5)
-                          .energy;
+          sum.strain += flat_joint::normal_energy(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
+                                                  joints.slope[j], joints.bonded[k] > 0.5);
           sum.strain +=
             0.5 * squared_norm<dim - 1>(joints.shear_stress, k) * face.segment_area() / face.shear_stiffness;
         }

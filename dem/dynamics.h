@@ -5,6 +5,7 @@
 #include "dem/neighbours.h"
 #include "dem/specimen.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -128,7 +129,7 @@ private:
   void press_walls();
   void sum_forces();
   void add_boundary_work(double dt, double share);
-  bool contacts_may_be_missed() const;
+  bool contacts_may_be_missed();
   double touch_stiffness(double radius_1, double radius_2) const;
   double wall_stiffness(double radius) const;
 
@@ -149,8 +150,10 @@ private:
   double skin = 0.0; ///< gap up to which contacts are kept in mind [m]
 
   bool started = false;
-  double dt = 0.0;          ///< [s]
-  double previous_dt = 0.0; ///< [s]
+  std::uint64_t next_look = 0;            ///< step before which no contact can have been missed
+  std::atomic<bool> contact_made = false; ///< since the time step was chosen
+  double dt = 0.0;                        ///< [s]
+  double previous_dt = 0.0;               ///< [s]
   double current_time = 0.0;
   std::uint64_t steps = 0;
 

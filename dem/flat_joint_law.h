@@ -64,10 +64,8 @@ struct SegmentMotion
 template <typename Real>
 struct NormalResponse
 {
-  Real force;       ///< F_n [N], compression positive
-  Real moment;      ///< M_i [N m] about the segment's centroid
-  Real mean_stress; ///< σ̂ = -F_n/A [Pa]
-  Real energy;      ///< stored by the normal stress [J]
+  Real force;  ///< F_n [N], compression positive
+  Real moment; ///< M_i [N m] about the segment's centroid
 };
 
 /// New state, answer and event of one update.
@@ -96,6 +94,24 @@ Real gap_at(const Real& opening, const Real& slope, const Real& offset)
   return opening - slope * offset;
 }
 
+/// The closed part of an unbonded segment, whose gap runs linearly from g_min to g_max.
+template <typename Real>
+struct ClosedPart
+{
+  Real g_min;
+  Real length; ///< h [m]; 0 where the segment is open, ℓ where it is closed
+};
+
+template <typename Real>
+ClosedPart<Real> closed_part(const Face<Real>& face, const Real& gap, const Real& slope)
+{
+  const Real rise = absolute(slope) * face.segment_length; // g_max - g_min
+  const Real g_min = gap - 0.5 * rise;
+  const Real share = -g_min / select(rise > 0.0, rise, Real(1.0));
+  const Real part = select(g_min >= 0.0, Real(0.0), select(gap + 0.5 * rise <= 0.0, Real(1.0), share));
+  return {g_min, part * face.segment_length};
+}
+
 /// Exact integrals of the piecewise linear stress σ = k_n g, which acts where bonded or closed; (7), (10), (11).
 template <typename Real, typename Mask>
 NormalResponse<Real> normal_response(const Face<Real>& face, const Real& gap, const Real& slope, const Mask& bonded)
@@ -103,25 +119,35 @@ NormalResponse<Real> normal_response(const Face<Real>& face, const Real& gap, co
   const Real k_n = face.normal_stiffness;
   const Real l = face.segment_length;
   const double t = face.thickness;
-  const Real rise = absolute(slope) * l; // g_max - g_min over the segment
-  const Real g_min = gap - 0.5 * rise;
-  const Real g_max = gap + 0.5 * rise;
-  const Mask whole = bonded || g_max <= 0.0;
-  const Mask open = !whole && g_min >= 0.0;
+  NormalResponse<Real> response{-k_n * (l * t) * gap, -k_n * (l * l * l * (t / 12.0)) * slope};
+  if (simd::all(bonded))
+    return response;
 
-  const Real h = select(whole || open, l, l * (-g_min / (g_max - g_min))); // closed length
-  const Real partial_force = -0.5 * k_n * t * h * g_min;
-  const Real partial_arm = select(slope < 0.0, -1.0, Real(1.0)) * (0.5 * l - h / 3.0);
-
-  NormalResponse<Real> response;
-  response.force = select(whole, -k_n * (l * t) * gap, select(open, Real(0.0), partial_force));
-  response.moment =
-    select(whole, -k_n * t * slope * (l * l * l) / 12.0, select(open, Real(0.0), -partial_force * partial_arm));
-  response.mean_stress = -response.force / face.segment_area();
-  response.energy =
-    0.5 * k_n * t *
-    select(whole, l * gap * gap + slope * slope * (l * l * l) / 12.0, select(open, Real(0.0), h * g_min * g_min / 3.0));
+  const auto [g_min, h] = closed_part(face, gap, slope);
+  const auto partly = !bonded && h < l;
+  const Real force = -0.5 * k_n * t * h * g_min;
+  const Real arm = select(slope < 0.0, Real(-1.0), Real(1.0)) * (0.5 * l - h * (1.0 / 3.0));
+  response.force = select(partly, force, response.force);
+  response.moment = select(partly, -force * arm, response.moment);
   return response;
+}
+
+/// What the normal stress stores [J].
+template <typename Real, typename Mask>
+Real normal_energy(const Face<Real>& face, const Real& gap, const Real& slope, const Mask& bonded)
+{
+  const Real l = face.segment_length;
+  const auto [g_min, h] = closed_part(face, gap, slope);
+  const Real whole = l * gap * gap + slope * slope * (l * l * l * (1.0 / 12.0));
+  const Real part = h * g_min * g_min * (1.0 / 3.0);
+  return 0.5 * face.normal_stiffness * face.thickness * select(!bonded && h < l, part, whole);
+}
+
+/// σ̂ = -F_n/A [Pa], tension positive.
+template <typename Real>
+Real mean_stress(const Face<Real>& face, const NormalResponse<Real>& normal)
+{
+  return -normal.force / face.segment_area();
 }
 
 /// Share of a step, 0 … 1, in which the centroid gap is negative when it moves linearly; only then does an unbonded
@@ -154,52 +180,63 @@ SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, 
                                 const SegmentMotion<dim, Real>& motion)
 {
   const Real k_s = face.shear_stiffness;
-  const Real area = face.segment_area();
+  const auto unbonded = !old.bonded;
+  const bool some_unbonded = simd::any(unbonded);
   SegmentUpdate<dim, Real> result;
+  result.slip_energy = Real(0.0);
+  result.released_energy = Real(0.0);
 
   // Tension: a bonded segment beyond σ_b breaks.
   const Real bonded_stress = face.normal_stiffness * motion.gap; // (10)
   result.tension_break = old.bonded && bonded_stress > bond.tensile_strength;
 
   // Trial shear (13): the whole increment while bonded, else its closed share.
-  const Real share = select(old.bonded, Real(1.0), closed_share(motion.gap_before, motion.gap));
-  std::array<Real, dim - 1> trial;
+  Real stiffness = k_s;
+  if (some_unbonded)
+    stiffness = select(unbonded, k_s * closed_share(motion.gap_before, motion.gap), k_s);
+  auto& tau = result.state.shear_stress;
   for (int c = 0; c < dim - 1; ++c)
-    trial[c] = old.shear_stress[c] - k_s * share * motion.shear_increment[c];
-  const Real tau = magnitude(trial);
+    tau[c] = old.shear_stress[c] - stiffness * motion.shear_increment[c];
 
   // Shear strength of the bond (15).
   const Real tau_c = larger(Real(0.0), bond.cohesion - bonded_stress * bond.friction_slope);
-  result.shear_break = old.bonded && !result.tension_break && tau > tau_c;
+  result.shear_break = old.bonded && !result.tension_break && magnitude(tau) > tau_c;
 
   const auto broke = result.tension_break || result.shear_break;
   result.state.bonded = old.bonded && !broke;
   result.normal = normal_response(face, motion.gap, motion.slope, result.state.bonded);
 
-  // Friction (14) limits an unbonded segment; a break leaves no shear.
-  const Real limit = face.friction * larger(Real(0.0), -result.normal.mean_stress);
-  const auto slides = !old.bonded && tau > limit;
-  const Real kept = select(broke, Real(0.0), select(slides, limit / select(slides, tau, Real(1.0)), Real(1.0)));
-  for (int c = 0; c < dim - 1; ++c)
-    result.state.shear_stress[c] = kept * trial[c];
-
-  // Slip over the step, by the same trapezoid as the work of the contact force; what a break lets go at once.
-  Real slip_work(0.0);
-  Real shear_squared(0.0);
-  for (int c = 0; c < dim - 1; ++c)
+  // Friction (14) limits an unbonded segment.
+  if (some_unbonded)
     {
-      slip_work +=
-        0.5 * (old.shear_stress[c] + result.state.shear_stress[c]) * (trial[c] - result.state.shear_stress[c]);
-      const Real shear = select(result.tension_break, old.shear_stress[c], trial[c]);
-      shear_squared += shear * shear;
+      const Real limit = face.friction * larger(Real(0.0), -mean_stress(face, result.normal));
+      const Real size = magnitude(tau);
+      const auto slides = unbonded && size > limit;
+      const Real kept = select(slides, limit / select(slides, size, Real(1.0)), Real(1.0));
+      // Slip under the mean of the stresses before and after: the trapezoid by which the contact does its work.
+      Real slip_work(0.0);
+      for (int c = 0; c < dim - 1; ++c)
+        {
+          const Real trial = tau[c];
+          tau[c] = kept * trial;
+          slip_work += 0.5 * (old.shear_stress[c] + tau[c]) * (trial - tau[c]);
+        }
+      result.slip_energy = select(slides, slip_work * face.segment_area() / k_s, Real(0.0));
     }
-  result.slip_energy = select(slides, slip_work * area / k_s, Real(0.0));
-  result.released_energy = Real(0.0);
+
+  // A break leaves no shear, and lets go at once what it stored.
   if (simd::any(broke))
     {
-      const Real stored = normal_response(face, motion.gap, motion.slope, old.bonded).energy;
+      Real shear_squared(0.0);
+      for (int c = 0; c < dim - 1; ++c)
+        {
+          shear_squared += old.shear_stress[c] * tau[c];
+          tau[c] = select(broke, Real(0.0), tau[c]);
+        }
+      const Real stored =
+        normal_energy(face, motion.gap, motion.slope, old.bonded) + 0.5 * shear_squared * face.segment_area() / k_s;
       result.released_energy =
-        select(broke, stored - result.normal.energy + 0.5 * shear_squared * area / k_s, Real(0.0));
+        select(broke, stored - normal_energy(face, motion.gap, motion.slope, result.state.bonded), Real(0.0));
     }
   return result;
 }

@@ -89,23 +89,14 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
       dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
     }
 
-  // The first overlaps are as large as grains, and let go they would throw grains through the walls: follow the forces
-  // step by step without gathering speed, then let speed come up for a few steps at a time.
-  constexpr unsigned int n_creeps = 200;
-  constexpr unsigned int n_calmings = 100;
-  constexpr unsigned int steps_between_calmings = 20;
+  // The first overlaps are as large as grains; let go, they would throw grains about: follow the forces step by step
+  // without gathering speed.
+  constexpr unsigned int n_creeps = 300;
   for (unsigned int k = 0; k < n_creeps; ++k)
     {
       dynamics.step();
       dynamics.specimen().grains.stop();
       dynamics.restart();
-    }
-  for (unsigned int k = 0; k < n_calmings; ++k)
-    {
-      for (unsigned int n = 0; n < steps_between_calmings; ++n)
-        dynamics.step();
-      dynamics.specimen().grains.stop();
-      monitor("packing", 0.2 * k / n_calmings);
     }
 
   const double modulus = specimen.particle_contact.modulus;
@@ -117,7 +108,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
       const double ratio = relax(dynamics, equilibrium_tolerance, 4000);
       const double stress = -dynamics.mean_stress().trace() / dim;
       const double error = stress / target - 1.0;
-      monitor("packing", 0.2 + 0.8 * std::exp(-3.0 * std::max(0.0, std::abs(error) - stress_tolerance)));
+      monitor("packing", std::exp(-3.0 * std::max(0.0, std::abs(error) - stress_tolerance)));
       if (std::abs(error) <= stress_tolerance && ratio <= equilibrium_tolerance)
         {
           specimen.report.packing_stress = stress;

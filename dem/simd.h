@@ -29,6 +29,9 @@ inline Pack select(const PackMask& condition, const Pack& yes, const Pack& no)
 inline bool any(const bool condition) { return condition; }
 inline bool any(const PackMask& condition) { return std::experimental::any_of(condition); }
 
+inline bool all(const bool condition) { return condition; }
+inline bool all(const PackMask& condition) { return std::experimental::all_of(condition); }
+
 inline bool lane(const bool condition, std::size_t) { return condition; }
 inline bool lane(const PackMask& condition, const std::size_t i) { return condition[i]; }
 inline double lane(const double value, std::size_t) { return value; }

@@ -1,0 +1,184 @@
+// The laboratory as a user runs it, on small specimens.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Some three hundred grains; both tests take a second.
+const std::string small_rock = R"(subsection Specimen
+  set Width = 20 mm
+  set Height = 40 mm
+end
+subsection Tests
+  set Stop stress over peak = 0.7
+end
+subsection Seeds
+  set Seeds = 3, 4
+end
+)";
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
+
+/// What depends on the machine and not on the physics.
+nlohmann::json without_times(nlohmann::json json)
+{
+  json.erase("host");
+  json.erase("ensemble");
+  for (auto& test : json["tests"])
+    test.erase("wall_time_s");
+  return json;
+}
+
+TEST(Lab, WritesWhatItPromises)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", small_rock);
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.error, "");
+  const fs::path results = folder.path() / "rock-results-001";
+  for (const char* file :
+       {"summary.json", "cracks.csv", "log.txt", "specimen_seed_3.h5", "specimen_seed_4.h5",
+        "curves/direct_tension_seed_3.csv", "curves/uniaxial_compression_seed_4.csv", "figures/overview.png",
+        "figures/direct_tension_seed_3_stress_strain.png", "figures/direct_tension_seed_3_stress_strain.svg",
+        "figures/uniaxial_compression_seed_4_cracks.png"})
+    EXPECT_GT(fs::file_size(results / file), 100u) << file;
+  // The last line names the folder, for the eye and for scripts.
+  EXPECT_TRUE(outcome.output.ends_with("rock-results-001\n")) << outcome.output;
+
+  const auto json = summary(results);
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "20 mm");
+  ASSERT_EQ(json["tests"].size(), 4u);
+  const auto& test = json["tests"][0];
+  EXPECT_EQ(test["kind"], "direct_tension");
+  EXPECT_EQ(test["seed"], 3);
+  for (const char* key : {"confining_pressure_Pa",
+                          "peak_stress_Pa",
+                          "strain_at_peak",
+                          "youngs_modulus_initial_Pa",
+                          "youngs_modulus_tangent_Pa",
+                          "youngs_modulus_secant_Pa",
+                          "poissons_ratio_initial",
+                          "poissons_ratio_secant",
+                          "crack_initiation_stress_Pa",
+                          "n_tension_cracks",
+                          "n_shear_cracks",
+                          "n_tension_cracks_at_peak",
+                          "n_shear_cracks_at_peak",
+                          "n_grains",
+                          "n_joints",
+                          "coordination_number",
+                          "coordination_number_core",
+                          "installation_gap_ratio",
+                          "porosity",
+                          "energy_imbalance",
+                          "kinetic_to_strain_energy",
+                          "steps",
+                          "wall_time_s"})
+    EXPECT_TRUE(test.contains(key) && (test[key].is_number() || test.contains(std::string(key) + "_reason"))) << key;
+  EXPECT_TRUE(test["servo_error"].is_null());
+  EXPECT_FALSE(test["servo_error_reason"].get<std::string>().empty());
+  EXPECT_EQ(json["ensemble"]["direct_tension"]["peak_stress_Pa"]["n"], 2);
+
+  // Cracks are counted once: in the summary and row by row.
+  const std::string cracks = content(results / "cracks.csv");
+  std::size_t n_rows = 0;
+  for (const char c : cracks)
+    n_rows += c == '\n';
+  std::size_t n_cracks = 0;
+  for (const auto& one : json["tests"])
+    n_cracks += one["n_tension_cracks"].get<std::size_t>() + one["n_shear_cracks"].get<std::size_t>();
+  EXPECT_EQ(n_rows, n_cracks + 1);
+
+  // A second run goes beside the first.
+  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --quiet").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "rock-results-002" / "summary.json"));
+}
+
+TEST(Lab, GivesTheSameBitsForAnyNumberOfThreadsAndAnyLocale)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", small_rock);
+  make_german_locale(folder.path());
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output one --threads 1 --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output two --threads 2 --quiet",
+                         "LOCPATH=" + folder.path().string() + " LC_ALL=de_DE.UTF-8")
+              .exit_code,
+            0);
+  EXPECT_EQ(without_times(summary(folder.path() / "one")), without_times(summary(folder.path() / "two")));
+  for (const char* file : {"cracks.csv", "curves/direct_tension_seed_3.csv", "curves/uniaxial_compression_seed_4.csv"})
+    EXPECT_EQ(content(folder.path() / "one" / file), content(folder.path() / "two" / file)) << file;
+}
+
+TEST(Lab, TestsASpecimenMadeBefore)
+{
+  const TemporaryFolder folder;
+  std::string rock = small_rock;
+  rock.replace(rock.find("3, 4"), 4, "3");
+  folder.write("rock.prm", rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen rock.prm --output made").exit_code, 0);
+  rock.insert(rock.find("  set Width"), "  set Specimen file = made/specimen.h5\n");
+  folder.write("again.prm", rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output fresh --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab again.prm --output again --quiet").exit_code, 0);
+  EXPECT_EQ(content(folder.path() / "fresh/cracks.csv"), content(folder.path() / "again/cracks.csv"));
+}
+
+TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
+{
+  const TemporaryFolder folder;
+  folder.write("broken.h5", "no specimen");
+  folder.write("packing.txt", "0.01 0.01 0.001\n0.011 0.01 0.001\n");
+  const auto refused = [&](const std::string& more, const std::string& expected) {
+    folder.write("rock.prm", small_rock + more);
+    for (const char* command : {"lab", "specimen"})
+      {
+        const auto outcome = run_feldspar(folder.path(), std::string(command) + " rock.prm");
+        EXPECT_EQ(outcome.exit_code, 2) << more;
+        EXPECT_NE(outcome.error.find(expected), std::string::npos) << outcome.error;
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+        EXPECT_FALSE(fs::exists(folder.path() / "rock-results-001")) << more;
+      }
+  };
+  refused("subsection Flat joint\n  set Coordination number = 9\nend\n", "this packing allows");
+  refused("subsection Flat joint\n  set Coordination number = 1\nend\n", "this packing allows");
+  refused("subsection Specimen\n  set Specimen file = broken.h5\nend\n", "broken.h5: not an HDF5 file");
+  refused("subsection Specimen\n  set Packing file = packing.txt\nend\n", "packing.txt:2: overlaps");
+}
+
+TEST(Lab, EndsCleanlyOnInterrupt)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", small_rock);
+  // The full specimen takes longer than the second before the signal.
+  folder.write("large.prm", "subsection Tests\n  set List = uniaxial_compression\nend\n");
+  const auto outcome = run_feldspar(folder.path(), "lab large.prm", "timeout --signal=INT --preserve-status 4");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.error.find("interrupted"), std::string::npos) << outcome.error;
+  const auto json = summary(folder.path() / "large-results-001");
+  ASSERT_EQ(json["tests"].size(), 1u);
+  EXPECT_EQ(json["tests"][0]["interrupted"], true);
+  EXPECT_EQ(json["tests"][0]["peak_stress_Pa_reason"], "interrupted before the peak");
+}
+} // namespace
+} // namespace feldspar::tests
