@@ -83,7 +83,8 @@ std::string curve_plot(const FinishedTest& test)
                                  "set xtics autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
                                  "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
                                  "set border 11\n"
-                                 "set key at graph 0.03, graph 0.97 left top Left reverse samplen 2\n",
+                                 "set bmargin 6\n"
+                                 "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
                                  title(test.record.kind), test.record.seed);
   const std::string data = block("curve", test);
   text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
@@ -103,9 +104,10 @@ std::string map_plot(const FinishedTest& test)
                                  "set xlabel 'x [mm]'; set ylabel 'y [mm]'\n"
                                  "set xtics 10 nomirror; set ytics 10 nomirror; set border 3\n"
                                  "set xrange [{}:{}]; set yrange [{}:{}]\n"
-                                 "set key below vertical maxrows 4 samplen 2\n",
-                                 title(test.record.kind), test.record.seed, -0.04 * size[0] / milli,
-                                 1.04 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
+                                 "set bmargin 6\n"
+                                 "set key outside bottom center horizontal maxcols 2 Left reverse samplen 2 width 1\n",
+                                 title(test.record.kind), test.record.seed, -0.08 * size[0] / milli,
+                                 1.08 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
   const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
   text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'largest fragment'",
@@ -198,7 +200,7 @@ DrawnFigures draw_figures(const std::vector<FinishedTest>& tests, const std::fil
         plots += curve_plot(test) + map_plot(test);
         n_panels += 2;
       }
-  draw({"overview", {{".png", fmt::format("pngcairo size {},760", 480 * n_panels)}}}, data,
+  draw({"overview", {{".png", fmt::format("pngcairo size {},760", 580 * n_panels)}}}, data,
        fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", n_panels, plots));
   return drawn;
 }

@@ -69,30 +69,26 @@ TEST_P(Beishan, InTension)
   EXPECT_GT(right, 0.046);
 }
 
-TEST_P(Beishan, InCompression)
-{
-  const auto results = evaluate(test(TestKind::uniaxial_compression, GetParam()));
-  EXPECT_GT(*results.peak_stress.value, 125e6); // the independent program
-  EXPECT_LT(*results.peak_stress.value, 185e6);
-  // The modulus is stiffest where no segment has broken. The independent program: 69 to 74 GPa; single specimens of
-  // this one scatter by 1.5 GPa (ten seeds), so a specimen may stand one deviation outside.
-  EXPECT_GT(*results.youngs_modulus_initial.value, 67.5e9);
-  EXPECT_LT(*results.youngs_modulus_initial.value, 75.5e9);
-  EXPECT_GT(*results.poissons_ratio_initial.value, 0.07);
-  EXPECT_LT(*results.poissons_ratio_initial.value, 0.10);
-  EXPECT_GT(results.n_tension_cracks, 20 * results.n_shear_cracks); // paper: tensile cracks dominate
-  EXPECT_LT(results.energy_imbalance, 0.01);
-}
-
 INSTANTIATE_TEST_SUITE_P(ThreeSeeds, Beishan, testing::Values(1, 2, 3));
 
-TEST(BeishanModulus, IsThatOfTheIndependentProgramInTheMean)
+TEST(BeishanInCompression, OverThreeSeeds)
 {
-  double mean = 0.0;
+  double mean_modulus = 0.0;
   for (const std::uint64_t seed : {1, 2, 3})
-    mean += *evaluate(test(TestKind::uniaxial_compression, seed)).youngs_modulus_initial.value / 3.0;
-  EXPECT_GT(mean, 69e9);
-  EXPECT_LT(mean, 74e9);
+    {
+      SCOPED_TRACE(seed);
+      const auto results = evaluate(test(TestKind::uniaxial_compression, seed));
+      EXPECT_GT(*results.peak_stress.value, 125e6); // the independent program
+      EXPECT_LT(*results.peak_stress.value, 185e6);
+      EXPECT_GT(*results.poissons_ratio_initial.value, 0.07);
+      EXPECT_LT(*results.poissons_ratio_initial.value, 0.10);
+      EXPECT_GT(results.n_tension_cracks, 20 * results.n_shear_cracks); // paper: tensile cracks dominate
+      EXPECT_LT(results.energy_imbalance, 0.01);
+      mean_modulus += *results.youngs_modulus_initial.value / 3.0;
+    }
+  // The independent program; single specimens scatter by 1.5 GPa, so this is claimed of the mean.
+  EXPECT_GT(mean_modulus, 69e9);
+  EXPECT_LT(mean_modulus, 74e9);
 }
 
 TEST(BeishanVariant, OneSegmentIsMoreThanTwiceAsStrongInCompression)
