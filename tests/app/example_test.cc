@@ -1,5 +1,8 @@
 // The figures in the READMEs of the examples are those of the committed results.
 
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -54,6 +57,21 @@ TEST(Example, TheReadmeShowsTheCommittedResults)
           const std::string row = fmt::format("\n| {} | {:.{}f} |", name, test[key].get<double>() / scale, decimals);
           EXPECT_NE(readme.find(row), std::string::npos) << "missing:" << row;
         }
+}
+
+TEST(Documentation, ParametersAreThoseOfTheCommand)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(content(std::string(FELDSPAR_SOURCE_DIR) + "/docs/parameters.md"),
+            run_feldspar(folder.path(), "parameters --markdown").output)
+    << "write it anew: feldspar parameters --markdown > docs/parameters.md";
+}
+
+TEST(Example, TheInputIsComplete)
+{
+  const TemporaryFolder folder;
+  const auto outcome = run_feldspar(folder.path(), "parameters --check '" + example + "beishan.prm'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
 }
 } // namespace
 } // namespace feldspar::tests
