@@ -15,7 +15,7 @@ build_packages=(
   g++ cmake ninja-build git ca-certificates
   libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
   libdeal.ii-dev petsc-dev
-  libcli11-dev nlohmann-json3-dev libudunits2-dev
+  libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev
   gnuplot-nox fonts-dejavu-core
 )
 test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales)

@@ -18,6 +18,7 @@ inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 struct CommonOptions
 {
   std::filesystem::path input;
+  std::optional<std::filesystem::path> resume; ///< of `lab`: the folder of a run to be taken up
   std::optional<std::filesystem::path> output;
   bool force = false;
   bool quiet = false;

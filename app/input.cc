@@ -138,13 +138,32 @@ void check_fractions(const Input& input, const GivenValues& values)
                                    values.value("Flat joint", "Gapped fraction")));
 }
 
+void check_variants(const Input& input, const GivenValues& values)
+{
+  if (input.variant_entry.empty() != input.variant_values.empty())
+    throw values.error("Variants", input.variant_entry.empty() ? "Entry" : "Values",
+                       "Entry and Values go together: name both, or neither");
+  try
+    {
+      variants(input);
+    }
+  catch (const InputError& error)
+    {
+      throw values.error("Variants", "Values", error.what());
+    }
+}
+
 void check_specimen(const Input& input, const GivenValues& values)
 {
   const SpecimenParameters& specimen = input.specimen;
   if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
     throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
-    return; // which bring their own radii
+    {
+      if (!specimen.specimen_file.empty() && (input.seeds.size() > 1 || !input.variant_entry.empty()))
+        throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
+      return; // files bring their own radii
+    }
   const double least = 4.0 * specimen.minimum_radius * specimen.radius_ratio;
   const std::string demand =
     fmt::format("must be at least {}, or there is no room for two grains of the largest radius",
@@ -156,7 +175,23 @@ void check_specimen(const Input& input, const GivenValues& values)
 }
 } // namespace
 
-Input read_input(const std::filesystem::path& file)
+std::vector<Variant> variants(const Input& input)
+{
+  if (input.variant_entry.empty())
+    return {{"", input}};
+  const std::size_t slash = input.variant_entry.find('/');
+  const Parameter& parameter =
+    *find_parameter(input.variant_entry.substr(0, slash), input.variant_entry.substr(slash + 1));
+  std::vector<Variant> result;
+  for (const std::string& value : input.variant_values)
+    {
+      result.push_back({fmt::format("{} = {}", input.variant_entry, value), input});
+      parameter.read(result.back().input, value);
+    }
+  return result;
+}
+
+Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder)
 {
   const std::string text = read_text(file);
   if (file.extension() != ".prm" && file.extension() != ".json")
@@ -164,7 +199,7 @@ Input read_input(const std::filesystem::path& file)
   const GivenValues values(file, text);
 
   Input input;
-  input.folder = file.parent_path();
+  input.folder = folder.empty() ? file.parent_path() : folder;
   for (const GivenEntry& given : values.entries())
     try
       {
@@ -176,7 +211,9 @@ Input read_input(const std::filesystem::path& file)
       }
   settle_installation(input, values);
   check_fractions(input, values);
-  check_specimen(input, values);
+  check_variants(input, values);
+  for (const Variant& variant : variants(input))
+    check_specimen(variant.input, values);
   return input;
 }
 } // namespace feldspar

@@ -28,11 +28,26 @@ struct Input
   DynamicsParameters dynamics;
   std::vector<TestKind> test_list{TestKind::direct_tension, TestKind::uniaxial_compression};
   TestParameters tests;
+  std::vector<double> confinements{5e6, 10e6, 20e6, 30e6, 40e6, 50e6, 60e6}; ///< of triaxial tests [Pa]
+  std::uint64_t steps_between_checkpoints = 20000;
   std::vector<std::uint64_t> seeds{1};
+  std::string variant_entry;               ///< Section/Entry; empty: no variants
+  std::vector<std::string> variant_values; ///< as they would stand in an input file
   ContactParameters contact;
   std::string reference_file; ///< figures of the rock that results are set beside; empty: none
 };
 
+/// The same input but for one entry.
+struct Variant
+{
+  std::string label; ///< Section/Entry = value; empty where there are no variants
+  Input input;
+};
+
 /// Reads and checks a .prm or .json file. A mistake in it throws InputError, one line with file, line and entry.
-Input read_input(const std::filesystem::path& file);
+/// folder: what relative paths in it are relative to; its own folder if empty.
+Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {});
+
+/// One for each value of the variants' entry, or the input itself.
+std::vector<Variant> variants(const Input& input);
 } // namespace feldspar

@@ -29,7 +29,11 @@ public:
   {
     app.set_version_flag("--version", fmt::format("feldspar {}", version));
     app.require_subcommand(0, 1);
-    add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab);
+    CLI::App& lab = add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab);
+    CLI::Option* const resume =
+      lab.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")->type_name("DIR");
+    lab.get_option("INPUT")->required(false)->excludes(resume);
+    lab.get_option("--output")->excludes(resume);
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_parameters();
@@ -59,7 +63,7 @@ public:
   }
 
 private:
-  void add_run(const std::string& name, const std::string& description, int (*run_command)(const CommonOptions&))
+  CLI::App& add_run(const std::string& name, const std::string& description, int (*run_command)(const CommonOptions&))
   {
     CLI::App& command = *app.add_subcommand(name, description);
     command.add_option("INPUT", common.input, "parameter file, .prm or .json")->required();
@@ -71,6 +75,7 @@ private:
       ->check(CLI::Range(1u, 4096u));
     command.add_flag("--quiet", common.quiet, "no progress on standard output");
     command.callback([this, run_command] { chosen = [this, run_command] { return run_command(common); }; });
+    return command;
   }
 
   void add_parameters()

@@ -201,23 +201,6 @@ private:
   }
 };
 
-std::vector<TestKind> read_tests(const std::string_view text)
-{
-  const std::vector<TestKind> known{TestKind::direct_tension, TestKind::uniaxial_compression};
-  std::vector<TestKind> tests;
-  for (const std::string_view piece : split_at_commas(text))
-    {
-      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind k) { return name(k) == piece; });
-      if (kind == known.end())
-        throw InputError(
-          fmt::format("\"{}\" is not a test; list one or more of {}, {}", piece, name(known[0]), name(known[1])));
-      if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
-        throw InputError(fmt::format("{} is listed twice", piece));
-      tests.push_back(*kind);
-    }
-  return tests;
-}
-
 std::string write_tests(const std::vector<TestKind>& tests)
 {
   std::vector<std::string> names;
@@ -225,6 +208,72 @@ std::string write_tests(const std::vector<TestKind>& tests)
   for (const TestKind kind : tests)
     names.push_back(name(kind));
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<TestKind> read_tests(const std::string_view text)
+{
+  const std::vector<TestKind> known{TestKind::direct_tension, TestKind::uniaxial_compression,
+                                    TestKind::triaxial_compression, TestKind::brazilian};
+  std::vector<TestKind> tests;
+  for (const std::string_view piece : split_at_commas(text))
+    {
+      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind k) { return name(k) == piece; });
+      if (kind == known.end())
+        throw InputError(fmt::format("\"{}\" is not a test; list one or more of {}", piece, write_tests(known)));
+      if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
+        throw InputError(fmt::format("{} is listed twice", piece));
+      tests.push_back(*kind);
+    }
+  return tests;
+}
+
+std::vector<double> read_confinements(const std::string_view text)
+{
+  const std::vector<double> pressures = parse_quantities(text, stress);
+  for (auto p = pressures.begin(); p != pressures.end(); ++p)
+    {
+      if (*p <= 0.0)
+        throw InputError("must be > 0 MPa each; without confinement it is uniaxial_compression");
+      if (std::find(pressures.begin(), p, *p) != p)
+        throw InputError(fmt::format("{} is given twice", format_quantity(*p, "MPa", stress)));
+    }
+  return pressures;
+}
+
+std::string write_confinements(const std::vector<double>& pressures)
+{
+  std::string text;
+  for (const double p : pressures)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", format_number(p / 1e6));
+  return text + " MPa";
+}
+
+/// Any entry of a number or a choice; a list of lists, or of files, would not be understood.
+std::string read_variant_entry(const std::string_view text)
+{
+  if (text == none)
+    return "";
+  const std::size_t slash = text.find('/');
+  const Parameter* parameter =
+    slash == std::string_view::npos ? nullptr : find_parameter(text.substr(0, slash), text.substr(slash + 1));
+  if (parameter == nullptr || parameter->section == "Variants" || parameter->section == "Seeds")
+    throw InputError("is not an entry that can vary; write Section/Entry, e.g. Flat joint/Segments");
+  return std::string(text);
+}
+
+std::vector<std::string> read_variant_values(std::string_view text)
+{
+  std::vector<std::string> values;
+  if (text == none)
+    return values;
+  for (;;)
+    {
+      const std::size_t semicolon = text.find(';');
+      values.emplace_back(trim(text.substr(0, semicolon)));
+      if (semicolon == std::string_view::npos)
+        return values;
+      text.remove_prefix(semicolon + 1);
+    }
 }
 
 std::vector<std::uint64_t> read_seeds(const std::string_view text)
@@ -327,15 +376,26 @@ std::vector<Parameter> make_parameter_table()
     dynamics.number("Time step safety", &D::time_step_safety, {'(', 0.0, 1.0, ']'},
                     "time step over the least root of mass over stiffness"),
 
-    {"Tests", "List", "", "direct_tension, uniaxial_compression", "the tests to be made, separated by commas",
+    {"Tests", "List", "", "direct_tension, uniaxial_compression, triaxial_compression, brazilian",
+     "the tests to be made, separated by commas",
      [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
      [](const Input& input) { return write_tests(input.test_list); }},
+    {"Tests", "Confinements", "MPa", "> 0 MPa each", "pressures of the triaxial tests, separated by commas",
+     [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
+     [](const Input& input) { return write_confinements(input.confinements); }},
     tests.quantity("Compression strain rate", &T::compression_strain_rate, rate, "1/s", above_zero, "magnitude"),
     tests.quantity("Tension strain rate", &T::tension_strain_rate, rate, "1/s", above_zero, "magnitude"),
+    tests.quantity("Brazilian strain rate", &T::brazilian_strain_rate, rate, "1/s", above_zero,
+                   "of the loaded diameter; magnitude"),
     tests.number("Compression sampling strain", &T::compression_sampling_strain, above_zero,
                  "axial strain between two rows of the curve"),
     tests.number("Tension sampling strain", &T::tension_sampling_strain, above_zero,
                  "axial strain between two rows of the curve"),
+    tests.number("Brazilian sampling strain", &T::brazilian_sampling_strain, above_zero,
+                 "strain of the diameter between two rows of the curve"),
+    tests.number("Platen friction", &T::platen_friction, from_zero, "coefficient of the platens in compression"),
+    tests.number("Seating transits", &T::seating_transits, above_zero,
+                 "travel times of a wave along the specimen over which the confinement is raised"),
     tests.number("Grip ratio", &T::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen"),
     tests.number("Stop strain over peak strain", &T::stop_strain_over_peak_strain, {'(', 1.0, infinity, ')'},
                  "a test stops at this many times its strain at peak"),
@@ -343,6 +403,24 @@ std::vector<Parameter> make_parameter_table()
                           "a test stops at this axial strain, whatever its curve"),
     tests.optional_number("Stop stress over peak", &T::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},
                           "a test stops when its stress has fallen to this share of the peak"),
+
+    {"Tests", "Steps between checkpoints", "", "integer > 0", "after which `lab --resume` can take up a test",
+     [](Input& input, const std::string_view text) {
+       input.steps_between_checkpoints = parse_count(text);
+       if (input.steps_between_checkpoints == 0)
+         throw InputError("must be an integer > 0");
+     },
+     [](const Input& input) { return std::to_string(input.steps_between_checkpoints); }},
+
+    {"Variants", "Entry", "", "none, or Section/Entry", "an entry that takes one value after the other",
+     [](Input& input, const std::string_view text) { input.variant_entry = read_variant_entry(text); },
+     [](const Input& input) { return input.variant_entry.empty() ? std::string(none) : input.variant_entry; }},
+    {"Variants", "Values", "", "none, or values of that entry", "each of them, separated by semicolons",
+     [](Input& input, const std::string_view text) { input.variant_values = read_variant_values(text); },
+     [](const Input& input) {
+       return input.variant_values.empty() ? std::string(none)
+                                           : fmt::format("{}", fmt::join(input.variant_values, "; "));
+     }},
 
     {"Seeds", "Seeds", "", "non-negative integers and ranges, such as 1, 5..7", "one specimen for each seed",
      [](Input& input, const std::string_view text) { input.seeds = read_seeds(text); },

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -46,10 +47,10 @@ void Progress::start(const std::string_view new_title)
   title = new_title;
   started = Clock::now();
   drawn = started;
-  draw(fmt::format("{} ...", title), false);
+  draw({fmt::format("{} ...", title)}, false);
 }
 
-void Progress::update(const double fraction, const std::string_view text)
+void Progress::update(const double fraction, const std::string_view text, const std::vector<ProgressDetail>& details)
 {
   const auto now = Clock::now();
   if (is_quiet || now - drawn < (on_terminal ? 100ms : 5000ms))
@@ -61,22 +62,36 @@ void Progress::update(const double fraction, const std::string_view text)
   if (fraction >= 0.001) // before that the guess is worth nothing
     line += fmt::format("{} left, ", clock_text((now - started) * ((1.0 - fraction) / fraction)));
   line += text;
-  draw(line, false);
+  std::vector<std::string> lines{line};
+  for (const auto& detail : details)
+    lines.push_back(
+      fmt::format("  {}{}", on_terminal ? bar(std::isnan(detail.fraction) ? 0.0 : detail.fraction) : "", detail.text));
+  draw(lines, false);
 }
 
 void Progress::finish(const std::string_view text)
 {
-  draw(fmt::format("{}: {} ({})", title, text, clock_text(Clock::now() - started)), true);
+  draw({fmt::format("{}: {} ({})", title, text, clock_text(Clock::now() - started))}, true);
 }
 
-void Progress::draw(const std::string& line, const bool last) const
+void Progress::draw(const std::vector<std::string>& lines, const bool last)
 {
   if (is_quiet)
     return;
-  if (on_terminal)
-    fmt::print("\r\x1b[K{}{}", last ? line : line.substr(0, terminal_width() - 1), last ? "\n" : "");
+  if (!on_terminal)
+    fmt::print("{}\n", fmt::join(lines, "\n"));
   else
-    fmt::print("{}\n", line);
+    {
+      // Back to the first line of the last drawing, and clear from there down.
+      if (n_lines_above > 0)
+        fmt::print("\x1b[{}A", n_lines_above);
+      fmt::print("\r\x1b[J");
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        fmt::print("{}{}", k > 0 ? "\n" : "", lines[k].substr(0, terminal_width() - 1));
+      if (last)
+        fmt::print("\n");
+      n_lines_above = last ? 0 : lines.size() - 1;
+    }
   std::fflush(stdout);
 }
 } // namespace feldspar

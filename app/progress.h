@@ -3,9 +3,17 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace feldspar
 {
+/// One of several things that run at the same time.
+struct ProgressDetail
+{
+  double fraction; ///< NaN where it cannot be known
+  std::string text;
+};
+
 /// Says how a run goes, on standard output: on a terminal one line that is drawn again and again, on a pipe a plain
 /// line now and then.
 class Progress
@@ -17,19 +25,21 @@ public:
   void start(std::string_view title);
 
   /// fraction: how much of it is done, 0 … 1; NaN where that cannot be known. May be called as often as is handy.
-  void update(double fraction, std::string_view text);
+  /// details: a line each below the first, for what runs at the same time.
+  void update(double fraction, std::string_view text, const std::vector<ProgressDetail>& details = {});
 
   void finish(std::string_view text);
 
 private:
   using Clock = std::chrono::steady_clock;
 
-  void draw(const std::string& line, bool last) const;
+  void draw(const std::vector<std::string>& lines, bool last);
 
   const bool is_quiet;
   const bool on_terminal;
   std::string title;
   Clock::time_point started;
   Clock::time_point drawn;
+  std::size_t n_lines_above = 0; ///< of the last drawing, above the cursor
 };
 } // namespace feldspar

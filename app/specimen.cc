@@ -4,7 +4,6 @@
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/specimen_source.h"
-#include "dem/specimen_file.h"
 
 #include <fmt/format.h>
 
@@ -17,14 +16,14 @@ int run_specimen(const CommonOptions& options)
   Progress progress(options.quiet);
   watch_for_interrupt();
 
-  const auto specimens = provide_specimens<2>(input, progress);
-  for (const auto& specimen : specimens)
+  const auto all_variants = variants(input);
+  const auto orders = specimen_orders(all_variants);
+  const auto specimens = provide_specimens<2>(all_variants, orders, folder.path(), progress);
+  for (std::size_t k = 0; k < orders.size(); ++k)
     {
-      const auto file = folder.path() / specimen_file_name(specimen.seed, specimens.size());
-      write_specimen(specimen, file);
       if (!options.quiet)
-        fmt::print("\nSeed {}\n{}", specimen.seed, describe(specimen.report));
-      fmt::print("{}\n", file.string());
+        fmt::print("\nSeed {}\n{}", specimens[k].seed, describe(specimens[k].report));
+      fmt::print("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
     }
   return 0;
 }

@@ -8,23 +8,36 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <mutex>
 
 namespace feldspar
 {
-template <int dim>
-std::vector<Specimen<dim>> provide_specimens(const Input& input, Progress& progress)
+std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
 {
-  if (!input.specimen.specimen_file.empty())
-    return {read_specimen<dim>(input.specimen.specimen_file)};
+  std::vector<SpecimenOrder> orders;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    for (const std::uint64_t seed : variants[v].input.seeds)
+      {
+        std::string name = "specimen";
+        if (variants.size() > 1)
+          name += fmt::format("_variant_{}", v + 1);
+        if (variants[v].input.seeds.size() > 1)
+          name += fmt::format("_seed_{}", seed);
+        orders.push_back({v, seed, name});
+      }
+  return orders;
+}
 
-  std::vector<Specimen<dim>> specimens(input.seeds.size());
-  std::vector<double> done(input.seeds.size(), 0.0);
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variants,
+                                             const std::vector<SpecimenOrder>& orders,
+                                             const std::filesystem::path& folder, Progress& progress)
+{
+  std::vector<Specimen<dim>> specimens(orders.size());
+  std::vector<double> done(orders.size(), 0.0);
   std::mutex showing;
   progress.start("genesis");
-  for_each_job(input.seeds.size(), [&](const std::size_t k) {
+  for_each_job(orders.size(), [&](const std::size_t k) {
     const auto monitor = [&](std::string_view, const double fraction) {
       if (interrupted())
         throw Interrupted();
@@ -35,8 +48,18 @@ std::vector<Specimen<dim>> provide_specimens(const Input& input, Progress& progr
         sum += share / double(done.size());
       progress.update(sum, fmt::format("{} specimen(s)", done.size()));
     };
+    const Input& input = variants[orders[k].variant].input;
+    const auto file = folder / (orders[k].name + ".h5");
+    if (std::filesystem::exists(file))
+      {
+        specimens[k] = read_specimen<dim>(file);
+        return;
+      }
     specimens[k] =
-      make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, input.seeds[k], monitor);
+      input.specimen.specimen_file.empty()
+        ? make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, orders[k].seed, monitor)
+        : read_specimen<dim>(input.specimen.specimen_file);
+    write_specimen(specimens[k], file);
   });
   progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
   return specimens;
@@ -58,5 +81,6 @@ std::string describe(const SpecimenReport& report)
                      report.largest_overlap_ratio, report.resolution, report.radius_multiplier);
 }
 
-template std::vector<Specimen<2>> provide_specimens<2>(const Input&, Progress&);
+template std::vector<Specimen<2>> provide_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                       const std::filesystem::path&, Progress&);
 } // namespace feldspar

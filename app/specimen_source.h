@@ -5,6 +5,7 @@
 #include "dem/specimen.h"
 
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,23 @@ struct Interrupted : std::exception
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// One specimen a seed, read from the input's specimen file or made, several at a time; the same whatever the number of
-/// threads. Throws InputError, and Interrupted.
+/// A specimen of a run.
+struct SpecimenOrder
+{
+  std::size_t variant; ///< number among the run's variants
+  std::uint64_t seed;
+  std::string name; ///< of its file without ending: specimen, specimen_seed_3, specimen_variant_2_seed_3
+};
+
+/// One for each variant and seed.
+std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants);
+
+/// Provides the specimens, several at a time, and writes each into the folder; one that is there already, from a run
+/// that was broken off, is read. Throws InputError, and Interrupted.
 template <int dim>
-std::vector<Specimen<dim>> provide_specimens(const Input& input, Progress& progress);
+std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variants,
+                                             const std::vector<SpecimenOrder>& orders,
+                                             const std::filesystem::path& folder, Progress& progress);
 
 /// For a terminal: what genesis has to report.
 std::string describe(const SpecimenReport& report);

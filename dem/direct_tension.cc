@@ -1,13 +1,14 @@
 #include "dem/input_error.h"
-#include "dem/loading.h"
+#include "dem/lab_tests.h"
+#include "dem/platens.h"
 
 #include <fmt/format.h>
 
 namespace feldspar
 {
 template <int dim>
-TestRecord direct_tension(const Specimen<dim>& specimen, const TestParameters& wanted,
-                          const DynamicsParameters& dynamics_wanted, const TestMonitor& monitor)
+SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestParameters& wanted,
+                                     const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -25,20 +26,20 @@ TestRecord direct_tension(const Specimen<dim>& specimen, const TestParameters& w
     throw InputError(fmt::format("Tests/Grip ratio = {}: no grain lies in a grip of {:.3g} m; make it larger",
                                  wanted.grip_ratio, grip_height));
 
-  Dynamics<dim> dynamics(specimen, dynamics_wanted, ZeroForce::as_placed);
-  start_steadily(dynamics, wanted.tension_strain_rate);
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  start_steadily(test.dynamics, wanted.tension_strain_rate);
   const Vector<dim> upwards = grip_speed * Vector<dim>::Unit(axis);
-  const auto lower = dynamics.add_grip(std::move(lower_grains), -upwards);
-  const auto upper = dynamics.add_grip(std::move(upper_grains), upwards);
+  const auto lower = test.dynamics.add_grip(std::move(lower_grains), -upwards);
+  const auto upper = test.dynamics.add_grip(std::move(upper_grains), upwards);
 
-  return load_until_stop<dim>(dynamics,
-                              {TestKind::direct_tension, wanted.tension_strain_rate, wanted.tension_sampling_strain,
-                               [=](const Dynamics<dim>& state) {
-                                 return std::array{state.grip_force(lower)[axis], -state.grip_force(upper)[axis]};
-                               }},
-                              wanted, monitor);
+  test.protocol.strain_rate = wanted.tension_strain_rate;
+  test.protocol.sampling_strain = wanted.tension_sampling_strain;
+  const double area = specimen.volume() / height;
+  test.protocol.stress = [=](const Dynamics<dim>& state) {
+    return BoundaryStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area, 0.0};
+  };
+  return test;
 }
 
-template TestRecord direct_tension<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&,
-                                      const TestMonitor&);
+template SetUpTest<2> set_up_direct_tension<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
 } // namespace feldspar

@@ -2,10 +2,12 @@
 
 #include "dem/contact_motion.h"
 #include "dem/flat_joint_law.h"
+#include "dem/hdf5_archive.h"
 #include "dem/neighbours.h"
 #include "dem/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -102,8 +104,7 @@ void Dynamics<dim>::restart()
 template <int dim>
 void Dynamics<dim>::start()
 {
-  joint_incidence = incidence(
-    body.joints.size(), [&](const std::size_t j) { return GrainPair(body.joints.grain_1[j], body.joints.grain_2[j]); });
+  rebuild_incidence();
   find_contacts();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
   update_contacts(0.0);
@@ -165,6 +166,15 @@ auto Dynamics<dim>::find_touch(const GrainPair& pair)
                           [](const Touch& touch, const GrainPair& wanted) { return touch.ends() < wanted; });
 }
 
+template <int dim>
+void Dynamics<dim>::rebuild_incidence()
+{
+  const auto& joints = body.joints;
+  joint_incidence =
+    incidence(joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); });
+  touch_incidence = incidence(touches.size(), [&](const std::size_t k) { return touches[k].ends(); });
+}
+
 /// A joint loses its faces when nothing holds and they have slid or opened past each other; the pair may touch again.
 template <int dim>
 void Dynamics<dim>::remove_torn_faces()
@@ -187,8 +197,7 @@ void Dynamics<dim>::remove_torn_faces()
   if (kept.size() < joints.size())
     {
       joints.keep(kept);
-      joint_incidence =
-        incidence(joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); });
+      rebuild_incidence();
     }
 }
 
@@ -233,8 +242,7 @@ void Dynamics<dim>::find_contacts()
         slip_energy_of_lost_contacts += touch.slip_energy;
     }
   touches = std::move(found);
-  touch_incidence =
-    incidence(touches.size(), [&](const std::size_t k) { return GrainPair(touches[k].grain_1, touches[k].grain_2); });
+  rebuild_incidence();
 
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     {
@@ -253,6 +261,9 @@ void Dynamics<dim>::find_contacts()
             near.push_back(
               {i, zero_force == ZeroForce::as_placed ? std::min(grains.radius[i], distance) : grains.radius[i]});
         }
+      for (const auto& touch : wall_touches[w])
+        if (std::none_of(near.begin(), near.end(), [&](const WallTouch& kept) { return kept.grain == touch.grain; }))
+          slip_energy_of_lost_contacts += touch.slip_energy;
       wall_touches[w] = std::move(near);
     }
   position_at_search = grains.position;
@@ -382,7 +393,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
   auto breaks = sweep_joints(body.joints, body.grains, step);
   update_touches(step);
   sum_forces();
-  press_walls();
+  press_walls(step);
   return breaks;
 }
 
@@ -432,7 +443,7 @@ void Dynamics<dim>::update_touches(const double step)
         const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
                                                           touch.zero_distance - now.distance, slip);
         if (!touch.touching)
-          contact_made = true;
+          std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
         touch.touching = true;
         touch.distance = now.distance;
         touch.normal = now.normal;
@@ -487,7 +498,7 @@ void Dynamics<dim>::sum_forces()
 }
 
 template <int dim>
-void Dynamics<dim>::press_walls()
+void Dynamics<dim>::press_walls(const double step)
 {
   auto& grains = body.grains;
   for (std::size_t w = 0; w < wall_list.size(); ++w)
@@ -496,17 +507,38 @@ void Dynamics<dim>::press_walls()
       double sum = 0.0;
       for (auto& touch : wall_touches[w])
         {
-          const double distance = (grains.position[wall.axis][touch.grain] - wall.position) * wall.side;
-          const double overlap = std::max(0.0, touch.zero_distance - distance);
+          const std::uint32_t i = touch.grain;
+          const double distance = (grains.position[wall.axis][i] - wall.position) * wall.side;
+          const double k_n = wall_stiffness(grains.radius[i]);
+          const double overlap = touch.zero_distance - distance;
           if (touch.overlap == 0.0 && overlap > 0.0)
             contact_made = true;
-          touch.overlap = overlap;
-          const double force = wall_stiffness(grains.radius[touch.grain]) * touch.overlap;
-          grains.force[wall.axis][touch.grain] += wall.side * force;
-          sum += force;
+          // A grain that begins to touch, or a smooth wall, gathers no shear.
+          std::array<double, dim - 1> slip{};
+          if (wall.friction > 0.0 && touch.overlap > 0.0)
+            slip = slip_on_wall(wall, i, distance, step);
+          const auto response = linear_contact::update<dim>({k_n, k_n / body.particle_contact.stiffness_ratio},
+                                                            wall.friction, touch.shear_force, overlap, slip);
+          touch.overlap = std::max(0.0, overlap);
+          touch.shear_force = response.shear_force;
+          touch.slip_energy += response.slip_energy;
+          grains.force[wall.axis][i] += wall.side * response.normal_force;
+          if (wall.friction > 0.0)
+            add_wall_shear(wall, i, distance, response.shear_force);
+          sum += response.normal_force;
         }
       wall_forces[w] = sum;
     }
+}
+
+template <int dim>
+double Dynamics<dim>::wall_stiffness_in_touch(const std::size_t wall) const
+{
+  double sum = 0.0;
+  for (const auto& touch : wall_touches[wall])
+    if (touch.overlap > 0.0)
+      sum += wall_stiffness(body.grains.radius[touch.grain]);
+  return sum;
 }
 
 template <int dim>
@@ -567,7 +599,13 @@ Energies Dynamics<dim>::energies() const
     }
   for (const auto& list : wall_touches)
     for (const auto& touch : list)
-      sum.strain += 0.5 * wall_stiffness(grains.radius[touch.grain]) * touch.overlap * touch.overlap;
+      {
+        const double k_n = wall_stiffness(grains.radius[touch.grain]);
+        sum.slip += touch.slip_energy;
+        sum.strain += 0.5 * k_n * touch.overlap * touch.overlap;
+        for (const double shear : touch.shear_force)
+          sum.strain += 0.5 * shear * shear / (k_n / body.particle_contact.stiffness_ratio);
+      }
 
   // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
   const double kick = 0.5 * (previous_dt + dt);
@@ -659,5 +697,81 @@ double Dynamics<dim>::faceless_coordination_number() const
   return 2.0 * double(n) / double(body.grains.size());
 }
 
+template <int dim>
+template <typename Archive>
+void Dynamics<dim>::transfer(Archive& archive)
+{
+  auto& grains = body.grains;
+  const auto all_of = [&](const std::string& name, auto& components) {
+    for (std::size_t c = 0; c < components.size(); ++c)
+      archive.array(name + "_" + "xyz"[c], components[c]);
+  };
+  all_of("position", grains.position);
+  all_of("velocity", grains.velocity);
+  all_of("spin", grains.spin);
+  all_of("force", grains.force);
+  all_of("couple", grains.couple);
+  all_of("position_at_search", position_at_search);
+  all_of("position_at_start", position_at_start);
+  archive.array("damping_work", damping_work);
+
+  auto& joints = body.joints;
+  archive.array("grain_1", joints.grain_1);
+  archive.array("grain_2", joints.grain_2);
+  archive.array("number", joints.number);
+  const auto pass = [&](const std::string& name, std::vector<double>& values) { archive.array(name, values); };
+  joints.visit_per_joint(pass);
+  joints.visit_per_segment(pass);
+  all_of("joint_force", joints.force);
+  all_of("joint_couple_1", joints.couple_1);
+  all_of("joint_couple_2", joints.couple_2);
+
+  archive.bytes("touches", touches);
+  archive.bytes("walls", wall_list);
+  archive.array("wall_forces", wall_forces);
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    archive.bytes("wall_touches_" + std::to_string(w), wall_touches[w]);
+
+  std::uint32_t flags =
+    std::uint32_t(started) + 2 * std::uint32_t(contact_made) + 4 * std::uint32_t(zero_force == ZeroForce::as_placed);
+  archive.value("flags", flags);
+  started = flags & 1;
+  contact_made = flags & 2;
+  zero_force = flags & 4 ? ZeroForce::as_placed : ZeroForce::at_touch;
+  archive.value("steps", steps);
+  archive.value("next_look", next_look);
+  archive.value("dt", dt);
+  archive.value("previous_dt", previous_dt);
+  archive.value("current_time", current_time);
+  archive.value("boundary_work", boundary_work);
+  archive.value("released_energy", released_energy);
+  archive.value("strain_energy_at_start", strain_energy_at_start);
+  archive.value("kinetic_energy_at_start", kinetic_energy_at_start);
+  archive.value("slip_energy_of_lost_contacts", slip_energy_of_lost_contacts);
+  rebuild_incidence();
+}
+
+/// The wall is grain 1, without rotation; n points from it to the grain, t = n turned by +90°.
+template <>
+std::array<double, 1> Dynamics<2>::slip_on_wall(const Wall& wall, const std::uint32_t grain, const double distance,
+                                                const double step) const
+{
+  const int along = 1 - wall.axis;
+  const double tangent = wall.axis == 0 ? wall.side : -wall.side; // t = (-n_y, n_x)
+  return {step * (tangent * body.grains.velocity[along][grain] - distance * body.grains.spin[0][grain])};
+}
+
+template <>
+void Dynamics<2>::add_wall_shear(const Wall& wall, const std::uint32_t grain, const double distance,
+                                 const std::array<double, 1>& shear_force)
+{
+  const int along = 1 - wall.axis;
+  const double tangent = wall.axis == 0 ? wall.side : -wall.side;
+  body.grains.force[along][grain] += tangent * shear_force[0];
+  body.grains.couple[0][grain] -= distance * shear_force[0];
+}
+
 template class Dynamics<2>;
+template void Dynamics<2>::transfer(Hdf5Writer&);
+template void Dynamics<2>::transfer(Hdf5Reader&);
 } // namespace feldspar

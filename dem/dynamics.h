@@ -5,19 +5,20 @@
 #include "dem/neighbours.h"
 #include "dem/specimen.h"
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
 namespace feldspar
 {
-/// A frictionless rigid plane across one axis, on which grains lie from one side.
+/// A rigid plane across one axis, on which grains lie from one side.
 struct Wall
 {
   int axis = 0;
   double side = 1.0;     ///< +1: grains lie towards larger coordinates, -1: towards smaller ones
   double position = 0.0; ///< [m]
   double velocity = 0.0; ///< along the axis [m/s]
+  double friction = 0.0;
+  double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
 };
 
 /// Where a contact without a face begins to press.
@@ -57,6 +58,10 @@ public:
   double time_step() const { return dt; }
   std::uint64_t n_steps() const { return steps; }
 
+  Wall& wall(const std::size_t i) { return wall_list[i]; }
+  /// Sum of the normal stiffnesses of a wall's pressing contacts [N/m].
+  double wall_stiffness_in_touch(std::size_t wall) const;
+
   /// Sum of the grains' pressure on a wall [N], compression positive.
   double wall_force(std::size_t wall) const { return wall_forces[wall]; }
   /// Sum of contact forces on a grip's grains [N].
@@ -72,6 +77,11 @@ public:
   double force_across(double height) const;
   /// Contacts without a face that press, twice their number over that of grains.
   double faceless_coordination_number() const;
+
+  /// All that the next step depends on, for an archive with value(), array() and bytes(); the specimen's sizes, the
+  /// walls and the grips are those of the same test set up anew.
+  template <typename Archive>
+  void transfer(Archive& archive);
 
 private:
   /// Two grains near each other and without a face.
@@ -100,6 +110,8 @@ private:
     std::uint32_t grain;
     double zero_distance; ///< distance from the wall below which it presses [m]
     double overlap = 0.0; ///< [m]
+    std::array<double, dim - 1> shear_force{};
+    double slip_energy = 0.0;
   };
 
   /// For each grain the contacts it takes part in: 2 × contact + (0: as grain 1, 1: as grain 2).
@@ -126,7 +138,11 @@ private:
   void integrate();
   std::vector<Break> update_contacts(double dt);
   void update_touches(double dt);
-  void press_walls();
+  void press_walls(double dt);
+  std::array<double, dim - 1> slip_on_wall(const Wall& wall, std::uint32_t grain, double distance, double dt) const;
+  void add_wall_shear(const Wall& wall, std::uint32_t grain, double distance,
+                      const std::array<double, dim - 1>& shear_force);
+  void rebuild_incidence();
   void sum_forces();
   void add_boundary_work(double dt, double share);
   bool contacts_may_be_missed();
@@ -150,10 +166,10 @@ private:
   double skin = 0.0; ///< gap up to which contacts are kept in mind [m]
 
   bool started = false;
-  std::uint64_t next_look = 0;            ///< step before which no contact can have been missed
-  std::atomic<bool> contact_made = false; ///< since the time step was chosen
-  double dt = 0.0;                        ///< [s]
-  double previous_dt = 0.0;               ///< [s]
+  std::uint64_t next_look = 0; ///< step before which no contact can have been missed
+  bool contact_made = false;   ///< since the time step was chosen
+  double dt = 0.0;             ///< [s]
+  double previous_dt = 0.0;    ///< [s]
   double current_time = 0.0;
   std::uint64_t steps = 0;
 

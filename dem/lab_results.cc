@@ -1,9 +1,8 @@
 #include "dem/lab_results.h"
 
-#include "dem/lab_tests.h"
-
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 #include <stdexcept>
 
@@ -17,18 +16,40 @@ std::string name(const TestKind kind)
       return "direct_tension";
     case TestKind::uniaxial_compression:
       return "uniaxial_compression";
+    case TestKind::triaxial_compression:
+      return "triaxial_compression";
+    case TestKind::brazilian:
+      return "brazilian";
     }
   throw std::logic_error("a test kind without a name");
 }
 
+bool PeakWatch::is_highest(const double stress)
+{
+  constexpr double fall = 0.05;
+  const bool brazilian_over = kind == TestKind::brazilian && fallen;
+  if (stress < (1.0 - fall) * highest)
+    fallen = true;
+  if (stress <= highest || brazilian_over)
+    return false;
+  highest = stress;
+  return true;
+}
+
 double laboratory_sign(const TestKind kind) { return kind == TestKind::direct_tension ? 1.0 : -1.0; }
+
+double Energies::unaccounted() const { return boundary_work - kinetic - strain - slip - released - damping; }
+
+double Energies::imbalance_over_work() const
+{
+  return boundary_work != 0.0 ? std::abs(unaccounted() / boundary_work) : 0.0;
+}
 
 double Energies::imbalance() const
 {
-  const double sum = boundary_work - kinetic - strain - slip - released - damping;
   const double terms = std::abs(boundary_work) + std::abs(kinetic) + std::abs(strain) + std::abs(slip) +
                        std::abs(released) + std::abs(damping);
-  return terms > 0.0 ? std::abs(sum) / terms : 0.0;
+  return terms > 0.0 ? std::abs(unaccounted()) / terms : 0.0;
 }
 
 namespace
@@ -63,24 +84,48 @@ Figure known(const double value)
 
 Figure unknown(std::string reason) { return {std::nullopt, std::move(reason)}; }
 
+/// What only a test that went past its peak can tell.
+constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
+                                                      &TestResults::strain_at_peak,
+                                                      &TestResults::youngs_modulus_initial,
+                                                      &TestResults::youngs_modulus_tangent,
+                                                      &TestResults::youngs_modulus_secant,
+                                                      &TestResults::poissons_ratio_initial,
+                                                      &TestResults::poissons_ratio_secant,
+                                                      &TestResults::crack_initiation_stress,
+                                                      &TestResults::crack_damage_stress,
+                                                      &TestResults::post_peak_drop,
+                                                      &TestResults::residual_deviator_ratio,
+                                                      &TestResults::n_tension_cracks_at_peak,
+                                                      &TestResults::n_shear_cracks_at_peak,
+                                                      &TestResults::shear_share_at_peak,
+                                                      &TestResults::kinetic_to_strain_energy,
+                                                      &TestResults::end_stress_difference,
+                                                      &TestResults::unbalanced_force_ratio,
+                                                      &TestResults::p_wave_transits_to_peak,
+                                                      &TestResults::servo_error,
+                                                      &TestResults::servo_error_largest};
+
 /// The rising branch of a curve, positive in the sense of the test.
 class RisingBranch
 {
 public:
   RisingBranch(const TestRecord& record, const std::size_t peak)
     : sign(laboratory_sign(record.kind))
+    , pressure(record.confining_pressure)
     , rows(record.curve.data(), peak + 1)
-    , peak_stress(stress(rows.back()))
+    , peak_deviator(deviator(rows.back()))
   {
   }
 
   double stress(const CurveSample& row) const { return sign * row.axial_stress; }
+  double deviator(const CurveSample& row) const { return stress(row) - pressure; }
 
-  /// First row whose stress reaches this share of the peak.
+  /// First row whose deviator reaches this share of the peak's.
   std::size_t row_at(const double share) const
   {
     std::size_t k = 0;
-    while (stress(rows[k]) < share * peak_stress)
+    while (deviator(rows[k]) < share * peak_deviator)
       ++k;
     return k;
   }
@@ -109,9 +154,9 @@ public:
     const std::size_t k = row_at(share);
     if (k == 0)
       return value_of(rows[0]);
-    const double s0 = stress(rows[k - 1]);
-    const double s1 = stress(rows[k]);
-    const double weight = (share * peak_stress - s0) / (s1 - s0);
+    const double s0 = deviator(rows[k - 1]);
+    const double s1 = deviator(rows[k]);
+    const double weight = (share * peak_deviator - s0) / (s1 - s0);
     return (1.0 - weight) * value_of(rows[k - 1]) + weight * value_of(rows[k]);
   }
 
@@ -124,8 +169,9 @@ public:
   }
 
   double sign;
+  double pressure;
   std::span<const CurveSample> rows;
-  double peak_stress;
+  double peak_deviator;
 };
 
 std::uint64_t n_cracks(const CurveSample& row) { return row.n_tension_cracks + row.n_shear_cracks; }
@@ -154,77 +200,140 @@ Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
     return unknown("volumetric strain did not turn round before the peak");
   return known(branch.stress(*most_contracted));
 }
-} // namespace
-
-TestResults evaluate(const TestRecord& record)
+/// Where the stress was highest; none if it was rising to the end. Of a Brazilian test the first maximum that was
+/// followed by a fall: the halves of a split disc may carry more than the whole one did.
+std::optional<std::size_t> peak_row(const TestRecord& record)
 {
-  TestResults results;
-  const double sign = laboratory_sign(record.kind);
-  const auto& curve = record.curve;
-  results.n_tension_cracks = curve.back().n_tension_cracks;
-  results.n_shear_cracks = curve.back().n_shear_cracks;
-  results.energy_imbalance = curve.back().energies.imbalance();
+  PeakWatch watch(record.kind);
+  std::size_t peak = 0;
+  for (std::size_t k = 0; k < record.curve.size(); ++k)
+    if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
+      peak = k;
+  if (peak == 0 || peak + 1 == record.curve.size())
+    return std::nullopt;
+  return peak;
+}
 
-  const auto peak = std::size_t(std::max_element(curve.begin(), curve.end(),
-                                                 [sign](const CurveSample& a, const CurveSample& b) {
-                                                   return sign * a.axial_stress < sign * b.axial_stress;
-                                                 }) -
-                                curve.begin());
-  if (peak + 1 == curve.size() || peak == 0)
+/// Moduli and Poisson's ratios, of tests whose stress is uniform.
+void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
+  if (record.kind == TestKind::brazilian)
     {
-      const Figure none = unknown(record.interrupted ? "interrupted before the peak" : "the stress never peaked");
-      for (Figure* figure :
-           {&results.peak_stress, &results.strain_at_peak, &results.youngs_modulus_initial,
-            &results.youngs_modulus_tangent, &results.youngs_modulus_secant, &results.poissons_ratio_initial,
-            &results.poissons_ratio_secant, &results.crack_initiation_stress, &results.crack_damage_stress,
-            &results.post_peak_drop, &results.n_tension_cracks_at_peak, &results.n_shear_cracks_at_peak,
-            &results.kinetic_to_strain_energy, &results.end_stress_difference, &results.unbalanced_force_ratio,
-            &results.p_wave_transits_to_peak})
-        *figure = none;
-      return results;
+      const Figure none = unknown("the stress in a Brazilian disc is not uniform");
+      results.youngs_modulus_initial = results.youngs_modulus_tangent = results.youngs_modulus_secant = none;
+      results.poissons_ratio_initial = results.poissons_ratio_secant = results.p_wave_transits_to_peak = none;
+      return;
     }
-
-  const RisingBranch branch(record, peak);
-  const auto stress = [sign](const CurveSample& row) { return sign * row.axial_stress; };
+  const double sign = branch.sign;
+  const auto stress = [&](const CurveSample& row) { return branch.stress(row); };
   const auto strain = [sign](const CurveSample& row) { return sign * row.axial_strain; };
   const auto gauge_axial = [sign](const CurveSample& row) { return sign * row.gauge_axial_strain; };
-  const auto lateral_expansion = [sign](const CurveSample& row) { return -sign * row.gauge_lateral_strain; };
-
-  results.peak_stress = known(branch.peak_stress);
-  results.strain_at_peak = known(strain(curve[peak]));
+  const auto expansion = [sign](const CurveSample& row) { return -sign * row.gauge_lateral_strain; };
   results.youngs_modulus_initial = branch.slope_between(0.05, 0.20, gauge_axial, stress);
   results.youngs_modulus_tangent = branch.slope_between(0.40, 0.60, strain, stress);
-  results.youngs_modulus_secant = known(0.5 * branch.peak_stress / branch.at_share(0.5, strain));
-  results.poissons_ratio_initial = branch.slope_between(0.05, 0.20, gauge_axial, lateral_expansion);
-  results.poissons_ratio_secant = known(branch.at_share(0.5, lateral_expansion) / branch.at_share(0.5, gauge_axial));
-  results.crack_initiation_stress = crack_initiation(branch);
-  results.crack_damage_stress = crack_damage(record, branch);
-  results.post_peak_drop = known((branch.peak_stress - stress(curve.back())) / branch.peak_stress);
-  results.n_tension_cracks_at_peak = known(double(curve[peak].n_tension_cracks));
-  results.n_shear_cracks_at_peak = known(double(curve[peak].n_shear_cracks));
+  results.youngs_modulus_secant = known(0.5 * branch.peak_deviator / branch.at_share(0.5, strain));
+  results.poissons_ratio_initial = branch.slope_between(0.05, 0.20, gauge_axial, expansion);
+  results.poissons_ratio_secant = known(branch.at_share(0.5, expansion) / branch.at_share(0.5, gauge_axial));
 
+  results.p_wave_transits_to_peak = unknown("the wave speed needs the initial modulus and Poisson's ratio");
+  if (results.youngs_modulus_initial.value && results.poissons_ratio_initial.value)
+    {
+      const double nu = *results.poissons_ratio_initial.value;
+      const double wave_speed =
+        std::sqrt(*results.youngs_modulus_initial.value / ((1.0 - nu * nu) * record.bulk_density));
+      results.p_wave_transits_to_peak = known(branch.rows.back().time * wave_speed / record.size[1]);
+    }
+}
+
+/// How near the test was to being quasi-static, and how well the confinement was held.
+void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
   double kinetic = 0.0;
   double difference = 0.0;
   double unbalanced = 0.0;
   double n_rows = 0.0;
   branch.loaded_rows([&](const CurveSample& row) {
     kinetic = std::max(kinetic, row.energies.kinetic / row.energies.strain);
-    difference = std::max(difference, std::abs(row.end_stress_difference) / branch.peak_stress);
+    difference = std::max(difference, std::abs(row.end_stress_difference) / branch.peak_deviator);
     unbalanced += row.unbalanced_force_ratio;
     ++n_rows;
   });
   results.kinetic_to_strain_energy = known(kinetic);
   results.end_stress_difference = known(difference);
   results.unbalanced_force_ratio = known(unbalanced / n_rows);
-  if (results.youngs_modulus_initial.value && results.poissons_ratio_initial.value)
+
+  results.servo_error = results.servo_error_largest = unknown("the test has no servo");
+  if (record.kind == TestKind::triaxial_compression)
     {
-      const double nu = *results.poissons_ratio_initial.value;
-      const double wave_speed =
-        std::sqrt(*results.youngs_modulus_initial.value / ((1.0 - nu * nu) * record.bulk_density));
-      results.p_wave_transits_to_peak = known(curve[peak].time * wave_speed / record.size[1]);
+      double sum = 0.0;
+      double largest = 0.0;
+      for (const auto& row : branch.rows)
+        {
+          const double error = std::abs(-row.lateral_stress / record.confining_pressure - 1.0);
+          sum += error;
+          largest = std::max(largest, error);
+        }
+      results.servo_error = known(sum / double(branch.rows.size()));
+      results.servo_error_largest = known(largest);
     }
-  else
-    results.p_wave_transits_to_peak = unknown("the wave speed needs the initial modulus and Poisson's ratio");
+}
+
+void evaluate_fragments(const TestRecord& record, TestResults& results)
+{
+  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and their radii squared
+  double all = 0.0;
+  for (const auto& grain : record.grains_at_end)
+    {
+      auto& [n_grains, size] = fragments[grain.fragment];
+      ++n_grains;
+      size += grain.radius * grain.radius;
+      all += grain.radius * grain.radius;
+    }
+  for (const auto& [number, fragment] : fragments)
+    results.n_fragments += fragment.first > 1;
+  if (!fragments.empty())
+    results.largest_fragment_share = fragments.begin()->second.second / all;
+}
+} // namespace
+
+TestResults evaluate(const TestRecord& record)
+{
+  TestResults results;
+  const auto& curve = record.curve;
+  if (!curve.empty())
+    {
+      results.n_tension_cracks = curve.back().n_tension_cracks;
+      results.n_shear_cracks = curve.back().n_shear_cracks;
+      results.energy_imbalance = curve.back().energies.imbalance();
+      results.energy_imbalance_over_work = curve.back().energies.imbalance_over_work();
+    }
+  evaluate_fragments(record, results);
+
+  const auto peak = curve.empty() ? std::nullopt : peak_row(record);
+  if (!peak)
+    {
+      const Figure none = unknown(record.interrupted ? "interrupted before the peak" : "the stress never peaked");
+      for (const auto member : figures_of_a_peak)
+        results.*member = none;
+      return results;
+    }
+
+  const RisingBranch branch(record, *peak);
+  const double sign = branch.sign;
+  const CurveSample& at_peak = curve[*peak];
+  results.peak_stress = known(branch.stress(at_peak));
+  results.strain_at_peak = known(sign * at_peak.axial_strain);
+  results.crack_initiation_stress = crack_initiation(branch);
+  results.crack_damage_stress = crack_damage(record, branch);
+  results.post_peak_drop = known(1.0 - branch.stress(curve.back()) / branch.stress(at_peak));
+  results.residual_deviator_ratio = known(branch.deviator(curve.back()) / branch.peak_deviator);
+  results.n_tension_cracks_at_peak = known(double(at_peak.n_tension_cracks));
+  results.n_shear_cracks_at_peak = known(double(at_peak.n_shear_cracks));
+  results.shear_share_at_peak = n_cracks(at_peak) > 0
+                                  ? known(double(at_peak.n_shear_cracks) / double(n_cracks(at_peak)))
+                                  : unknown("no crack before the peak");
+  evaluate_elasticity(record, branch, results);
+  evaluate_trust(record, branch, results);
   return results;
 }
 } // namespace feldspar

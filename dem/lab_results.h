@@ -12,14 +12,39 @@ namespace feldspar
 enum class TestKind
 {
   direct_tension,
-  uniaxial_compression
+  uniaxial_compression,
+  triaxial_compression,
+  brazilian
 };
 
 /// The name used in input and result files.
 std::string name(TestKind kind);
 
+/// A test of the programme.
+struct TestCase
+{
+  TestKind kind;
+  double confining_pressure = 0.0; ///< of a triaxial test, compression positive [Pa]
+};
+
 /// +1 where the test pulls, -1 where it presses: turns tension-positive figures into those of the laboratory curve.
 double laboratory_sign(TestKind kind);
+
+/// Follows a curve to its peak, row by row; stresses positive in the sense of the test.
+struct PeakWatch
+{
+  explicit PeakWatch(const TestKind of_kind)
+    : kind(of_kind)
+  {
+  }
+
+  /// Whether this stress is the highest so far. In a Brazilian test nothing is after the first fall of 5 %.
+  bool is_highest(double stress);
+
+  TestKind kind;
+  double highest = 0.0;
+  bool fallen = false;
+};
 
 /// Energies since the start of the test [J], each integrated on its own; none is the remainder of the others.
 struct Energies
@@ -31,8 +56,12 @@ struct Energies
   double released = 0.0; ///< by breaking segments
   double damping = 0.0;
 
-  /// |boundary work - everything it went into| over the sum of all terms.
+  /// Boundary work less all it went into [J].
+  double unaccounted() const;
+  /// |unaccounted| over the sum of all terms.
   double imbalance() const;
+  /// |unaccounted| over the boundary work.
+  double imbalance_over_work() const;
 };
 
 enum class CrackKind
@@ -61,8 +90,9 @@ struct CurveSample
   std::uint64_t step = 0;
   double time = 0.0;                  ///< [s]
   double axial_strain = 0.0;          ///< platen or grip travel over the length between them
-  double axial_stress = 0.0;          ///< mean of both ends over the initial area [Pa]
+  double axial_stress = 0.0;          ///< mean of both ends over the area; Brazilian: -2P/(πDt) [Pa]
   double end_stress_difference = 0.0; ///< between both ends [Pa]
+  double lateral_stress = 0.0;        ///< mean of the side walls; 0 without [Pa]
   double mid_stress = 0.0;            ///< carried across the middle of the specimen [Pa]
   double gauge_axial_strain = 0.0;    ///< of the grains in the middle
   double gauge_lateral_strain = 0.0;
@@ -102,6 +132,7 @@ struct SpecimenReport
 struct TestRecord
 {
   TestKind kind;
+  double confining_pressure = 0.0; ///< compression positive [Pa]
   std::uint64_t seed = 0;
   double strain_rate = 0.0;     ///< magnitude [1/s]
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]
@@ -135,16 +166,23 @@ struct TestResults
   Figure poissons_ratio_secant;
   Figure crack_initiation_stress;
   Figure crack_damage_stress;
-  Figure post_peak_drop; ///< peak minus last stress, over peak
+  Figure post_peak_drop;          ///< peak minus last stress, over peak
+  Figure residual_deviator_ratio; ///< deviator at the end over that at the peak
   std::uint64_t n_tension_cracks = 0;
   std::uint64_t n_shear_cracks = 0;
   Figure n_tension_cracks_at_peak;
   Figure n_shear_cracks_at_peak;
+  Figure shear_share_at_peak; ///< of all cracks
   double energy_imbalance = 0.0;
+  double energy_imbalance_over_work = 0.0;
   Figure kinetic_to_strain_energy; ///< largest from 5 % of the peak to the peak
   Figure end_stress_difference;    ///< largest share of the peak stress, from 5 % of the peak to the peak
   Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
   Figure p_wave_transits_to_peak;
+  Figure servo_error;                  ///< mean |lateral stress / pressure - 1| from seating to the peak
+  Figure servo_error_largest;          ///< largest of the same
+  std::uint64_t n_fragments = 0;       ///< of two grains or more, at the end
+  double largest_fragment_share = 0.0; ///< of the grains' volume
 };
 
 /// Reads the results off the curve (docs/theory.md §5).

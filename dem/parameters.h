@@ -71,7 +71,11 @@ struct TestParameters
   double tension_strain_rate = 0.164;        ///< [1/s]
   double compression_sampling_strain = 1e-5; ///< strain between two rows of the curve
   double tension_sampling_strain = 1e-6;
-  double grip_ratio = 0.1; ///< height of each grip over the specimen's
+  double brazilian_strain_rate = 0.164; ///< of the diameter [1/s]
+  double brazilian_sampling_strain = 2e-6;
+  double platen_friction = 0.0;
+  double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
+  double grip_ratio = 0.1;        ///< height of each grip over the specimen's
   double stop_strain_over_peak_strain = 1.6;
   std::optional<double> stop_strain;           ///< stop at this axial strain, whatever else
   std::optional<double> stop_stress_over_peak; ///< stop when the stress has fallen to this share of its peak

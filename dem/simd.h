@@ -21,9 +21,14 @@ inline constexpr std::size_t width<Pack> = Pack::size();
 inline double select(const bool condition, const double yes, const double no) { return condition ? yes : no; }
 inline Pack select(const PackMask& condition, const Pack& yes, const Pack& no)
 {
+#ifdef __clang__
+  // libstdc++'s where() chooses wrongly when clang compiles it for AVX-512.
+  return Pack([&](const auto i) { return condition[i] ? double(yes[i]) : double(no[i]); });
+#else
   Pack result = no;
   std::experimental::where(condition, result) = yes;
   return result;
+#endif
 }
 
 inline bool any(const bool condition) { return condition; }

@@ -8,15 +8,15 @@
 namespace feldspar
 {
 template <int dim>
-StrainGauge<dim>::StrainGauge(const Specimen<dim>& specimen)
+StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const Components<dim>& undeformed)
 {
-  const Vector<dim> centre = 0.5 * specimen.size;
-  Vector<dim> reach = 0.4 * specimen.size;
-  reach[dim - 1] = 0.25 * specimen.size[dim - 1];
+  const Vector<dim> centre = 0.5 * size;
+  Vector<dim> reach = 0.4 * size;
+  reach[dim - 1] = 0.25 * size[dim - 1];
   Vector<dim> mean = Vector<dim>::Zero();
-  for (std::uint32_t i = 0; i < specimen.grains.size(); ++i)
+  for (std::uint32_t i = 0; i < undeformed[0].size(); ++i)
     {
-      const Vector<dim> x = at<dim>(specimen.grains.position, i);
+      const Vector<dim> x = at<dim>(undeformed, i);
       if (((x - centre).array().abs() < reach.array()).all())
         {
           members.push_back(i);

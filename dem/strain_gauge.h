@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/specimen.h"
+#include "dem/grains.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,8 +13,10 @@ template <int dim>
 class StrainGauge
 {
 public:
-  /// Takes the grains' present positions as the undeformed ones.
-  explicit StrainGauge(const Specimen<dim>& specimen);
+  StrainGauge() = default;
+
+  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m].
+  StrainGauge(const Vector<dim>& size, const Components<dim>& undeformed);
 
   /// Displacement gradient ∂u_i/∂x_j; NaN where too few grains lie in the gauge to tell.
   Tensor<dim> displacement_gradient(const Grains<dim>& grains) const;
@@ -22,7 +24,7 @@ public:
 private:
   std::vector<std::uint32_t> members;
   std::vector<Vector<dim>> start; ///< undeformed positions [m]
-  Vector<dim> mean_start;
-  Tensor<dim> inverse_moment; ///< (Σ x ⊗ x)⁻¹ of positions from their mean [1/m²]
+  Vector<dim> mean_start = Vector<dim>::Zero();
+  Tensor<dim> inverse_moment = Tensor<dim>::Zero(); ///< (Σ x ⊗ x)⁻¹ of positions from their mean [1/m²]
 };
 } // namespace feldspar

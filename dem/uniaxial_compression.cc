@@ -1,29 +1,26 @@
-#include "dem/loading.h"
+#include "dem/lab_tests.h"
+#include "dem/platens.h"
 
 namespace feldspar
 {
 template <int dim>
-TestRecord uniaxial_compression(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                const DynamicsParameters& dynamics_wanted, const TestMonitor& monitor)
+SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, const TestParameters& wanted,
+                                           const DynamicsParameters& dynamics)
 {
-  constexpr int axis = dim - 1;
-  const double height = specimen.size[axis];
-  const double platen_speed = 0.5 * wanted.compression_strain_rate * height;
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  start_steadily(test.dynamics, -wanted.compression_strain_rate);
+  const auto platens = add_platens(test.dynamics, 0.0, specimen.size[dim - 1], wanted.platen_friction);
+  close(test.dynamics, platens, wanted.compression_strain_rate * specimen.size[dim - 1]);
 
-  Dynamics<dim> dynamics(specimen, dynamics_wanted, ZeroForce::as_placed);
-  start_steadily(dynamics, -wanted.compression_strain_rate);
-  const auto lower = dynamics.add_wall({axis, 1.0, 0.0, platen_speed});
-  const auto upper = dynamics.add_wall({axis, -1.0, height, -platen_speed});
-
-  return load_until_stop<dim>(dynamics,
-                              {TestKind::uniaxial_compression, -wanted.compression_strain_rate,
-                               wanted.compression_sampling_strain,
-                               [=](const Dynamics<dim>& state) {
-                                 return std::array{-state.wall_force(lower), -state.wall_force(upper)};
-                               }},
-                              wanted, monitor);
+  test.protocol.strain_rate = -wanted.compression_strain_rate;
+  test.protocol.sampling_strain = wanted.compression_sampling_strain;
+  const double area = specimen.volume() / specimen.size[dim - 1];
+  test.protocol.stress = [=](const Dynamics<dim>& state) {
+    return BoundaryStress{-state.wall_force(platens.lower) / area, -state.wall_force(platens.upper) / area, 0.0};
+  };
+  return test;
 }
 
-template TestRecord uniaxial_compression<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&,
-                                            const TestMonitor&);
+template SetUpTest<2> set_up_uniaxial_compression<2>(const Specimen<2>&, const TestParameters&,
+                                                     const DynamicsParameters&);
 } // namespace feldspar

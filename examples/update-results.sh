@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the studies of the examples and writes their committed results.
 #
-#   examples/update-results.sh FELDSPAR [beishan ...]
+#   examples/update-results.sh FELDSPAR [NAME ...]
 #
 # FELDSPAR is the built command; without names every study is run. Each results/NAME.json is the summary.json of its run:
 # figures, seeds, commit and machine. The READMEs take their figures from there, and a test checks that they agree.
@@ -10,7 +10,7 @@ feldspar=$(realpath "$1")
 shift
 cd "$(dirname "${BASH_SOURCE[0]}")/beishan-granite"
 studies=("$@")
-((${#studies[@]})) || studies=(beishan)
+((${#studies[@]})) || studies=(beishan ensemble radius-as-diameter rate-study)
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)
   "$feldspar" lab "$study.prm" --output "$run" --force

@@ -65,7 +65,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
   constexpr auto crushed = TestKind::uniaxial_compression;
   const Json reference = read(reference_file);
   std::vector<ComparisonRow> rows;
-  const auto add = [&](const char* property, const char* unit, const int decimals, const double scale,
+  const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
                        const std::map<std::uint64_t, double>& values, const std::string& key,
                        const double reference_scale = 1.0) {
     std::vector<double> scaled;
@@ -109,6 +109,18 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
       by_seed(tests, crushed, &TestResults::crack_initiation_stress), "crack_initiation_stress_MPa");
   add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
       "crack_damage_stress_MPa");
+  std::map<double, std::map<std::uint64_t, double>> confined;
+  for (const auto& test : tests)
+    if (test.record.kind == TestKind::triaxial_compression && test.results.peak_stress.value)
+      confined[test.record.confining_pressure][test.record.seed] = *test.results.peak_stress.value;
+  for (const auto& [pressure, strengths] : confined)
+    {
+      const std::string megapascals = fmt::format("{:g}", pressure / 1e6);
+      add(fmt::format("strength at {} MPa confinement", megapascals), "MPa", 1, 1e6, strengths,
+          "strength_at_" + megapascals + "_MPa");
+    }
+  if (const auto disc = by_seed(tests, TestKind::brazilian, &TestResults::peak_stress); !disc.empty())
+    add("Brazilian tensile strength", "MPa", 2, 1e6, disc, "brazilian_strength_MPa");
   return rows;
 }
 

@@ -25,13 +25,29 @@ constexpr const char* shear_colour = "#0050c8";
 constexpr const char* grain_colour = "#d4d4d4";
 constexpr const char* loose_grain_colour = "#f0e0b8";
 
-std::string title(const TestKind kind)
+std::string title(const FinishedTest& test)
 {
-  return kind == TestKind::direct_tension ? "Direct tension" : "Uniaxial compression";
+  switch (test.record.kind)
+    {
+    case TestKind::direct_tension:
+      return "Direct tension";
+    case TestKind::uniaxial_compression:
+      return "Uniaxial compression";
+    case TestKind::triaxial_compression:
+      return fmt::format("Triaxial, {:g} MPa", test.record.confining_pressure / mega);
+    case TestKind::brazilian:
+      return "Brazilian";
+    }
+  return "";
 }
 
 /// A name for the data of a test that gnuplot accepts.
-std::string block(const char* what, const FinishedTest& test) { return fmt::format("${}_{}", what, test.name); }
+std::string block(const char* what, const FinishedTest& test)
+{
+  std::string name = fmt::format("${}_{}", what, test.name);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
 
 std::string curve_data(const FinishedTest& test)
 {
@@ -82,10 +98,10 @@ std::string curve_plot(const FinishedTest& test)
                                  "set y2label 'broken segments'\n"
                                  "set xtics autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
                                  "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
-                                 "set border 11\n"
+                                 "set border 11; set lmargin 10; set rmargin 10\n"
                                  "set bmargin 6\n"
                                  "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
-                                 title(test.record.kind), test.record.seed);
+                                 title(test), test.record.seed);
   const std::string data = block("curve", test);
   text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
                       "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",
@@ -99,15 +115,16 @@ std::string curve_plot(const FinishedTest& test)
 std::string map_plot(const FinishedTest& test)
 {
   const auto& size = test.record.size;
-  std::string text = fmt::format("set title '{}, seed {}: at the end' noenhanced\n"
-                                 "set size ratio -1\n"
-                                 "set xlabel 'x [mm]'; set ylabel 'y [mm]'\n"
-                                 "set xtics 10 nomirror; set ytics 10 nomirror; set border 3\n"
-                                 "set xrange [{}:{}]; set yrange [{}:{}]\n"
-                                 "set bmargin 6\n"
-                                 "set key outside bottom center horizontal maxcols 2 Left reverse samplen 2 width 1\n",
-                                 title(test.record.kind), test.record.seed, -0.08 * size[0] / milli,
-                                 1.08 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
+  std::string text =
+    fmt::format("set title '{}, seed {}: at the end' noenhanced\n"
+                "set size ratio -1\n"
+                "set xlabel 'x [mm]'; set ylabel 'y [mm]'\n"
+                "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
+                "set xrange [{}:{}]; set yrange [{}:{}]\n"
+                "set bmargin 6\n"
+                "set key outside bottom center horizontal maxcols 2 Left reverse samplen 2 width 1\n",
+                title(test), test.record.seed, -0.08 * size[0] / milli, 1.08 * size[0] / milli, -0.02 * size[1] / milli,
+                1.02 * size[1] / milli);
   const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
   text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'largest fragment'",
@@ -190,18 +207,21 @@ DrawnFigures draw_figures(const std::vector<FinishedTest>& tests, const std::fil
       draw({test.name + "_cracks", {{".png", "pngcairo size 900,1600"}}}, map_data(test), map_plot(test));
     }
 
+  // Curves above, maps below, of the first specimen.
   std::string data;
-  std::string plots;
-  int n_panels = 0;
+  std::string curves;
+  std::string maps;
+  int n_columns = 0;
   for (const auto& test : tests)
-    if (test.record.seed == tests.front().record.seed)
+    if (test.record.seed == tests.front().record.seed && test.variant == tests.front().variant)
       {
         data += curve_data(test) + map_data(test);
-        plots += curve_plot(test) + map_plot(test);
-        n_panels += 2;
+        curves += curve_plot(test);
+        maps += map_plot(test);
+        ++n_columns;
       }
-  draw({"overview", {{".png", fmt::format("pngcairo size {},760", 580 * n_panels)}}}, data,
-       fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", n_panels, plots));
+  draw({"overview", {{".png", fmt::format("pngcairo size {},1250", 520 * n_columns)}}}, data,
+       fmt::format("set multiplot layout 2,{}\n{}{}unset multiplot\n", n_columns, curves, maps));
   return drawn;
 }
 } // namespace feldspar

@@ -31,6 +31,8 @@ struct FinishedTest
 {
   TestRecord record;
   TestResults results;
-  std::string name; ///< of its files and figures, e.g. direct_tension_seed_1
+  std::string group;   ///< what it is averaged with over the seeds: triaxial_compression_5_MPa
+  std::string name;    ///< of its files and figures: triaxial_compression_5_MPa_seed_1
+  std::string variant; ///< Section/Entry = value; empty where there are none
 };
 } // namespace feldspar

@@ -2,6 +2,8 @@
 
 #include "report/result_table.h"
 #include "report/statistics.h"
+#include "report/strength_data.h"
+#include "report/strength_envelopes.h"
 #include "report/text_file.h"
 
 #include <nlohmann/json.hpp>
@@ -25,44 +27,50 @@ Json number(const double value)
   return value;
 }
 
+/// A number, or null with the reason in a field beside it.
+void write_figure(Json& json, const std::string& key, const Figure& figure)
+{
+  if (figure.value)
+    json[key] = number(*figure.value);
+  else
+    {
+      json[key] = nullptr;
+      json[key + "_reason"] = figure.reason;
+    }
+}
+
 Json describe(const FinishedTest& test)
 {
   Json json;
   json["kind"] = name(test.record.kind);
   json["name"] = test.name;
   json["seed"] = test.record.seed;
+  if (!test.variant.empty())
+    json["variant"] = test.variant;
   json["interrupted"] = test.record.interrupted;
   for (const auto& entry : result_table())
     {
-      const Figure figure = entry.value(test);
-      const std::string key(entry.name);
-      if (figure.value)
-        json[key] = number(*figure.value);
-      else
-        {
-          json[key] = nullptr;
-          json[key + "_reason"] = figure.reason;
-        }
+      write_figure(json, std::string(entry.name), entry.value(test));
     }
   return json;
 }
 
-/// Means over the seeds of each kind of test.
+/// Means over the seeds of each group of tests.
 Json ensemble(const std::vector<FinishedTest>& tests)
 {
   std::map<std::string, std::map<std::string_view, std::vector<double>>> values;
   for (const auto& test : tests)
     for (const auto& entry : result_table())
       if (const Figure figure = entry.value(test); figure.value)
-        values[name(test.record.kind)][entry.name].push_back(*figure.value);
+        values[test.group][entry.name].push_back(*figure.value);
 
   Json json = Json::object();
-  for (const auto& [kind, figures] : values)
+  for (const auto& [group, figures] : values)
     for (const auto& entry : result_table())
       if (const auto found = figures.find(entry.name); found != figures.end())
         {
           const auto over_seeds = statistics(found->second);
-          Json& out = json[kind][std::string(entry.name)];
+          Json& out = json[group][std::string(entry.name)];
           out["n"] = over_seeds->n;
           out["mean"] = over_seeds->mean;
           if (over_seeds->standard_deviation)
@@ -71,6 +79,28 @@ Json ensemble(const std::vector<FinishedTest>& tests)
               out["standard_error"] = *over_seeds->standard_error;
             }
         }
+  return json;
+}
+/// Every strength envelope of one programme; variants of it are different rocks and are not fitted together.
+Json fits(const std::vector<FinishedTest>& tests)
+{
+  Json json;
+  const bool varied = !tests.empty() && !tests.front().variant.empty();
+  for (const auto& record : records(fit_strength_envelopes(varied ? StrengthData{} : strength_data(tests))))
+    {
+      Json& form = json[record.form];
+      Json& out = record.variant.empty() ? form : form[record.variant];
+      if (!record.reason.empty())
+        {
+          out["reason"] = varied ? "variants are not fitted together" : record.reason;
+          continue;
+        }
+      for (const auto& [entry_name, figure] : record.entries)
+        write_figure(out, entry_name, figure);
+      for (const auto& [point, residual] : record.residuals)
+        out["residuals"].push_back(
+          {{"sigma_3_Pa", point.sigma_3}, {"sigma_1_Pa", point.sigma_1}, {"residual_Pa", residual}});
+    }
   return json;
 }
 } // namespace
@@ -91,11 +121,7 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
   for (const auto& test : tests)
     json["tests"].push_back(describe(test));
   json["ensemble"] = ensemble(tests);
-  for (const char* form : {"as_paper", "intact", "general", "mohr_coulomb"})
-    {
-      json["fits"][form] = nullptr;
-      json["fits"][std::string(form) + "_reason"] = "a strength envelope needs tests at several confining pressures";
-    }
+  json["fits"] = fits(tests);
   write_text_file(file, json.dump(2) + "\n");
 }
 } // namespace feldspar

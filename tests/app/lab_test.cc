@@ -3,12 +3,14 @@
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 
 namespace feldspar::tests
@@ -149,8 +151,10 @@ TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
   const TemporaryFolder folder;
   folder.write("broken.h5", "no specimen");
   folder.write("packing.txt", "0.01 0.01 0.001\n0.011 0.01 0.001\n");
+  const std::string sizes = "subsection Specimen\n  set Width = 20 mm\n  set Height = 40 mm\nend\n";
+  std::string seeds = "subsection Seeds\n  set Seeds = 3, 4\nend\n";
   const auto refused = [&](const std::string& more, const std::string& expected) {
-    folder.write("rock.prm", small_rock + more);
+    folder.write("rock.prm", sizes + seeds + more);
     for (const char* command : {"lab", "specimen"})
       {
         const auto outcome = run_feldspar(folder.path(), std::string(command) + " rock.prm");
@@ -162,23 +166,130 @@ TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
   };
   refused("subsection Flat joint\n  set Coordination number = 9\nend\n", "this packing allows");
   refused("subsection Flat joint\n  set Coordination number = 1\nend\n", "this packing allows");
+  refused("subsection Specimen\n  set Specimen file = broken.h5\nend\n", "is one specimen; it goes with one seed");
+  seeds = "subsection Seeds\n  set Seeds = 3\nend\n";
   refused("subsection Specimen\n  set Specimen file = broken.h5\nend\n", "broken.h5: not an HDF5 file");
   refused("subsection Specimen\n  set Packing file = packing.txt\nend\n", "packing.txt:2: overlaps");
+}
+
+/// Some ninety grains; the programme takes a few seconds.
+const std::string tiny_rock = R"(subsection Specimen
+  set Width = 12 mm
+  set Height = 24 mm
+end
+subsection Tests
+  set List = direct_tension, uniaxial_compression, triaxial_compression
+  set Confinements = 10, 30 MPa
+  set Steps between checkpoints = 1000
+end
+)";
+
+TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", tiny_rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  std::mt19937 random(7); // the moments need not be the same in every run: the bits must be
+  // Until there is a run to be taken up; on a busy machine that may take longer.
+  for (double time = 0.7; !fs::exists(folder.path() / "broken/run.json"); time *= 1.5)
+    run_feldspar(folder.path(), "lab rock.prm --output broken --force --quiet",
+                 fmt::format("timeout --signal=KILL {}", time));
+  for (int k = 0; k < 9; ++k)
+    run_feldspar(folder.path(), "lab --resume broken --quiet",
+                 fmt::format("timeout --signal=KILL {}", 0.3 + 0.05 * double(random() % 10)));
+  EXPECT_FALSE(fs::exists(folder.path() / "broken/summary.json")) << "it ended before it could be killed ten times";
+  ASSERT_EQ(run_feldspar(folder.path(), "lab --resume broken --quiet").exit_code, 0);
+  EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
+  for (const char* file :
+       {"cracks.csv", "curves/direct_tension_seed_1.csv", "curves/triaxial_compression_30_MPa_seed_1.csv"})
+    EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "broken" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder.path() / "broken/checkpoints"));
+}
+
+TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", tiny_rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  run_feldspar(folder.path(), "lab rock.prm --output broken --quiet", "timeout --signal=KILL 2");
+  const fs::path checkpoints = folder.path() / "broken/checkpoints";
+  const fs::path torn = checkpoints / "triaxial_compression_30_MPa_seed_1.h5";
+  const fs::path foreign = checkpoints / "triaxial_compression_10_MPa_seed_1.h5";
+  ASSERT_TRUE(fs::exists(torn) && fs::exists(foreign));
+  fs::copy_file(torn, foreign, fs::copy_options::overwrite_existing);
+  fs::resize_file(torn, fs::file_size(torn) / 2);
+  const auto outcome = run_feldspar(folder.path(), "lab --resume broken --quiet");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("30_MPa_seed_1.h5: not an HDF5 file, cut short"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("10_MPa_seed_1.h5: of another test"), std::string::npos) << outcome.error;
+  EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
+}
+
+TEST(Lab, RunsVariantsOfOneEntry)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width = 12 mm
+  set Height = 24 mm
+end
+subsection Tests
+  set List = direct_tension
+end
+subsection Variants
+  set Entry = Flat joint/Bond tensile strength
+  set Values = 22 MPa; 44 MPa
+end
+)");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
+  const auto json = summary(folder.path() / "out");
+  ASSERT_EQ(json["tests"].size(), 2u);
+  EXPECT_EQ(json["tests"][1]["variant"], "Flat joint/Bond tensile strength = 44 MPa");
+  // Same packing, the same joint fails at about twice the load; the deviation of the strengths stays 2.2 MPa.
+  const double ratio =
+    json["tests"][1]["peak_stress_Pa"].get<double>() / json["tests"][0]["peak_stress_Pa"].get<double>();
+  EXPECT_NEAR(ratio, 2.0, 0.3);
+  EXPECT_TRUE(json["ensemble"].contains("direct_tension_variant_2"));
+}
+
+TEST(Lab, SaysWhenAConfinementCannotBeReached)
+{
+  const TemporaryFolder folder;
+  std::string rock = tiny_rock;
+  rock.replace(rock.find("10, 30 MPa"), 10, "40 GPa");
+  folder.write("rock.prm", rock);
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("Tests/Confinements: the walls cannot hold 40000 MPa"), std::string::npos)
+    << outcome.error;
+}
+
+TEST(Lab, RefusesAResumeOfWhatIsNoRun)
+{
+  const TemporaryFolder folder;
+  for (const char* arguments : {"lab --resume .", "lab --resume missing", "lab"})
+    {
+      const auto outcome = run_feldspar(folder.path(), arguments);
+      EXPECT_EQ(outcome.exit_code, 2) << arguments;
+      EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    }
 }
 
 TEST(Lab, EndsCleanlyOnInterrupt)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", small_rock);
-  // The full specimen takes longer than the second before the signal.
-  folder.write("large.prm", "subsection Tests\n  set List = uniaxial_compression\nend\n");
-  const auto outcome = run_feldspar(folder.path(), "lab large.prm", "timeout --signal=INT --preserve-status 4");
+  // Genesis takes a second or two, the test at this rate more than a minute.
+  folder.write("large.prm",
+               "subsection Tests\n  set List = uniaxial_compression\n  set Compression strain rate = 0.1 1/s\n"
+               "end\n");
+  const auto outcome = run_feldspar(folder.path(), "lab large.prm", "timeout --signal=INT --preserve-status 8");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.error.find("interrupted"), std::string::npos) << outcome.error;
   const auto json = summary(folder.path() / "large-results-001");
   ASSERT_EQ(json["tests"].size(), 1u);
   EXPECT_EQ(json["tests"][0]["interrupted"], true);
   EXPECT_EQ(json["tests"][0]["peak_stress_Pa_reason"], "interrupted before the peak");
+  EXPECT_NE(outcome.error.find("feldspar lab --resume large-results-001"), std::string::npos) << outcome.error;
 }
 } // namespace
 } // namespace feldspar::tests

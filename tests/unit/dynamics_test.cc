@@ -149,6 +149,40 @@ TEST(Dynamics, IsTheSameForAnyNumberOfThreads)
   EXPECT_EQ(alone.second, together.second);
 }
 
+TEST(Dynamics, ADiscThrownOnARoughWallEndsRolling)
+{
+  // Friction slows the centre and turns the disc until v = ωR; with I = ½mR² that is at ⅔ of the first velocity,
+  // whatever the friction. Gravity of 1e6 m/s² shortens the wait.
+  const double radius = 1e-3;
+  const double speed = 1.0;
+  auto specimen = placed_specimen({radius}, {{{0.5}, {radius}}});
+  specimen.grains.velocity[0] = {speed};
+  const double weight = specimen.grains.mass[0] * 1e6;
+  // Placed where the wall carries the weight, so that it does not bounce.
+  specimen.grains.position[1][0] -= weight / (2.0 * specimen.particle_contact.modulus * specimen.thickness);
+  Dynamics<2> dynamics(std::move(specimen), {0.0, 0.2}, ZeroForce::at_touch);
+  dynamics.add_wall({1, 1.0, 0.0, 0.0, 0.3});
+  dynamics.set_gravity({0.0, -1e6});
+  // Slides for v/(3 μ g). Rolling, the contact rocks on what shear it kept: mean over many such oscillations.
+  while (dynamics.time() < 2.0 * speed / (3.0 * 0.3 * 1e6))
+    dynamics.step();
+  const auto& grains = dynamics.specimen().grains;
+  double velocity = 0.0;
+  double surface_speed = 0.0;
+  constexpr int n_steps = 20000;
+  for (int n = 0; n < n_steps; ++n)
+    {
+      dynamics.step();
+      velocity += grains.velocity[0][0] / n_steps;
+      surface_speed -= grains.spin[0][0] * radius / n_steps;
+    }
+  EXPECT_NEAR(velocity, 2.0 / 3.0 * speed, 0.01 * speed);
+  EXPECT_NEAR(surface_speed, 2.0 / 3.0 * speed, 0.01 * speed);
+  // A third of the kinetic energy went into friction.
+  const auto energies = dynamics.energies();
+  EXPECT_NEAR(energies.slip, grains.mass[0] * speed * speed / 6.0, 0.02 * grains.mass[0] * speed * speed / 6.0);
+}
+
 TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
 {
   // Pulled apart by more than the face's length and pushed back: the second touch is the linear law's, at R1 + R2.

@@ -64,14 +64,24 @@ subsection Dynamics
 end
 subsection Tests
   set List = uniaxial_compression
+  set Confinements = 2, 4 MPa
   set Compression strain rate = 0.5 1/s
   set Tension strain rate = 0.082 1/s
+  set Brazilian strain rate = 0.3 1/s
+  set Brazilian sampling strain = 3e-6
+  set Platen friction = 0.1
+  set Seating transits = 12
+  set Steps between checkpoints = 500
   set Compression sampling strain = 2e-5
   set Tension sampling strain = 2e-6
   set Grip ratio = 0.2
   set Stop strain over peak strain = 1.5
   set Stop strain = 0.004
   set Stop stress over peak = 0.5
+end
+subsection Variants
+  set Entry = Flat joint/Segments
+  set Values = 2; 4
 end
 subsection Seeds
   set Seeds = 7, 1..3
@@ -180,11 +190,38 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.stop_strain_over_peak_strain, 1.5);
   EXPECT_EQ(input.tests.stop_strain, 0.004);
   EXPECT_EQ(input.tests.stop_stress_over_peak, 0.5);
+  EXPECT_EQ(input.confinements, (std::vector<double>{2e6, 4e6}));
+  EXPECT_EQ(input.tests.brazilian_strain_rate, 0.3);
+  EXPECT_EQ(input.tests.brazilian_sampling_strain, 3e-6);
+  EXPECT_EQ(input.tests.platen_friction, 0.1);
+  EXPECT_EQ(input.tests.seating_transits, 12.0);
+  EXPECT_EQ(input.steps_between_checkpoints, 500u);
+  const auto both = variants(input);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].input.flat_joint.n_segments, 2u);
+  EXPECT_EQ(both[1].label, "Flat joint/Segments = 4");
   EXPECT_EQ(input.seeds, (std::vector<std::uint64_t>{7, 1, 2, 3}));
   EXPECT_DOUBLE_EQ(input.contact.radius_1, 0.002);
   EXPECT_DOUBLE_EQ(input.contact.radius_2, 0.003);
   EXPECT_EQ(input.contact.path_file, (folder.path() / "path.csv").string());
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
+}
+
+TEST(Input, RefusesWhatNoProgrammeCanBe)
+{
+  EXPECT_EQ(error_of_entry("Tests", "Confinements = 5, -10 MPa"),
+            "a.prm:2: Tests/Confinements = 5, -10 MPa: must be > 0 MPa each; without confinement it is "
+            "uniaxial_compression");
+  EXPECT_NE(error_of_entry("Tests", "Confinements = MPa"), "");
+  EXPECT_NE(error_of_entry("Tests", "Confinements ="), "");
+  EXPECT_NE(error_of_entry("Tests", "Confinements = 5, 5 MPa").find("given twice"), std::string::npos);
+  EXPECT_NE(error_of_entry("Tests", "Grip ratio = 0").find("must lie in (0, 0.4]"), std::string::npos);
+  EXPECT_NE(error_of_entry("Tests", "Steps between checkpoints = 0").find("integer > 0"), std::string::npos);
+  EXPECT_NE(error_of_entry("Seeds", "Seeds = 1.5").find("1.5"), std::string::npos);
+  EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments").find("go together"), std::string::npos);
+  EXPECT_NE(error_of_entry("Variants", "Entry = Segments").find("Section/Entry"), std::string::npos);
+  EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments\n  set Values = 2; 0").find("integer in [1, 32]"),
+            std::string::npos);
 }
 
 TEST(Input, JsonSaysTheSame)

@@ -1,4 +1,5 @@
 #include "dem/input_error.h"
+#include "dem/lab_tests.h"
 #include "dem/specimen_file.h"
 #include "tests/unit/small_specimen.h"
 
@@ -65,6 +66,36 @@ TEST_F(SpecimenFile, RefusesMissingForeignAndTruncatedFiles)
       write_specimen(small_specimen(), file);
       fs::resize_file(file, std::uintmax_t(share * double(whole)));
       EXPECT_NE(refusal(), "") << share;
+    }
+}
+
+TEST_F(SpecimenFile, CheckpointsGoOnToTheSameBits)
+{
+  const auto specimen = small_specimen();
+  const auto run = [](LabTest<2>& test, const int n_rows) {
+    for (int n = 0; n < n_rows && test.advance(); ++n)
+      ;
+  };
+  for (const TestCase& wanted : {TestCase{TestKind::direct_tension}, TestCase{TestKind::uniaxial_compression},
+                                 TestCase{TestKind::triaxial_compression, 20e6}})
+    {
+      LabTest<2> whole(wanted, specimen, {}, {});
+      run(whole, 60);
+      whole.write_checkpoint(file, "this one");
+      LabTest<2> resumed(wanted, specimen, {}, {});
+      resumed.read_checkpoint(file, "this one");
+      run(whole, 60);
+      run(resumed, 60);
+      const auto a = whole.finish(true);
+      const auto b = resumed.finish(true);
+      ASSERT_EQ(a.curve.size(), b.curve.size());
+      EXPECT_EQ(a.cracks.size(), b.cracks.size());
+      EXPECT_EQ(a.curve.back().axial_stress, b.curve.back().axial_stress);
+      EXPECT_EQ(a.curve.back().energies.damping, b.curve.back().energies.damping);
+      EXPECT_EQ(a.grains_at_end.back().position, b.grains_at_end.back().position);
+
+      LabTest<2> other(wanted, specimen, {}, {});
+      EXPECT_THROW(other.read_checkpoint(file, "another one"), InputError);
     }
 }
 } // namespace

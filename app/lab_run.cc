@@ -1,0 +1,249 @@
+#include "app/lab_run.h"
+
+#include "app/interrupt.h"
+#include "app/jobs.h"
+#include "app/parameter_table.h"
+#include "dem/input_error.h"
+#include "dem/lab_tests.h"
+#include "feldspar_version.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+/// What one test of the programme is.
+struct PlannedTest
+{
+  TestCase test;
+  const Variant* variant;
+  const Specimen<2>* specimen;
+  std::string group;
+  std::string name;
+  std::string identity; ///< of its checkpoints: program, input and test
+};
+
+std::string identity(const Input& input, const std::string& name)
+{
+  std::string text = fmt::format("{} {}\n", version, name);
+  for (const Parameter& parameter : parameter_table())
+    text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+  return text;
+}
+
+std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                              const std::vector<Specimen<2>>& specimens)
+{
+  std::vector<PlannedTest> planned;
+  for (std::size_t s = 0; s < orders.size(); ++s)
+    {
+      const Variant& variant = variants[orders[s].variant];
+      const auto add = [&](const TestCase& test, const std::string& test_name) {
+        const std::string group =
+          variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, orders[s].variant + 1) : test_name;
+        const std::string full_name = fmt::format("{}_seed_{}", group, specimens[s].seed);
+        planned.push_back({test, &variant, &specimens[s], group, full_name, identity(variant.input, full_name)});
+      };
+      for (const TestKind kind : variant.input.test_list)
+        if (kind == TestKind::triaxial_compression)
+          for (const double pressure : variant.input.confinements)
+            add({kind, pressure}, fmt::format("{}_{:g}_MPa", name(kind), pressure / 1e6));
+        else
+          add({kind}, name(kind));
+    }
+  return planned;
+}
+
+/// The order in which the tests are begun: the longest first, so that none is left alone at the end.
+std::vector<std::size_t> longest_first(const std::vector<PlannedTest>& planned)
+{
+  const auto length = [&](const std::size_t k) {
+    const TestCase& test = planned[k].test;
+    return test.kind == TestKind::direct_tension || test.kind == TestKind::brazilian ? -1.0 : test.confining_pressure;
+  };
+  std::vector<std::size_t> order(planned.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](const auto a, const auto b) { return length(a) > length(b); });
+  return order;
+}
+
+/// Tells the progress how all running tests stand.
+class Board
+{
+public:
+  Board(Progress& shown, const std::vector<PlannedTest>& planned)
+    : progress(shown)
+  {
+    for (const auto& test : planned)
+      entries.push_back({&test, PeakWatch(test.test.kind)});
+    progress.start("tests");
+  }
+
+  void update(const std::size_t k, const CurveSample& row)
+  {
+    const std::lock_guard lock(showing);
+    Entry& entry = entries[k];
+    const double sign = laboratory_sign(entry.planned->test.kind);
+    entry.row = row;
+    if (entry.peak.is_highest(sign * row.axial_stress))
+      entry.strain_at_peak = sign * row.axial_strain;
+    // Only a curve that has left its peak tells where it will end.
+    const double stop = entry.planned->variant->input.tests.stop_strain_over_peak_strain;
+    entry.fraction = sign * row.axial_stress < 0.95 * entry.peak.highest
+                       ? std::min(1.0, sign * row.axial_strain / (stop * entry.strain_at_peak))
+                       : 0.0;
+    entry.running = true;
+    draw();
+  }
+
+  void finish(const std::size_t k)
+  {
+    const std::lock_guard lock(showing);
+    entries[k].running = false;
+    entries[k].fraction = 1.0;
+    ++n_finished;
+    draw();
+  }
+
+private:
+  struct Entry
+  {
+    const PlannedTest* planned;
+    PeakWatch peak;
+    CurveSample row{};
+    double strain_at_peak = 0.0;
+    double fraction = 0.0;
+    bool running = false;
+  };
+
+  void draw()
+  {
+    double sum = 0.0;
+    std::vector<ProgressDetail> details;
+    for (const auto& entry : entries)
+      {
+        sum += entry.fraction;
+        const double sign = laboratory_sign(entry.planned->test.kind);
+        if (entry.running)
+          details.push_back(
+            {entry.fraction, fmt::format("{}: {:.4f} %, {:.1f} MPa, {} cracks", entry.planned->name,
+                                         100.0 * sign * entry.row.axial_strain, sign * entry.row.axial_stress / 1e6,
+                                         entry.row.n_tension_cracks + entry.row.n_shear_cracks)});
+      }
+    progress.update(sum > 0.0 ? sum / double(entries.size()) : std::numeric_limits<double>::quiet_NaN(),
+                    fmt::format("{} of {} done", n_finished, entries.size()), details);
+  }
+
+  Progress& progress;
+  std::mutex showing;
+  std::vector<Entry> entries;
+  std::size_t n_finished = 0;
+};
+
+/// The two last checkpoints of a test.
+class Checkpoints
+{
+public:
+  Checkpoints(const std::filesystem::path& folder, const PlannedTest& of_test)
+    : planned(of_test)
+    , newest(folder / (of_test.name + ".h5"))
+    , one_before(folder / (of_test.name + ".previous.h5"))
+  {
+  }
+
+  void write(LabTest<2>& test) const
+  {
+    if (std::filesystem::exists(newest))
+      std::filesystem::rename(newest, one_before);
+    test.write_checkpoint(newest, planned.identity);
+  }
+
+  /// The test as its last good checkpoint has it, else from the start.
+  LabTest<2> open() const
+  {
+    const Input& input = planned.variant->input;
+    for (const auto& file : {newest, one_before})
+      if (std::filesystem::exists(file))
+        try
+          {
+            LabTest<2> test(planned.test, *planned.specimen, input.tests, input.dynamics);
+            test.read_checkpoint(file, planned.identity);
+            return test;
+          }
+        catch (const InputError& error)
+          {
+            fmt::print(stderr, "feldspar: {}; going back to {}\n", error.what(),
+                       file == newest && std::filesystem::exists(one_before) ? "the one before it"
+                                                                             : "the start of this test");
+          }
+    return LabTest<2>(planned.test, *planned.specimen, input.tests, input.dynamics);
+  }
+
+private:
+  const PlannedTest& planned;
+  std::filesystem::path newest;
+  std::filesystem::path one_before;
+};
+
+/// Runs a test from where it stands to its end or to Ctrl-C.
+TestRecord run(const PlannedTest& planned, const Checkpoints& checkpoints,
+               const std::function<void(const CurveSample&)>& show)
+{
+  LabTest<2> test = checkpoints.open();
+  const std::uint64_t interval = planned.variant->input.steps_between_checkpoints;
+  std::uint64_t next_checkpoint = test.n_steps() + interval;
+  while (!test.has_ended() && !interrupted())
+    {
+      test.advance();
+      show(test.last_row());
+      if (test.has_ended() || test.n_steps() >= next_checkpoint || interrupted())
+        {
+          checkpoints.write(test);
+          next_checkpoint = test.n_steps() + interval;
+        }
+    }
+  return test.finish(!test.has_ended());
+}
+} // namespace
+
+std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                                        const std::vector<Specimen<2>>& specimens, const std::filesystem::path& folder,
+                                        Progress& progress)
+{
+  const auto planned = plan(variants, orders, specimens);
+  const auto order = longest_first(planned);
+  const std::filesystem::path checkpoint_folder = folder / "checkpoints";
+  std::filesystem::create_directories(checkpoint_folder);
+
+  Board board(progress, planned);
+  std::vector<std::optional<FinishedTest>> slots(planned.size());
+  for_each_job(planned.size(), [&](const std::size_t position) {
+    const std::size_t k = order[position];
+    if (interrupted())
+      return;
+    FinishedTest test;
+    test.group = planned[k].group;
+    test.name = planned[k].name;
+    test.variant = planned[k].variant->label;
+    test.record = run(planned[k], Checkpoints(checkpoint_folder, planned[k]),
+                      [&](const CurveSample& row) { board.update(k, row); });
+    test.results = evaluate(test.record);
+    board.finish(k);
+    slots[k] = std::move(test);
+  });
+
+  std::vector<FinishedTest> finished;
+  for (auto& slot : slots)
+    if (slot)
+      finished.push_back(std::move(*slot));
+  progress.finish(fmt::format("{} of {} done", finished.size(), planned.size()));
+  return finished;
+}
+} // namespace feldspar

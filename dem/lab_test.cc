@@ -1,0 +1,252 @@
+#include "dem/lab_tests.h"
+
+#include "dem/flat_joint_law.h"
+#include "dem/fragments.h"
+#include "dem/hdf5_archive.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+std::array<double, 3> in_space(const Vector<dim>& vector)
+{
+  std::array<double, 3> point{};
+  for (int c = 0; c < dim; ++c)
+    point[c] = vector[c];
+  return point;
+}
+
+template <int dim>
+SetUpTest<dim> set_up_test(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+                           const DynamicsParameters& dynamics)
+{
+  switch (test.kind)
+    {
+    case TestKind::direct_tension:
+      return set_up_direct_tension(specimen, wanted, dynamics);
+    case TestKind::uniaxial_compression:
+      return set_up_uniaxial_compression(specimen, wanted, dynamics);
+    case TestKind::triaxial_compression:
+      return set_up_triaxial_compression(specimen, test.confining_pressure, wanted, dynamics);
+    case TestKind::brazilian:
+      return set_up_brazilian(specimen, wanted, dynamics);
+    }
+  throw std::logic_error("a test kind without a protocol");
+}
+
+template <int dim>
+Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
+{
+  const auto& joints = dynamics.specimen().joints;
+  const Vector<dim> normal = at<dim>(joints.normal, event.joint);
+  const double arm = 0.5 * (joints.rest_distance[event.joint] + joints.opening[event.joint]) +
+                     joints.half_radius_difference[event.joint];
+  const double rho = flat_joint::segment_offset(event.segment, joints.n_segments, joints.half_length[event.joint]);
+  const Vector<dim> tangent(-normal[1], normal[0]);
+
+  Crack result;
+  result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
+  result.joint = joints.number[event.joint];
+  result.segment = event.segment;
+  result.step = dynamics.n_steps();
+  result.axial_strain = axial_strain;
+  result.centroid = in_space<dim>(at<dim>(dynamics.specimen().grains.position, joints.grain_1[event.joint]) +
+                                  arm * normal + rho * tangent);
+  result.normal = in_space<dim>(normal);
+  result.size = 2.0 * joints.half_length[event.joint] / joints.n_segments;
+  result.released_energy = event.released_energy;
+  return result;
+}
+} // namespace
+
+template <int dim>
+LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
+                      const DynamicsParameters& dynamics)
+  : wanted(parameters)
+  , peak(test.kind)
+  , set_up(set_up_test(test, specimen, parameters, dynamics))
+{
+  const Specimen<dim>& tested = set_up.dynamics.specimen();
+  record.kind = test.kind;
+  record.confining_pressure = test.confining_pressure;
+  record.seed = tested.seed;
+  record.strain_rate = std::abs(set_up.protocol.strain_rate);
+  record.size = in_space<dim>(tested.size);
+  record.specimen = tested.report;
+  record.bulk_density = tested.bulk_density;
+}
+
+template <int dim>
+void LabTest<dim>::start_gauge()
+{
+  gauge = StrainGauge<dim>(set_up.dynamics.specimen().size, gauge_positions);
+}
+
+template <int dim>
+bool LabTest<dim>::advance()
+{
+  const auto clock = std::chrono::steady_clock::now();
+  auto& dynamics = set_up.dynamics;
+  const auto& protocol = set_up.protocol;
+  if (!seated)
+    {
+      if (protocol.seat)
+        protocol.seat(dynamics);
+      gauge_positions = dynamics.specimen().grains.position;
+      start_gauge();
+      time_at_start = dynamics.time();
+      seated = true;
+      record.curve.push_back(sample());
+    }
+
+  const double next_strain = double(record.curve.size()) * protocol.sampling_strain;
+  for (double strain = 0.0; std::abs(strain) < next_strain;)
+    {
+      if (protocol.drive)
+        protocol.drive(dynamics);
+      const auto breaks = dynamics.step();
+      strain = protocol.strain_rate * (dynamics.time() - time_at_start);
+      for (const auto& event : breaks)
+        {
+          record.cracks.push_back(crack(dynamics, event, strain));
+          ++(event.in_tension ? n_tension : n_shear);
+        }
+    }
+  record.curve.push_back(sample());
+  record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  ended = stop_rule_met();
+  return !ended;
+}
+
+template <int dim>
+CurveSample LabTest<dim>::sample() const
+{
+  constexpr int axis = dim - 1;
+  const auto& dynamics = set_up.dynamics;
+  const Specimen<dim>& specimen = dynamics.specimen();
+  CurveSample row;
+  row.step = dynamics.n_steps();
+  row.time = dynamics.time() - time_at_start;
+  row.axial_strain = set_up.protocol.strain_rate * row.time;
+  const BoundaryStress stress = set_up.protocol.stress(dynamics);
+  row.axial_stress = 0.5 * (stress.lower + stress.upper);
+  row.end_stress_difference = stress.upper - stress.lower;
+  row.lateral_stress = stress.lateral;
+  const double area = specimen.volume() / specimen.size[axis];
+  row.mid_stress = -dynamics.force_across(0.5 * specimen.size[axis]) / area; // pulled down from below: tension
+  const Tensor<dim> gradient = gauge.displacement_gradient(specimen.grains);
+  row.gauge_axial_strain = gradient(axis, axis);
+  row.gauge_volumetric_strain = gradient.trace();
+  row.gauge_lateral_strain = (gradient.trace() - gradient(axis, axis)) / (dim - 1);
+  row.n_tension_cracks = n_tension;
+  row.n_shear_cracks = n_shear;
+  row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();
+  row.energies = dynamics.energies();
+  return row;
+}
+
+/// Whether the curve has come to its end; docs/theory.md §4.5.
+template <int dim>
+bool LabTest<dim>::stop_rule_met()
+{
+  const CurveSample& row = record.curve.back();
+  const double sign = laboratory_sign(record.kind);
+  const double strain = sign * row.axial_strain;
+  const double deviator = sign * row.axial_stress - record.confining_pressure;
+  if (peak.is_highest(deviator))
+    strain_at_peak = strain;
+  if (wanted.stop_strain)
+    return strain >= *wanted.stop_strain;
+  // Waves ripple the first rows; a peak without a crack is not the rock's.
+  if (row.n_tension_cracks + row.n_shear_cracks == 0)
+    return false;
+  if (wanted.stop_stress_over_peak)
+    return deviator <= *wanted.stop_stress_over_peak * peak.highest;
+  return strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
+}
+
+template <int dim>
+TestRecord LabTest<dim>::finish(const bool interrupted) const
+{
+  TestRecord result = record;
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  result.interrupted = interrupted;
+  result.steps = set_up.dynamics.n_steps();
+  result.time_step = set_up.dynamics.time_step();
+  const auto fragment = fragments(specimen.joints, specimen.grains.size());
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    result.grains_at_end.push_back(
+      {in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i], fragment[i]});
+  return result;
+}
+
+template <int dim>
+template <typename Archive>
+void LabTest<dim>::transfer(Archive& archive)
+{
+  auto dynamics = archive.subgroup("dynamics");
+  set_up.dynamics.transfer(dynamics);
+  archive.bytes("curve", record.curve);
+  archive.bytes("cracks", record.cracks);
+  for (std::size_t c = 0; c < gauge_positions.size(); ++c)
+    archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
+  archive.value("wall_time", record.wall_time);
+  archive.value("time_at_start", time_at_start);
+  archive.value("n_tension", n_tension);
+  archive.value("n_shear", n_shear);
+  archive.value("peak_deviator", peak.highest);
+  std::uint32_t fallen = peak.fallen;
+  archive.value("fallen", fallen);
+  peak.fallen = fallen;
+  std::uint32_t has_ended = ended;
+  archive.value("ended", has_ended);
+  ended = has_ended;
+  archive.value("strain_at_peak", strain_at_peak);
+}
+
+namespace
+{
+const std::string checkpoint_format = "feldspar checkpoint";
+
+/// What must agree before the rest is worth reading.
+template <typename Archive>
+void transfer_identity(Archive& archive, const std::string& identity)
+{
+  std::string format = checkpoint_format;
+  std::string whose = identity;
+  archive.text("format", format);
+  archive.text("identity", whose);
+  if (format != checkpoint_format)
+    throw InputError("another kind of file");
+  if (whose != identity)
+    throw InputError("of another test, input or version of this program");
+}
+} // namespace
+
+template <int dim>
+void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  write_hdf5(file, [&](Hdf5Writer& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+}
+
+template <int dim>
+void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_hdf5(file, "a checkpoint of this test", [&](Hdf5Reader& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+  start_gauge();
+  seated = true;
+}
+
+template class LabTest<2>;
+} // namespace feldspar
