@@ -186,7 +186,13 @@ std::vector<Variant> variants(const Input& input)
   for (const std::string& value : input.variant_values)
     {
       result.push_back({fmt::format("{} = {}", input.variant_entry, value), input});
-      parameter.read(result.back().input, value);
+      Input& varied = result.back().input;
+      parameter.read(varied, value);
+      // Of the two ways to say which pairs get a joint the varied one holds.
+      if (parameter.entry == "Coordination number")
+        varied.flat_joint.installation_gap_ratio.reset();
+      if (parameter.entry == "Installation gap ratio")
+        varied.flat_joint.coordination_number.reset();
     }
   return result;
 }
@@ -210,10 +216,12 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
         throw values.error(given.section, given.entry, error.what());
       }
   settle_installation(input, values);
-  check_fractions(input, values);
   check_variants(input, values);
   for (const Variant& variant : variants(input))
-    check_specimen(variant.input, values);
+    {
+      check_fractions(variant.input, values);
+      check_specimen(variant.input, values);
+    }
   return input;
 }
 } // namespace feldspar

@@ -68,6 +68,11 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   return text;
 }
 
+void say_how_to_resume(const std::filesystem::path& folder)
+{
+  fmt::print(stderr, "feldspar: interrupted; go on with: feldspar lab --resume {}\n", folder.string());
+}
+
 /// Specimens, tests and report of a run in its folder, from wherever it stands.
 int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
            const bool quiet)
@@ -82,6 +87,11 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
 
   // Break it.
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
+  const auto failed =
+    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  if (std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }) &&
+      !tests.empty())
+    throw InputError(failed->record.failure);
 
   // Report.
   write_results(folder, provenance(input, input_file), tests);
@@ -98,11 +108,15 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   fmt::print("{}\n", folder.string());
   if (interrupted())
     {
-      fmt::print(stderr, "feldspar: interrupted; go on with: feldspar lab --resume {}\n", folder.string());
+      say_how_to_resume(folder);
       return exit_code::interrupted;
     }
-  std::filesystem::remove_all(folder / "checkpoints"); // nothing is left to be resumed
-  return 0;
+  std::filesystem::remove_all(folder / "checkpoints");
+  mark_complete(folder);
+  if (failed == tests.end())
+    return 0;
+  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  return exit_code::user_error;
 }
 } // namespace
 
@@ -110,28 +124,40 @@ int run_lab(const CommonOptions& options)
 {
   if (options.input.empty() && !options.resume)
     throw InputError("lab needs an INPUT, or --resume with the folder of a run; see feldspar lab --help");
+  const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
+    try
+      {
+        return run_in(folder, input, input_file, options.quiet);
+      }
+    catch (const Interrupted&)
+      {
+        say_how_to_resume(folder);
+        return exit_code::interrupted;
+      }
+  };
   if (options.resume)
     {
       const RunRecord run = read_run_record(*options.resume);
-      if (std::filesystem::exists(*options.resume / "summary.json") &&
-          !std::filesystem::exists(*options.resume / "checkpoints"))
+      if (run.complete)
         {
           fmt::print("{}: this run is complete\n", options.resume->string());
           return 0;
         }
-      return run_in(*options.resume, run.input, run.input_file, options.quiet);
+      return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
     }
+
   const Input input = read_input(options.input);
   compare({}, reference_of(input)); // a bad reference file is said before the work, not after it
   const OutputFolder folder(options.output, options.input, options.force);
+  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
   write_run_record(options.input, folder.path());
   try
     {
-      return run_in(folder.path(), input, options.input, options.quiet);
+      return run_or_say_how_to_resume(folder.path(), input, options.input);
     }
   catch (const InputError&)
     {
-      remove_run_record(folder.path()); // a mistake leaves nothing
+      remove_run(folder.path()); // a mistake leaves nothing
       throw;
     }
 }

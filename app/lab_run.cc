@@ -54,7 +54,7 @@ std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::v
       for (const TestKind kind : variant.input.test_list)
         if (kind == TestKind::triaxial_compression)
           for (const double pressure : variant.input.confinements)
-            add({kind, pressure}, fmt::format("{}_{:g}_MPa", name(kind), pressure / 1e6));
+            add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
         else
           add({kind}, name(kind));
     }
@@ -232,8 +232,19 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     test.group = planned[k].group;
     test.name = planned[k].name;
     test.variant = planned[k].variant->label;
-    test.record = run(planned[k], Checkpoints(checkpoint_folder, planned[k]),
-                      [&](const CurveSample& row) { board.update(k, row); });
+    try
+      {
+        test.record = run(planned[k], Checkpoints(checkpoint_folder, planned[k]),
+                          [&](const CurveSample& row) { board.update(k, row); });
+      }
+    catch (const InputError& error)
+      {
+        // One test that cannot be made must not cost the others.
+        test.record = LabTest<2>(planned[k].test, *planned[k].specimen, planned[k].variant->input.tests,
+                                 planned[k].variant->input.dynamics)
+                        .finish(true);
+        test.record.failure = error.what();
+      }
     test.results = evaluate(test.record);
     board.finish(k);
     slots[k] = std::move(test);

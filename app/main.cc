@@ -34,6 +34,7 @@ public:
       lab.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")->type_name("DIR");
     lab.get_option("INPUT")->required(false)->excludes(resume);
     lab.get_option("--output")->excludes(resume);
+    lab.get_option("--force")->excludes(resume);
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_parameters();

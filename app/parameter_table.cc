@@ -256,7 +256,13 @@ std::string read_variant_entry(const std::string_view text)
   const std::size_t slash = text.find('/');
   const Parameter* parameter =
     slash == std::string_view::npos ? nullptr : find_parameter(text.substr(0, slash), text.substr(slash + 1));
-  if (parameter == nullptr || parameter->section == "Variants" || parameter->section == "Seeds")
+  const bool one_value =
+    parameter != nullptr &&
+    (parameter->section == "Specimen" || parameter->section == "Flat joint" ||
+     parameter->section == "Particle contact" || parameter->section == "Dynamics" || parameter->section == "Tests") &&
+    !parameter->entry.ends_with("file") && parameter->entry != "List" && parameter->entry != "Confinements" &&
+    parameter->entry != "Steps between checkpoints";
+  if (!one_value)
     throw InputError("is not an entry that can vary; write Section/Entry, e.g. Flat joint/Segments");
   return std::string(text);
 }

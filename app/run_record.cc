@@ -8,7 +8,8 @@
 
 #include <fstream>
 #include <iterator>
-#include <system_error>
+#include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -21,6 +22,35 @@ std::filesystem::path copy_of_input(const std::filesystem::path& folder, const s
 {
   return folder / ("input" + input_file.extension().string());
 }
+struct Contents
+{
+  std::filesystem::path input_file;
+  std::filesystem::path relative_to; ///< the folder of the input
+  bool complete;
+};
+
+void write(const std::filesystem::path& folder, const Contents& contents)
+{
+  nlohmann::ordered_json json;
+  json["input_file"] = contents.input_file.string();
+  json["relative_to"] = contents.relative_to.string();
+  json["complete"] = contents.complete;
+  write_text_file(folder / record_name, json.dump(2) + "\n");
+}
+
+Contents read(const std::filesystem::path& folder)
+{
+  std::ifstream in(folder / record_name);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto holds = [&](const char* name, const nlohmann::json::value_t type) {
+    return json.is_object() && json.contains(name) && json[name].type() == type;
+  };
+  using Type = nlohmann::json::value_t;
+  if (!holds("input_file", Type::string) || !holds("relative_to", Type::string) || !holds("complete", Type::boolean))
+    throw InputError(fmt::format("--resume {}: not the folder of a `feldspar lab` run; {} is missing in it or damaged",
+                                 folder.string(), record_name));
+  return {json["input_file"].get<std::string>(), json["relative_to"].get<std::string>(), json["complete"].get<bool>()};
+}
 } // namespace
 
 void write_run_record(const std::filesystem::path& input_file, const std::filesystem::path& folder)
@@ -28,30 +58,34 @@ void write_run_record(const std::filesystem::path& input_file, const std::filesy
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_text_file(copy_of_input(folder, input_file), text);
-  nlohmann::ordered_json json;
-  json["input_file"] = input_file.string();
-  json["relative_to"] = std::filesystem::absolute(input_file).parent_path().string();
-  write_text_file(folder / record_name, json.dump(2) + "\n");
+  write(folder, {input_file, std::filesystem::absolute(input_file).parent_path(), false});
 }
 
-void remove_run_record(const std::filesystem::path& folder)
+void mark_complete(const std::filesystem::path& folder)
 {
-  std::error_code ignored;
-  std::filesystem::remove(folder / record_name, ignored);
-  for (const char* name : {"input.prm", "input.json"})
-    std::filesystem::remove(folder / name, ignored);
+  Contents contents = read(folder);
+  contents.complete = true;
+  write(folder, contents);
+}
+
+void remove_run(const std::filesystem::path& folder)
+{
+  for (const char* name : {record_name, "input.prm", "input.json", "checkpoints", "curves", "figures", "cracks.csv",
+                           "summary.json", "log.txt"})
+    std::filesystem::remove_all(folder / name);
+  std::vector<std::filesystem::path> specimens;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("specimen") && name.ends_with(".h5"))
+      specimens.push_back(entry.path());
+  for (const auto& specimen : specimens)
+    std::filesystem::remove(specimen);
 }
 
 RunRecord read_run_record(const std::filesystem::path& folder)
 {
-  std::ifstream in(folder / record_name);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("input_file") || !json.contains("relative_to"))
-    throw InputError(fmt::format("--resume {}: not the folder of a `feldspar lab` run; {} is missing in it or damaged",
-                                 folder.string(), record_name));
-  RunRecord run;
-  run.input_file = json["input_file"].get<std::string>();
-  run.input = read_input(copy_of_input(folder, run.input_file), json["relative_to"].get<std::string>());
-  return run;
+  const Contents contents = read(folder);
+  return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to), contents.input_file,
+          contents.complete};
 }
 } // namespace feldspar

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace feldspar
 {
 int run_specimen(const CommonOptions& options)
@@ -18,6 +20,8 @@ int run_specimen(const CommonOptions& options)
 
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
+  for (const SpecimenOrder& order : orders) // with --force: one that lies there already is another input's
+    std::filesystem::remove(folder.path() / (order.name + ".h5"));
   const auto specimens = provide_specimens<2>(all_variants, orders, folder.path(), progress);
   for (std::size_t k = 0; k < orders.size(); ++k)
     {

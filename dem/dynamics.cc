@@ -342,7 +342,11 @@ void Dynamics<dim>::choose_time_step()
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     for (const auto& touch : wall_touches[w])
       if (touch.overlap > 0.0)
-        k[wall_list[w].axis][touch.grain] += wall_stiffness(grains.radius[touch.grain]);
+        {
+          const double k_n = wall_stiffness(grains.radius[touch.grain]);
+          const double k_s = wall_list[w].friction > 0.0 ? k_n / body.particle_contact.stiffness_ratio : 0.0;
+          add(touch.grain, Vector<dim>::Unit(wall_list[w].axis), k_n, k_s, touch.zero_distance - touch.overlap, 0.0);
+        }
 
   double largest = 0.0;
   for (std::size_t i = 0; i < grains.size(); ++i)

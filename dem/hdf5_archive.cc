@@ -14,15 +14,19 @@ void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5
   try
     {
       H5::H5File out(unfinished.string(), H5F_ACC_TRUNC);
-      Hdf5Writer writer(out.openGroup("/"));
-      write(writer);
+      {
+        Hdf5Writer writer(out.openGroup("/"));
+        write(writer);
+      }
+      // The destructor would keep a failure to itself, and much is written only now.
+      out.flush(H5F_SCOPE_GLOBAL);
+      out.close();
     }
-  catch (const H5::Exception& error)
+  catch (...)
     {
       std::error_code ignored;
       std::filesystem::remove(unfinished, ignored);
-      throw std::runtime_error(
-        fmt::format("{} cannot be written ({}): is the disk full?", file.string(), error.getDetailMsg()));
+      throw std::runtime_error(fmt::format("{} cannot be written: is the disk full?", file.string()));
     }
   std::filesystem::rename(unfinished, file);
 }

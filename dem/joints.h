@@ -104,6 +104,8 @@ struct Joints
   void keep(const std::vector<std::size_t>& kept)
   {
     const std::size_t n_before = size();
+    if (n_before == 0)
+      return;
     const auto choose = [&](auto& values) {
       const std::size_t n_rows = values.size() / n_before;
       for (std::size_t row = 0, to = 0; row < n_rows; ++row)

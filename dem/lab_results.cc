@@ -190,12 +190,14 @@ Figure crack_initiation(const RisingBranch& branch)
 /// Where volumetric strain, contracting at first, turns round.
 Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
 {
-  if (record.kind == TestKind::direct_tension)
-    return unknown("a specimen in tension does not contract first");
+  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+    return unknown("of uniaxial and triaxial compression only");
   const auto most_contracted =
     std::min_element(branch.rows.begin(), branch.rows.end(), [](const CurveSample& a, const CurveSample& b) {
       return a.gauge_volumetric_strain < b.gauge_volumetric_strain;
     });
+  if (most_contracted == branch.rows.begin())
+    return unknown("the volume never contracted");
   if (most_contracted + 1 == branch.rows.end())
     return unknown("volumetric strain did not turn round before the peak");
   return known(branch.stress(*most_contracted));
@@ -309,10 +311,13 @@ TestResults evaluate(const TestRecord& record)
     }
   evaluate_fragments(record, results);
 
-  const auto peak = curve.empty() ? std::nullopt : peak_row(record);
+  // What looks like a peak before the stop rule was met may not be one.
+  const auto peak = curve.empty() || record.interrupted ? std::nullopt : peak_row(record);
   if (!peak)
     {
-      const Figure none = unknown(record.interrupted ? "interrupted before the peak" : "the stress never peaked");
+      const Figure none = unknown(!record.failure.empty() ? record.failure
+                                  : record.interrupted    ? "interrupted before its end"
+                                                          : "the stress never peaked");
       for (const auto member : figures_of_a_peak)
         results.*member = none;
       return results;

@@ -145,6 +145,7 @@ struct TestRecord
   double bulk_density = 0.0; ///< [kg/m³]
   double wall_time = 0.0;    ///< [s]
   bool interrupted = false;
+  std::string failure; ///< why the test could not be made; empty if it could
 };
 
 /// A figure, or the reason why it could not be had.

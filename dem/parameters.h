@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -36,12 +37,12 @@ struct FlatJointParameters
   double modulus = 80e9;         ///< E [Pa]; k_n = E/(R1+R2)
   double stiffness_ratio = 1.25; ///< κ = k_n/k_s
   double friction = 0.5;
-  double radius_multiplier = 1.0;                                     ///< λ; R̄ = λ min(R1, R2)
-  double bond_tensile_strength = 22e6;                                ///< [Pa]
-  double bond_tensile_strength_deviation = 2.2e6;                     ///< [Pa]
-  double bond_cohesion = 400e6;                                       ///< [Pa]
-  double bond_cohesion_deviation = 40e6;                              ///< [Pa]
-  double bond_friction_angle = 10.0 * 3.14159265358979323846 / 180.0; ///< [rad]
+  double radius_multiplier = 1.0;                               ///< λ; R̄ = λ min(R1, R2)
+  double bond_tensile_strength = 22e6;                          ///< [Pa]
+  double bond_tensile_strength_deviation = 2.2e6;               ///< [Pa]
+  double bond_cohesion = 400e6;                                 ///< [Pa]
+  double bond_cohesion_deviation = 40e6;                        ///< [Pa]
+  double bond_friction_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
   StrengthDraw strength_draw = StrengthDraw::per_segment;
   std::optional<double> installation_gap_ratio; ///< largest gap that gets a joint, over the mean radius
   std::optional<double> coordination_number;    ///< z = 2 joints/grains; the gap follows

@@ -201,6 +201,8 @@ DrawnFigures draw_figures(const std::vector<FinishedTest>& tests, const std::fil
 
   for (const auto& test : tests)
     {
+      if (test.record.curve.empty())
+        continue; // it could not be made
       draw({test.name + "_stress_strain",
             {{".png", "pngcairo size 900,650"}, {".svg", "svg size 900,650"}, {".pdf", "pdfcairo size 16cm,11.5cm"}}},
            curve_data(test), curve_plot(test));
@@ -213,7 +215,7 @@ DrawnFigures draw_figures(const std::vector<FinishedTest>& tests, const std::fil
   std::string maps;
   int n_columns = 0;
   for (const auto& test : tests)
-    if (test.record.seed == tests.front().record.seed && test.variant == tests.front().variant)
+    if (!test.record.curve.empty() && test.record.seed == tests.front().record.seed && test.variant == tests.front().variant)
       {
         data += curve_data(test) + map_data(test);
         curves += curve_plot(test);

@@ -1,4 +1,6 @@
 #include "dem/lab_results.h"
+#include "dem/lab_tests.h"
+#include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +73,7 @@ TEST(LabResults, SayWhyWhenACurveNeverPeaks)
   EXPECT_EQ(results.peak_stress.reason, "the stress never peaked");
   EXPECT_EQ(results.youngs_modulus_initial.reason, "the stress never peaked");
   record.interrupted = true;
-  EXPECT_EQ(evaluate(record).peak_stress.reason, "interrupted before the peak");
+  EXPECT_EQ(evaluate(record).peak_stress.reason, "interrupted before its end");
 }
 
 TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)
@@ -84,6 +86,46 @@ TEST(LabResults, SayWhenTheCurveIsTooCoarseForAModulus)
   const auto results = evaluate(record);
   EXPECT_FALSE(results.youngs_modulus_initial.value);
   EXPECT_NE(results.youngs_modulus_initial.reason.find("sampling strain"), std::string::npos);
+}
+
+TEST(Energies, OfALaboratoryTestBalanceAndADoubledTermShows)
+{
+  LabTest<2> test({TestKind::uniaxial_compression}, small_specimen(), {}, {});
+  while (test.advance())
+    ;
+  const Energies energies = test.last_row().energies;
+  EXPECT_LT(energies.imbalance_over_work(), 0.01);
+  for (double Energies::*term : {&Energies::strain, &Energies::slip, &Energies::released, &Energies::damping})
+    {
+      Energies wrong = energies;
+      wrong.*term *= 2.0;
+      EXPECT_TRUE(wrong.imbalance_over_work() > 0.01 || energies.*term < 0.03 * energies.boundary_work);
+    }
+  EXPECT_GT(energies.slip, 0.03 * energies.boundary_work);
+  EXPECT_GT(energies.damping, 0.03 * energies.boundary_work);
+}
+
+TEST(StopRules, AreKept)
+{
+  const auto specimen = small_specimen();
+  const auto run = [&](const TestParameters& wanted) {
+    LabTest<2> test({TestKind::direct_tension}, specimen, wanted, {});
+    while (test.advance())
+      ;
+    return test.last_row();
+  };
+  TestParameters at_strain;
+  at_strain.stop_strain = 5e-5;
+  EXPECT_NEAR(run(at_strain).axial_strain, 5e-5, 1.1 * at_strain.tension_sampling_strain);
+  TestParameters at_stress;
+  at_stress.stop_stress_over_peak = 0.3;
+  const auto fallen = run(at_stress);
+  const auto usual = run({});
+  EXPECT_LT(fallen.axial_strain, usual.axial_strain); // brittle: falls long before 1.6 times the strain at peak
+  // Longer grips leave less free length: at one strain rate over that length the grips move slower.
+  TestParameters long_grips = at_strain;
+  long_grips.grip_ratio = 0.3;
+  EXPECT_NEAR(run(long_grips).axial_strain, 5e-5, 1.1 * at_strain.tension_sampling_strain);
 }
 
 TEST(Energies, ImbalanceSeesADoubledTerm)

@@ -17,6 +17,7 @@ struct Variant
   double coordination_number = 4.2;
   unsigned int n_segments = 4;
   double rate_factor = 1.0;
+  double platen_friction = 0.0;
 };
 
 TestRecord test(const TestCase& wanted_test, const std::uint64_t seed, const Variant& variant = {})
@@ -29,6 +30,7 @@ TestRecord test(const TestCase& wanted_test, const std::uint64_t seed, const Var
   TestParameters wanted;
   wanted.tension_strain_rate *= variant.rate_factor;
   wanted.compression_strain_rate *= variant.rate_factor;
+  wanted.platen_friction = variant.platen_friction;
   LabTest<2> running(wanted_test, specimen, wanted, {});
   while (running.advance())
     ;
@@ -110,6 +112,13 @@ TEST(BeishanTriaxial, ConfinementTurnsSplittingIntoShearAndSofteningIntoFlow)
       EXPECT_LT(*results.servo_error_largest.value, 0.03);
       EXPECT_LT(results.energy_imbalance_over_work, 0.01);
     }
+}
+
+TEST(BeishanVariant, RoughPlatensAreStronger)
+{
+  // Friction hinders the ends from widening; the independent program: by some 40 %.
+  EXPECT_GT(peak(test({TestKind::uniaxial_compression}, 2, {.platen_friction = 0.5})),
+            1.1 * peak(test({TestKind::uniaxial_compression}, 2)));
 }
 
 TEST(BeishanBrazilian, GivesAboutTheStrengthOfDirectTension)
