@@ -40,8 +40,8 @@ class Hdf5Writer
 public:
   static constexpr bool reads = false;
 
-  explicit Hdf5Writer(H5::Group where)
-    : group(std::move(where))
+  explicit Hdf5Writer(const H5::Group& where)
+    : group(where)
   {
   }
 
@@ -92,8 +92,8 @@ class Hdf5Reader
 public:
   static constexpr bool reads = true;
 
-  explicit Hdf5Reader(H5::Group where)
-    : group(std::move(where))
+  explicit Hdf5Reader(const H5::Group& where)
+    : group(where)
   {
   }
 

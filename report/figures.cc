@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -116,26 +117,26 @@ std::string map_plot(const FinishedTest& test)
 {
   const auto& size = test.record.size;
   std::string text =
-    fmt::format("set title '{}, seed {}: at the end' noenhanced\n"
+    fmt::format("set title '{}, seed {}: cracks at the end' noenhanced\n"
                 "set size ratio -1\n"
                 "set xlabel 'x [mm]'; set ylabel 'y [mm]'\n"
                 "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
                 "set xrange [{}:{}]; set yrange [{}:{}]\n"
-                "set bmargin 6\n"
-                "set key outside bottom center horizontal maxcols 2 Left reverse samplen 2 width 1\n",
+                "set bmargin 7\n"
+                "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
                 title(test), test.record.seed, -0.08 * size[0] / milli, 1.08 * size[0] / milli, -0.02 * size[1] / milli,
                 1.02 * size[1] / milli);
   const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
-  text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'largest fragment'",
-                      block("grains", test), grain_colour);
+  text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'main body'", block("grains", test),
+                      grain_colour);
   if (n_loose > 0)
-    text += fmt::format(", {} with circles fill solid noborder lc rgb '{}' title 'other fragments'",
-                        block("loose", test), loose_grain_colour);
+    text += fmt::format(", {} with circles fill solid noborder lc rgb '{}' title 'fragments'", block("loose", test),
+                        loose_grain_colour);
   const auto cracks = [&](const char* what, const char* colour, const std::uint64_t n) {
     if (n > 0)
-      text += fmt::format(", {} with vectors nohead lw 2 lc rgb '{}' title '{} cracks: {}'", block(what, test), colour,
-                          what, n);
+      text +=
+        fmt::format(", {} with vectors nohead lw 2 lc rgb '{}' title '{}: {}'", block(what, test), colour, what, n);
   };
   cracks("tension", tension_colour, test.results.n_tension_cracks);
   cracks("shear", shear_colour, test.results.n_shear_cracks);
@@ -209,20 +210,34 @@ DrawnFigures draw_figures(const std::vector<FinishedTest>& tests, const std::fil
       draw({test.name + "_cracks", {{".png", "pngcairo size 900,1600"}}}, map_data(test), map_plot(test));
     }
 
-  // Curves above, maps below, of the first specimen.
+  // Curves above, maps below, of the first specimen; of the confinements the lowest and the highest.
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = 0.0;
+  for (const auto& test : tests)
+    if (test.record.kind == TestKind::triaxial_compression)
+      {
+        lowest = std::min(lowest, test.record.confining_pressure);
+        highest = std::max(highest, test.record.confining_pressure);
+      }
+  const auto shown = [&](const FinishedTest& test) {
+    const double pressure = test.record.confining_pressure;
+    return !test.record.curve.empty() && test.record.seed == tests.front().record.seed &&
+           test.variant == tests.front().variant &&
+           (test.record.kind != TestKind::triaxial_compression || pressure == lowest || pressure == highest);
+  };
   std::string data;
   std::string curves;
   std::string maps;
   int n_columns = 0;
   for (const auto& test : tests)
-    if (!test.record.curve.empty() && test.record.seed == tests.front().record.seed && test.variant == tests.front().variant)
+    if (shown(test))
       {
         data += curve_data(test) + map_data(test);
         curves += curve_plot(test);
         maps += map_plot(test);
         ++n_columns;
       }
-  draw({"overview", {{".png", fmt::format("pngcairo size {},1250", 520 * n_columns)}}}, data,
+  draw({"overview", {{".png", fmt::format("pngcairo size {},1250", 620 * n_columns)}}}, data,
        fmt::format("set multiplot layout 2,{}\n{}{}unset multiplot\n", n_columns, curves, maps));
   return drawn;
 }

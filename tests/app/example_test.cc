@@ -92,6 +92,11 @@ TEST(Example, TheReadmeShowsTheCommittedResults)
       shown(fmt::format("| {} | {} | {} |", pressure, number(test_of(one, group + "_seed_1")["peak_stress_Pa"], 1e6, 1),
                         mean_and_deviation(ten, group, "peak_stress_Pa", 1e6, 1)));
     }
+  const std::string front_page = content(std::string(FELDSPAR_SOURCE_DIR) + "/README.md");
+  for (const char* test : {"direct_tension_seed_1", "uniaxial_compression_seed_1"})
+    EXPECT_NE(front_page.find(" " + number(test_of(one, test)["peak_stress_Pa"], 1e6, test[0] == 'd' ? 2 : 1) + " "),
+              std::string::npos)
+      << test;
   const auto rate = results("rate-study");
   for (const auto& [variant, strain_rate] : {std::pair(1, "1"), {2, "0.5"}, {3, "0.25"}})
     shown(fmt::format(
@@ -124,6 +129,9 @@ TEST(Example, TheEnsembleIsTheRock)
             3.0 * mean("triaxial_compression_5_MPa", "shear_share_at_peak"));
   EXPECT_LT(mean("uniaxial_compression", "residual_deviator_ratio"), 0.5);
   EXPECT_GT(mean("triaxial_compression_60_MPa", "residual_deviator_ratio"), 0.65);
+  EXPECT_EQ(ensemble["uniaxial_compression"]["peak_stress_Pa"]["n"], 10);
+  for (const int pressure : {5, 10, 20, 30, 40, 50, 60})
+    EXPECT_LT(mean(fmt::format("triaxial_compression_{}_MPa", pressure), "servo_error"), 0.01) << pressure << " MPa";
   for (const auto& test : results("ensemble")["tests"])
     EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
 }
