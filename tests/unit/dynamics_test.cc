@@ -207,9 +207,9 @@ TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
   EXPECT_NEAR(position[1] - position[0], 2.0 * radius, 100.0 * dynamics.time_step()); // one step of their speed
 }
 
-TEST(Dynamics, ABrokenInterlockedPairSlidesWithFriction)
+TEST(Dynamics, EnergiesBalanceThroughBreakageAndSliding)
 {
-  // Energies of a stirred, breaking, damped specimen balance: each is integrated on its own.
+  // A stirred specimen; each energy is integrated on its own.
   auto specimen = small_specimen(2);
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     set<2>(specimen.grains.velocity, i, Vector<2>(3.0 * std::sin(3.1 * double(i)), 3.0 * std::cos(7.7 * double(i))));
