@@ -54,6 +54,10 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter)
       grain = new_number[grain];
   disc.report.n_grains = disc.grains.size();
   disc.report.n_joints = disc.joints.size();
+  disc.report.mean_radius = disc.grains.mean_radius();
+  disc.report.resolution = diameter / (2.0 * disc.report.mean_radius);
+  disc.report.porosity =
+    1.0 - disc.grains.volume(disc.thickness) / (0.25 * std::numbers::pi * diameter * diameter * disc.thickness);
   disc.report.coordination_number = 2.0 * double(disc.joints.size()) / double(disc.grains.size());
   return disc;
 }

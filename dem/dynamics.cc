@@ -175,6 +175,26 @@ void Dynamics<dim>::rebuild_incidence()
   touch_incidence = incidence(touches.size(), [&](const std::size_t k) { return touches[k].ends(); });
 }
 
+/// Stored in the segments of a joint [J].
+template <int dim>
+double Dynamics<dim>::joint_energy(const std::size_t j) const
+{
+  const auto& joints = body.joints;
+  const flat_joint::Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j],
+                                      joints.half_length[j] * (2.0 / joints.n_segments), joints.thickness,
+                                      joints.friction};
+  double sum = 0.0;
+  for (unsigned int i = 0; i < joints.n_segments; ++i)
+    {
+      const std::size_t k = joints.segment(i, j);
+      const double rho = flat_joint::segment_offset(i, joints.n_segments, joints.half_length[j]);
+      sum += flat_joint::normal_energy(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
+                                       joints.slope[j], joints.bonded[k] > 0.5);
+      sum += 0.5 * squared_norm<dim - 1>(joints.shear_stress, k) * face.segment_area() / face.shear_stiffness;
+    }
+  return sum;
+}
+
 /// A joint loses its faces when nothing holds and they have slid or opened past each other; the pair may touch again.
 template <int dim>
 void Dynamics<dim>::remove_torn_faces()
@@ -188,9 +208,12 @@ void Dynamics<dim>::remove_torn_faces()
         kept.push_back(j);
       else
         {
-          slip_energy_of_lost_contacts += joints.slip_energy[j];
           Touch touch = new_touch(joints.grain_1[j], joints.grain_2[j]);
           touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
+          // What the face stored and the touch does not is let go in sliding off.
+          const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
+          slip_energy_of_lost_contacts +=
+            joints.slip_energy[j] + joint_energy(j) - 0.5 * touch.stiffness.normal * overlap * overlap;
           touches.insert(find_touch(touch.ends()), touch);
         }
     }
@@ -581,18 +604,7 @@ Energies Dynamics<dim>::energies() const
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
       sum.slip += joints.slip_energy[j];
-      const flat_joint::Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j],
-                                          joints.half_length[j] * (2.0 / joints.n_segments), joints.thickness,
-                                          joints.friction};
-      for (unsigned int i = 0; i < joints.n_segments; ++i)
-        {
-          const std::size_t k = joints.segment(i, j);
-          const double rho = flat_joint::segment_offset(i, joints.n_segments, joints.half_length[j]);
-          sum.strain += flat_joint::normal_energy(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
-                                                  joints.slope[j], joints.bonded[k] > 0.5);
-          sum.strain +=
-            0.5 * squared_norm<dim - 1>(joints.shear_stress, k) * face.segment_area() / face.shear_stiffness;
-        }
+      sum.strain += joint_energy(j);
     }
   for (const auto& touch : touches)
     {

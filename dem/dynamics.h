@@ -132,6 +132,7 @@ private:
   void start();
   Touch new_touch(std::uint32_t grain_1, std::uint32_t grain_2) const;
   auto find_touch(const GrainPair& pair);
+  double joint_energy(std::size_t joint) const;
   void remove_torn_faces();
   void find_contacts();
   void choose_time_step();
