@@ -18,7 +18,6 @@ namespace feldspar::flat_joint
 using simd::absolute;
 using simd::larger;
 using simd::select;
-using simd::smaller;
 
 /// The face shared by the segments of one joint in two dimensions.
 template <typename Real>

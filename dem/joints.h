@@ -61,7 +61,7 @@ struct Joints
     return false;
   }
 
-  /// Every array but the scalars, for whoever stores, copies or permutes the joints.
+  /// What each joint is and remembers, but for its grains, its number and its answer; for whoever stores or permutes.
   template <typename Visitor>
   void visit_per_joint(Visitor&& visit)
   {

@@ -48,8 +48,6 @@ inline Pack absolute(const Pack& value) { return std::experimental::abs(value); 
 inline double square_root(const double value) { return std::sqrt(value); }
 inline Pack square_root(const Pack& value) { return std::experimental::sqrt(value); }
 
-inline double smaller(const double a, const double b) { return a < b ? a : b; }
-inline Pack smaller(const Pack& a, const Pack& b) { return select(a < b, a, b); }
 inline double larger(const double a, const double b) { return a < b ? b : a; }
 inline Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
 
