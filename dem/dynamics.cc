@@ -36,10 +36,70 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   : body(std::move(specimen))
   , parameters(wanted)
   , zero_force(where)
+  , n_own(body.grains.size())
+  , cell(body.cell())
   , held(body.grains.size(), 0)
   , damping_work(body.grains.size(), 0.0)
 {
   skin = skin_over_smallest_radius * *std::min_element(body.grains.radius.begin(), body.grains.radius.end());
+  if (body.periodic)
+    for (std::size_t j = 0; j < body.joints.size(); ++j)
+      if (const auto second = body.second_of(j); second.boxes != std::array<int, dim>{})
+        body.joints.grain_2[j] = image_number(second);
+}
+
+/// The number of an image among the grains; one that is not there yet is put behind them.
+template <int dim>
+std::uint32_t Dynamics<dim>::image_number(const PeriodicImage<dim>& image)
+{
+  auto& grains = body.grains;
+  const auto [entry, is_new] = number_of_image.try_emplace(image, std::uint32_t(grains.size()));
+  if (is_new)
+    {
+      images.push_back(image);
+      const auto repeat = [&](std::vector<double>& values) { values.push_back(values[image.owner]); };
+      for (auto* values : {&grains.radius, &grains.mass, &grains.moment_of_inertia})
+        repeat(*values);
+      for (auto* components : {&grains.position, &grains.velocity, &grains.force})
+        for (auto& component : *components)
+          repeat(component);
+      for (auto* components : {&grains.spin, &grains.couple})
+        for (auto& component : *components)
+          repeat(component);
+      set<dim>(grains.position, entry->second, at<dim>(grains.position, image.owner) + shift(image, cell));
+    }
+  return entry->second;
+}
+
+/// Gives every grain that could come near one of another box its images.
+template <int dim>
+void Dynamics<dim>::add_images()
+{
+  Grains<dim> own;
+  own.radius.assign(body.grains.radius.begin(), body.grains.radius.begin() + std::ptrdiff_t(n_own));
+  for (int c = 0; c < dim; ++c)
+    own.position[c].assign(body.grains.position[c].begin(), body.grains.position[c].begin() + std::ptrdiff_t(n_own));
+  for (const auto& image : images_within(own, cell, skin))
+    image_number(image);
+}
+
+template <int dim>
+void Dynamics<dim>::move_images()
+{
+  auto& grains = body.grains;
+  for (std::size_t k = 0; k < images.size(); ++k)
+    {
+      const auto& image = images[k];
+      const Vector<dim> way = shift(image, cell);
+      const Vector<dim> faster = cell_rate * way;
+      for (int c = 0; c < dim; ++c)
+        {
+          grains.position[c][n_own + k] = grains.position[c][image.owner] + way[c];
+          grains.velocity[c][n_own + k] = grains.velocity[c][image.owner] + faster[c];
+        }
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        grains.spin[c][n_own + k] = grains.spin[c][image.owner];
+    }
 }
 
 template <int dim>
@@ -81,6 +141,11 @@ std::vector<Break> Dynamics<dim>::step()
   integrate();
   for (auto& wall : wall_list)
     wall.position += dt * wall.velocity;
+  if (body.periodic)
+    {
+      cell += dt * cell_rate * cell;
+      move_images();
+    }
   const auto breaks = update_contacts(dt);
   add_boundary_work(dt, 0.5);
   for (const auto& event : breaks)
@@ -123,14 +188,14 @@ template <typename EndsOf>
 typename Dynamics<dim>::Incidence Dynamics<dim>::incidence(const std::size_t n_contacts, EndsOf&& ends_of) const
 {
   Incidence result;
-  result.first.assign(body.grains.size() + 1, 0);
+  result.first.assign(n_own + 1, 0);
   for (std::size_t k = 0; k < n_contacts; ++k)
     {
       const auto [one, two] = ends_of(k);
       ++result.first[one + 1];
-      ++result.first[two + 1];
+      ++result.first[owner(two) + 1];
     }
-  for (std::size_t i = 0; i < body.grains.size(); ++i)
+  for (std::size_t i = 0; i < n_own; ++i)
     result.first[i + 1] += result.first[i];
   auto next = result.first;
   result.entries.resize(2 * n_contacts);
@@ -138,7 +203,7 @@ typename Dynamics<dim>::Incidence Dynamics<dim>::incidence(const std::size_t n_c
     {
       const auto [one, two] = ends_of(k);
       result.entries[next[one]++] = std::uint32_t(2 * k);
-      result.entries[next[two]++] = std::uint32_t(2 * k + 1);
+      result.entries[next[owner(two)]++] = std::uint32_t(2 * k + 1);
     }
   return result;
 }
@@ -227,6 +292,8 @@ void Dynamics<dim>::remove_torn_faces()
 template <int dim>
 void Dynamics<dim>::find_contacts()
 {
+  if (body.periodic)
+    add_images();
   const auto& grains = body.grains;
   const auto& joints = body.joints;
   std::vector<Touch> found;
@@ -234,12 +301,15 @@ void Dynamics<dim>::find_contacts()
   std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
   for (const auto& [one, two] : pairs_within(grains, skin))
     {
+      if (one >= n_own || (two >= n_own && !counts(one, images[two - n_own])))
+        continue;
       if (one != marked)
         {
           for (auto k = joint_incidence.first[one]; k < joint_incidence.first[one + 1]; ++k)
             {
               const auto j = joint_incidence.entries[k] / 2;
-              jointed_to[joints.grain_1[j] == one ? joints.grain_2[j] : joints.grain_1[j]] = one;
+              if (joints.grain_1[j] == one)
+                jointed_to[joints.grain_2[j]] = one;
             }
           marked = one;
         }
@@ -298,7 +368,7 @@ bool Dynamics<dim>::contacts_may_be_missed()
 {
   double farthest = 0.0;
   double fastest = 0.0;
-  for (std::size_t i = 0; i < body.grains.size(); ++i)
+  for (std::size_t i = 0; i < n_own; ++i)
     {
       farthest = std::max(farthest, (at<dim>(body.grains.position, i) - at<dim>(position_at_search, i)).squaredNorm());
       fastest = std::max(fastest, squared_norm<dim>(body.grains.velocity, i));
@@ -334,10 +404,11 @@ void Dynamics<dim>::choose_time_step()
   const auto& grains = body.grains;
   const auto& joints = body.joints;
   Components<dim> k;
-  resize<dim>(k, grains.size());
-  std::vector<double> k_turning(grains.size(), 0.0);
-  const auto add = [&](const std::uint32_t i, const auto& normal, const double k_n, const double k_s, const double arm,
-                       const double k_bending) {
+  resize<dim>(k, n_own);
+  std::vector<double> k_turning(n_own, 0.0);
+  const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
+                       const double arm, const double k_bending) {
+    const std::uint32_t i = owner(grain);
     for (int c = 0; c < dim; ++c)
       k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
     k_turning[i] += k_s * arm * arm + k_bending;
@@ -372,14 +443,14 @@ void Dynamics<dim>::choose_time_step()
         }
 
   double largest = 0.0;
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  for (std::size_t i = 0; i < n_own; ++i)
     {
       for (int c = 0; c < dim; ++c)
         largest = std::max(largest, k[c][i] / grains.mass[i]);
       largest = std::max(largest, k_turning[i] / grains.moment_of_inertia[i]);
     }
   if (largest == 0.0) // nothing touches: the stiffest contact a grain could make
-    for (std::size_t i = 0; i < grains.size(); ++i)
+    for (std::size_t i = 0; i < n_own; ++i)
       largest = std::max(largest, 4.0 * touch_stiffness(grains.radius[i], grains.radius[i]) / grains.mass[i]);
   dt = parameters.time_step_safety / std::sqrt(largest);
   contact_made = false;
@@ -397,7 +468,7 @@ void Dynamics<dim>::integrate()
     velocity += kick * (force + damping_force) * inverse_inertia;
     dissipated -= 0.5 * damping_force * (previous_dt * old_velocity + dt * velocity);
   };
-  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       {
         if (!held[i])
@@ -491,7 +562,7 @@ void Dynamics<dim>::sum_forces()
 {
   auto& grains = body.grains;
   const auto& joints = body.joints;
-  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       {
         std::array<double, dim> force{};
@@ -585,6 +656,8 @@ void Dynamics<dim>::add_boundary_work(const double step, const double share)
     boundary_work += share * step * wall_list[w].side * wall_forces[w] * wall_list[w].velocity;
   for (std::size_t g = 0; g < grips.size(); ++g)
     boundary_work -= share * step * grip_force(g).dot(grips[g].velocity);
+  if (!cell_rate.isZero())
+    boundary_work += share * step * body.volume() * (mean_stress().array() * cell_rate.array()).sum();
 }
 
 template <int dim>
@@ -630,7 +703,7 @@ Energies Dynamics<dim>::energies() const
     sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
     sum.damping -= 0.5 * damping_force * previous_dt * velocity;
   };
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  for (std::size_t i = 0; i < n_own; ++i)
     {
       sum.damping += damping_work[i];
       sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
@@ -649,7 +722,7 @@ double Dynamics<dim>::unbalanced_force_ratio() const
 {
   double unbalanced = 0.0;
   std::size_t n_free = 0;
-  for (std::size_t i = 0; i < body.grains.size(); ++i)
+  for (std::size_t i = 0; i < n_own; ++i)
     if (!held[i])
       {
         unbalanced += std::sqrt(squared_norm<dim>(body.grains.force, i));
@@ -710,7 +783,7 @@ template <int dim>
 double Dynamics<dim>::faceless_coordination_number() const
 {
   const auto n = std::count_if(touches.begin(), touches.end(), [](const Touch& touch) { return touch.touching; });
-  return 2.0 * double(n) / double(body.grains.size());
+  return 2.0 * double(n) / double(n_own);
 }
 
 template <int dim>

@@ -6,6 +6,7 @@
 #include "dem/specimen.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace feldspar
@@ -44,12 +45,17 @@ public:
   /// Body acceleration [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }
 
+  /// Of a periodic body: the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
+  /// counts as boundary work.
+  void deform_cell(const Tensor<dim>& rate) { cell_rate = rate; }
+
   /// Advances by one step and returns what broke in it.
   std::vector<Break> step();
 
   /// After a change of radii, positions or velocities from outside: looks for contacts anew; overlaps count.
   void restart();
 
+  /// Images of a periodic body stand behind its own grains.
   const Specimen<dim>& specimen() const { return body; }
   Specimen<dim>& specimen() { return body; }
   const std::vector<Wall>& walls() const { return wall_list; }
@@ -127,6 +133,11 @@ private:
     Vector<dim> velocity;
   };
 
+  std::uint32_t owner(const std::uint32_t grain) const { return grain < n_own ? grain : images[grain - n_own].owner; }
+  std::uint32_t image_number(const PeriodicImage<dim>& image);
+  void add_images();
+  void move_images();
+
   template <typename EndsOf>
   Incidence incidence(std::size_t n_contacts, EndsOf&& ends_of) const;
   void start();
@@ -154,6 +165,11 @@ private:
   DynamicsParameters parameters;
   ZeroForce zero_force;
   Vector<dim> gravity = Vector<dim>::Zero();
+  std::size_t n_own; ///< grains that are not images
+  std::vector<PeriodicImage<dim>> images;
+  std::map<PeriodicImage<dim>, std::uint32_t> number_of_image; ///< among all grains
+  Tensor<dim> cell;                                            ///< edges of a periodic body's box, as columns [m]
+  Tensor<dim> cell_rate = Tensor<dim>::Zero();
   std::vector<Wall> wall_list;
   std::vector<Grip> grips;
   std::vector<std::uint8_t> held; ///< grains that belong to a grip

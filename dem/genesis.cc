@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace feldspar
 {
@@ -76,14 +77,15 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   Components<dim> positions;
   for (const double radius : radii)
     for (int c = 0; c < dim; ++c)
-      positions[c].push_back(random.uniform(radius, specimen.size[c] - radius));
+      positions[c].push_back(specimen.periodic ? random.uniform(0.0, specimen.size[c])
+                                               : random.uniform(radius, specimen.size[c] - radius));
 
   Specimen<dim> loose = specimen;
   loose.particle_contact.friction = 0.0;
   loose.grains.place(radii, positions);
   loose.grains.set_density(wanted.bulk_density / (1.0 - wanted.porosity), loose.thickness);
   Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
-  for (int axis = 0; axis < dim; ++axis)
+  for (int axis = 0; axis < dim && !specimen.periodic; ++axis)
     {
       dynamics.add_wall({axis, 1.0, 0.0, 0.0});
       dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
@@ -128,7 +130,17 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
       multiplier *= 1.0 + growth;
     }
   specimen.report.radius_multiplier = multiplier;
-  specimen.grains.place(dynamics.specimen().grains.radius, dynamics.specimen().grains.position);
+  const auto& packed = dynamics.specimen().grains;
+  const auto own = std::ptrdiff_t(radii.size());
+  Components<dim> final_positions;
+  for (int c = 0; c < dim; ++c)
+    {
+      final_positions[c].assign(packed.position[c].begin(), packed.position[c].begin() + own);
+      if (specimen.periodic)
+        for (double& x : final_positions[c])
+          x -= specimen.size[c] * std::floor(x / specimen.size[c]);
+    }
+  specimen.grains.place({packed.radius.begin(), packed.radius.begin() + own}, final_positions);
 }
 
 template <int dim>
@@ -145,42 +157,55 @@ void sort_in_space(Grains<dim>& grains)
   grains.place(radii, positions);
 }
 
+/// Two grains, the second perhaps in another box of a periodic body.
+template <int dim>
 struct PairGap
 {
   double gap;
-  GrainPair pair;
+  std::uint32_t first;
+  PeriodicImage<dim> second;
+  Vector<dim> branch; ///< from centre to centre [m]
 };
 
 /// All pairs that could get a joint, by gap.
 template <int dim>
-std::vector<PairGap> pair_gaps(const Grains<dim>& grains, const double largest_gap)
+std::vector<PairGap<dim>> pair_gaps(const Specimen<dim>& specimen, const double largest_gap)
 {
-  std::vector<PairGap> gaps;
-  for (const auto& pair : pairs_within(grains, largest_gap))
+  const auto images = specimen.periodic ? images_within(specimen.grains, specimen.cell(), largest_gap)
+                                        : std::vector<PeriodicImage<dim>>();
+  const std::size_t n_own = specimen.grains.size();
+  const Grains<dim> grains = with_images(specimen.grains, images, specimen.cell());
+  std::vector<PairGap<dim>> gaps;
+  for (const auto& [first, second] : pairs_within(grains, largest_gap))
     {
-      const double distance = (at<dim>(grains.position, pair.second) - at<dim>(grains.position, pair.first)).norm();
-      gaps.push_back({distance - grains.radius[pair.first] - grains.radius[pair.second], pair});
+      if (first >= n_own || (second >= n_own && !counts(first, images[second - n_own])))
+        continue;
+      const Vector<dim> branch = at<dim>(grains.position, second) - at<dim>(grains.position, first);
+      gaps.push_back({branch.norm() - grains.radius[first] - grains.radius[second], first,
+                      second < n_own ? PeriodicImage<dim>{second, {}} : images[second - n_own], branch});
     }
-  std::sort(gaps.begin(), gaps.end(),
-            [](const PairGap& a, const PairGap& b) { return a.gap != b.gap ? a.gap < b.gap : a.pair < b.pair; });
+  std::sort(gaps.begin(), gaps.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
+    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
+  });
   return gaps;
 }
 
 /// How many of the pairs, sorted by gap, get a joint. A gap below which exactly so many lie is what bisection on the
 /// gap would find.
-std::size_t n_joints_wanted(const std::vector<PairGap>& gaps, const FlatJointParameters& wanted,
+template <int dim>
+std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const FlatJointParameters& wanted,
                             const std::size_t n_grains, const double mean_radius)
 {
   if (wanted.installation_gap_ratio)
     return std::size_t(std::partition_point(gaps.begin(), gaps.end(),
-                                            [&](const PairGap& entry) {
+                                            [&](const PairGap<dim>& entry) {
                                               return entry.gap <= *wanted.installation_gap_ratio * mean_radius;
                                             }) -
                        gaps.begin());
   const double z = *wanted.coordination_number;
-  const auto n_overlapping =
-    std::size_t(std::partition_point(gaps.begin(), gaps.end(), [](const PairGap& entry) { return entry.gap <= 0.0; }) -
-                gaps.begin());
+  const auto n_overlapping = std::size_t(
+    std::partition_point(gaps.begin(), gaps.end(), [](const PairGap<dim>& entry) { return entry.gap <= 0.0; }) -
+    gaps.begin());
   const auto n = std::size_t(std::llround(0.5 * z * double(n_grains)));
   if (n < n_overlapping || n > gaps.size())
     throw InputError(fmt::format(
@@ -191,7 +216,7 @@ std::size_t n_joints_wanted(const std::vector<PairGap>& gaps, const FlatJointPar
 }
 
 template <int dim>
-void fill_report(Specimen<dim>& specimen, const std::vector<PairGap>& gaps)
+void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
 {
   const auto& grains = specimen.grains;
   auto& report = specimen.report;
@@ -208,7 +233,7 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap>& gaps)
       ++n_joints[specimen.joints.grain_1[j]];
       ++n_joints[specimen.joints.grain_2[j]];
     }
-  const double margin = 6.0 * report.mean_radius;
+  const double margin = specimen.periodic ? -std::numeric_limits<double>::infinity() : 6.0 * report.mean_radius;
   double sum = 0.0;
   std::size_t n_core = 0;
   for (std::size_t i = 0; i < grains.size(); ++i)
@@ -224,10 +249,10 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap>& gaps)
 
   double overlap = 0.0;
   std::size_t n_overlapping = 0;
-  for (const auto& [gap, pair] : gaps)
-    if (gap < 0.0)
+  for (const auto& pair : gaps)
+    if (pair.gap < 0.0)
       {
-        overlap -= gap;
+        overlap -= pair.gap;
         ++n_overlapping;
       }
   report.mean_overlap_ratio = n_overlapping > 0 ? overlap / double(n_overlapping) / report.mean_radius : 0.0;
@@ -241,16 +266,16 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
   const auto& grains = specimen.grains;
   const double mean_radius = grains.mean_radius();
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
-  const auto gaps = pair_gaps(grains, search_gap * (1.0 + 1e-12));
+  const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12));
   const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius);
   specimen.report.installation_gap_ratio = wanted.installation_gap_ratio ? *wanted.installation_gap_ratio
                                            : n > 0                       ? gaps[n - 1].gap / mean_radius
                                                                          : 0.0;
 
-  std::vector<GrainPair> pairs;
-  for (std::size_t k = 0; k < n; ++k)
-    pairs.push_back(gaps[k].pair);
-  std::sort(pairs.begin(), pairs.end());
+  std::vector<PairGap<dim>> pairs(gaps.begin(), gaps.begin() + std::ptrdiff_t(n));
+  std::sort(pairs.begin(), pairs.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
+    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+  });
 
   auto& joints = specimen.joints;
   joints.n_segments = wanted.n_segments;
@@ -260,10 +285,11 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
   joints.resize_all(n);
   for (std::size_t j = 0; j < n; ++j)
     {
-      const auto [one, two] = pairs[j];
+      const std::uint32_t one = pairs[j].first;
+      const std::uint32_t two = pairs[j].second.owner;
       const double radius_1 = grains.radius[one];
       const double radius_2 = grains.radius[two];
-      const Vector<dim> branch = at<dim>(grains.position, two) - at<dim>(grains.position, one);
+      const Vector<dim>& branch = pairs[j].branch;
       joints.grain_1[j] = one;
       joints.grain_2[j] = two;
       joints.number[j] = std::uint32_t(j);
@@ -320,6 +346,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
   specimen.size[dim - 1] = wanted.height;
+  specimen.periodic = wanted.shape == "periodic";
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;

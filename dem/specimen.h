@@ -4,7 +4,9 @@
 #include "dem/joints.h"
 #include "dem/lab_results.h"
 #include "dem/parameters.h"
+#include "dem/periodic_images.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace feldspar
@@ -14,6 +16,7 @@ template <int dim>
 struct Specimen
 {
   Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
+  bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
   double thickness = 1.0;                 ///< of the plane [m]
   double bulk_density = 0.0;              ///< [kg/m³]
   std::uint64_t seed = 0;
@@ -22,6 +25,26 @@ struct Specimen
   Joints<dim> joints;
   SpecimenReport report;
 
+  /// The edges of the box as columns [m].
+  Tensor<dim> cell() const { return size.asDiagonal(); }
+
+  /// The grain, or image of a grain, that a joint leads to.
+  PeriodicImage<dim> second_of(std::size_t joint) const;
+
   double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0); }
 };
+
+template <int dim>
+PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const
+{
+  // At rest the joint itself tells: its branch vector differs from that between its grains by whole edges.
+  const Vector<dim> branch = (joints.rest_distance[joint] + joints.opening[joint]) * at<dim>(joints.normal, joint);
+  const Vector<dim> between =
+    at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
+  PeriodicImage<dim> image{joints.grain_2[joint], {}};
+  if (periodic)
+    for (int c = 0; c < dim; ++c)
+      image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
+  return image;
+}
 } // namespace feldspar

@@ -13,7 +13,7 @@ namespace feldspar
 namespace
 {
 const std::string format_name = "feldspar specimen";
-constexpr std::uint32_t schema_version = 2;
+constexpr std::uint32_t schema_version = 3;
 
 /// The layout of the file.
 template <int dim, typename Archive>
@@ -22,6 +22,9 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   const auto component = [](const char* what, const int c) { return fmt::format("{}_{}_m", what, "xyz"[c]); };
   for (int c = 0; c < dim; ++c)
     root.value(component("size", c), specimen.size[c]);
+  std::uint32_t periodic = specimen.periodic;
+  root.value("periodic", periodic);
+  specimen.periodic = periodic != 0;
   root.value("thickness_m", specimen.thickness);
   root.value("bulk_density_kg_per_m3", specimen.bulk_density);
   root.value("seed", specimen.seed);
@@ -94,7 +97,8 @@ void check(Specimen<dim>& specimen)
     require(values.size() == joints.size() * joints.n_segments, "segments are missing");
   });
   for (std::size_t j = 0; j < joints.size(); ++j)
-    require(joints.grain_1[j] < joints.grain_2[j] && joints.grain_2[j] < grains.size(),
+    require(joints.grain_1[j] < joints.grain_2[j] + std::uint32_t(specimen.periodic) && // or its own image
+              joints.grain_2[j] < grains.size(),
             "a joint names a grain that is not there");
 }
 } // namespace

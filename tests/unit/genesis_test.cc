@@ -226,5 +226,62 @@ TEST(Random, IsTheStreamItAlwaysWas)
   EXPECT_NE(first, Random(1, RandomStream::positions).uniform());
   EXPECT_NE(first, Random(2, RandomStream::radii).uniform());
 }
+SpecimenParameters periodic_box(const double edge)
+{
+  SpecimenParameters wanted;
+  wanted.shape = "periodic";
+  wanted.width = edge;
+  wanted.height = edge;
+  return wanted;
+}
+
+TEST(Genesis, APeriodicPackingHasItsStressAndNoWalls)
+{
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  const auto specimen = make_specimen<2>(periodic_box(0.014), flat_joint, {}, 1, silent);
+  EXPECT_NEAR(specimen.report.packing_stress, 1e-4 * 80e9, 0.01 * 1e-4 * 80e9);
+  EXPECT_NEAR(specimen.report.coordination_number, 4.2, 1.0 / double(specimen.report.n_grains));
+  EXPECT_EQ(specimen.report.coordination_number_core, specimen.report.coordination_number);
+  for (int c = 0; c < 2; ++c)
+    for (const double x : specimen.grains.position[c])
+      {
+        EXPECT_GE(x, 0.0);
+        EXPECT_LT(x, 0.014);
+      }
+  // Some joints cross each face, and the branch of every joint ends at its grain or at an image of it.
+  std::array<int, 2> n_crossing{};
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    {
+      const auto second = specimen.second_of(j);
+      for (int c = 0; c < 2; ++c)
+        n_crossing[c] += second.boxes[c] != 0;
+      const Vector<2> end = at<2>(specimen.grains.position, second.owner) + shift(second, specimen.cell());
+      const Vector<2> branch = specimen.joints.rest_distance[j] * at<2>(specimen.joints.normal, j);
+      EXPECT_LT((at<2>(specimen.grains.position, specimen.joints.grain_1[j]) + branch - end).norm(), 1e-15);
+    }
+  EXPECT_GT(n_crossing[0], 5);
+  EXPECT_GT(n_crossing[1], 5);
+}
+
+TEST(Genesis, ACellOfTwoGrainsMeetsSeveralImagesOfOnePair)
+{
+  // Two equal discs on a square lattice turned by 45°: each touches four images of the other.
+  Specimen<2> specimen;
+  specimen.size = {2.0, 2.0};
+  specimen.periodic = true;
+  const double radius = std::sqrt(0.5);
+  specimen.grains.place({radius, radius}, {{{0.5, 1.5}, {0.5, 1.5}}});
+  FlatJointParameters wanted;
+  wanted.installation_gap_ratio = 1e-9;
+  install_joints(specimen, wanted);
+  ASSERT_EQ(specimen.joints.size(), 4u);
+  for (std::size_t j = 0; j < 4; ++j)
+    {
+      EXPECT_EQ(specimen.joints.grain_1[j], 0u);
+      EXPECT_EQ(specimen.joints.grain_2[j], 1u);
+      EXPECT_NEAR(specimen.joints.rest_distance[j], 2.0 * radius, 1e-15);
+    }
+}
 } // namespace
 } // namespace feldspar
