@@ -1,0 +1,175 @@
+#pragma once
+
+#include "coupling/voigt.h"
+#include "dem/face_elements.h"
+#include "dem/specimen.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <cstdint>
+#include <vector>
+
+/// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
+/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §6.
+namespace feldspar
+{
+/// Degrees of freedom of a grain, and as many measures of a joint's strain: displacement and turn.
+template <int dim>
+inline constexpr int n_motions = dim + n_rotations<dim>;
+
+/// Displacement and turn [m, rad], or force and couple [N, N m]. Of a joint in its own axes: n, t (n, t_1, t_2), then
+/// the turn about the axis out of the plane (about n, t_1, t_2).
+template <int dim>
+using Motion = Eigen::Matrix<double, n_motions<dim>, 1>;
+
+/// Of a joint: forces per motion.
+template <int dim>
+using JointStiffness = Eigen::Matrix<double, n_motions<dim>, n_motions<dim>>;
+
+/// Motions of all grains, [n_motions * n_grains], then the macroscopic strain, [n_voigt].
+using Unknowns = Eigen::VectorXd;
+
+/// Two grains joined by a face, or, without a face, near enough that they may come to touch: then a single element in
+/// the middle that carries no tension and no moment.
+template <int dim>
+struct Link
+{
+  std::uint32_t grain_1, grain_2;
+  std::uint32_t first_segment; ///< among all segments of the network
+  std::uint32_t n_segments;
+  bool has_face;
+  Tensor<dim> axes;    ///< rows n, t (n, t_1, t_2)
+  Vector<dim> branch;  ///< from centre 1 to centre 2, through the periodic image [m]
+  double arm_1, arm_2; ///< from the centres to the contact point [m]
+  double normal_stiffness; ///< k_n [Pa/m]
+  double shear_stiffness;  ///< k_s [Pa/m]
+  double half_length;      ///< R̄ [m]
+  double opening;          ///< g_0 at rest [m]
+  double friction;
+};
+
+/// Rows that give the gap and the shear of an element from its joint's motion.
+template <int dim>
+using ElementRows = Eigen::Matrix<double, dim, n_motions<dim>>;
+
+template <int dim>
+ElementRows<dim> element_rows(const FaceElement<dim>& element, double half_length);
+
+/// Of a bonded, or wholly closed and sticking, element: its share of the joint's stiffness. area in m², second_moment in
+/// m⁴.
+template <int dim>
+JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, double area,
+                                             double second_moment);
+
+/// Bond of one segment.
+struct Strength
+{
+  double tensile;  ///< σ_b [Pa]
+  double cohesion; ///< c_b [Pa]
+};
+
+/// Normal and shear stress of a segment under unit strains, per Voigt component.
+template <int dim>
+using UnitResponse = Eigen::Matrix<double, dim, n_voigt<dim>>;
+
+/// Where a straight strain path meets the first break.
+struct FirstBreak
+{
+  double factor; ///< of the direction; infinity if nothing breaks along it
+  std::uint32_t segment;
+  bool in_tension;
+};
+
+template <int dim>
+class Network
+{
+public:
+  /// Throws InputError where the specimen is not periodic.
+  explicit Network(const Specimen<dim>& specimen);
+
+  std::size_t n_grains() const { return number_of_grains; }
+  std::size_t n_joints() const { return number_of_joints; }
+  std::size_t n_segments() const { return strengths.size(); }
+  Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
+  double volume() const { return cell_volume; }
+  double mean_branch() const { return mean_branch_length; }
+
+  /// Joints first, then pairs that may come to touch.
+  const std::vector<Link<dim>>& links() const { return all_links; }
+  const std::vector<FaceElement<dim>>& elements() const { return face; }
+  /// Along which a link crosses from box to box; [n_links].
+  const std::vector<std::array<int, dim>>& boxes_crossed() const { return boxes; }
+  const std::vector<Vector<dim>>& positions() const { return centres; }
+  const std::vector<double>& radii() const { return grain_radii; }
+  const Tensor<dim>& cell() const { return edges; }
+
+  const Strength& strength(const std::uint32_t segment) const { return strengths[segment]; }
+  double friction_slope() const { return tan_bond_friction; }
+  double thickness() const { return plane_thickness; }
+  double segment_area(const Link<dim>& link, std::uint32_t segment) const;
+  std::uint32_t link_of_segment(const std::uint32_t segment) const { return segment / std::uint32_t(face.size()); }
+  /// Segments without a bond from the start.
+  const std::vector<std::uint32_t>& unbonded() const { return unbonded_at_rest; }
+
+  /// Of a link whose segments are all bonded.
+  const JointStiffness<dim>& bonded_stiffness(const std::size_t joint) const { return bonded_stiffnesses[joint]; }
+
+  /// Strain of a link, from the motions of its grains and the macroscopic strain.
+  Motion<dim> link_motion(const Link<dim>& link, const Unknowns& unknowns) const;
+  /// Adds what a link's forces s do to its grains and to volume × stress: the transpose of link_motion().
+  void add_forces(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum) const;
+
+  /// The network with all bonds intact, K x.
+  Unknowns apply_bonded(const Unknowns& unknowns) const;
+  /// Nearly its inverse, on grains and those strains that are free; the others stay.
+  Unknowns precondition(const Unknowns& residual, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
+
+  // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain.
+
+  /// C_0 [Pa].
+  const Stiffness<dim>& intact_stiffness() const { return c_0; }
+  /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
+  const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
+  const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
+  Unknowns intact_unknowns(const Voigt<dim>& strain) const;
+  /// Whether no segment is overloaded and no pair touches at this strain.
+  bool stays_intact(const Voigt<dim>& strain) const;
+  /// Along the ray `factor * direction`, in closed form.
+  FirstBreak first_break(const Voigt<dim>& direction) const;
+
+private:
+  void factorise();
+  void solve_unit_strains();
+  void bound_segments();
+
+  std::size_t number_of_grains;
+  std::size_t number_of_joints;
+  double cell_volume;
+  double plane_thickness;
+  double tan_bond_friction;
+  double mean_branch_length;
+  Tensor<dim> edges;
+  std::vector<FaceElement<dim>> face;
+  std::vector<Link<dim>> all_links;
+  std::vector<std::array<int, dim>> boxes;
+  std::vector<Vector<dim>> centres;
+  std::vector<double> grain_radii;
+  std::vector<Strength> strengths;
+  std::vector<std::uint32_t> unbonded_at_rest;
+  std::vector<JointStiffness<dim>> bonded_stiffnesses;
+
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor; ///< of the grains' part, made regular
+  Stiffness<dim> c_0;
+  Eigen::MatrixXd unit_motion;
+  std::vector<UnitResponse<dim>> unit_responses;
+
+  /// Segments with the largest overload that a strain of unit norm could give them, largest first.
+  struct Bound
+  {
+    double overload;
+    std::uint32_t segment;
+  };
+  std::vector<Bound> bounds;
+  double touching_strain; ///< norm below which no pair can come to touch
+};
+} // namespace feldspar
