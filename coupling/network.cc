@@ -243,13 +243,13 @@ void Network<dim>::factorise()
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::VectorXd diagonal = matrix.diagonal();
   // Displacements and turns have their own scale each.
-  Motion<dim> scale = Motion<dim>::Zero();
+  stiffness_scale.setZero();
   for (Eigen::Index i = 0; i < size; ++i)
-    scale[i % n] += diagonal[i] / double(number_of_grains);
+    stiffness_scale[i % n] += diagonal[i] / double(number_of_grains);
   Eigen::SparseMatrix<double> regular(size, size);
   std::vector<Eigen::Triplet<double>> shift;
   for (Eigen::Index i = 0; i < size; ++i)
-    shift.emplace_back(i, i, diagonal[i] > 0.0 ? regularity * scale[i % n] : scale[i % n]);
+    shift.emplace_back(i, i, (diagonal[i] > 0.0 ? regularity : 1.0) * stiffness_scale[i % n]);
   regular.setFromTriplets(shift.begin(), shift.end());
   factor.compute(matrix + regular);
 }
@@ -362,6 +362,18 @@ Unknowns Network<dim>::precondition(const Unknowns& residual,
     {
       result[n_own + free[a]] = strain[a];
       result.head(n_own) += strain[a] * unit_motion.col(free[a]);
+    }
+  return result;
+}
+
+template <int dim>
+Unknowns Network<dim>::lent(const Unknowns& unknowns) const
+{
+  Unknowns result = Unknowns::Zero(n_unknowns());
+  for (std::size_t i = 0; i < number_of_grains; ++i)
+    {
+      const Eigen::Index first = n_motions<dim> * Eigen::Index(i);
+      result.segment<n_motions<dim>>(first) = stiffness_scale.cwiseProduct(unknowns.segment<n_motions<dim>>(first));
     }
   return result;
 }

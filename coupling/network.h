@@ -107,7 +107,11 @@ public:
   double friction_slope() const { return tan_bond_friction; }
   double thickness() const { return plane_thickness; }
   double segment_area(const Link<dim>& link, std::uint32_t segment) const;
-  std::uint32_t link_of_segment(const std::uint32_t segment) const { return segment / std::uint32_t(face.size()); }
+  std::uint32_t link_of_segment(const std::uint32_t segment) const
+  {
+    const auto n = std::uint32_t(strengths.size());
+    return segment < n ? segment / std::uint32_t(face.size()) : std::uint32_t(number_of_joints) + segment - n;
+  }
   /// Segments without a bond from the start.
   const std::vector<std::uint32_t>& unbonded() const { return unbonded_at_rest; }
 
@@ -123,6 +127,9 @@ public:
   Unknowns apply_bonded(const Unknowns& unknowns) const;
   /// Nearly its inverse, on grains and those strains that are free; the others stay.
   Unknowns precondition(const Unknowns& residual, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
+
+  /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
+  Unknowns lent(const Unknowns& unknowns) const;
 
   // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain.
 
@@ -159,6 +166,7 @@ private:
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor; ///< of the grains' part, made regular
+  Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
   Stiffness<dim> c_0;
   Eigen::MatrixXd unit_motion;
   std::vector<UnitResponse<dim>> unit_responses;

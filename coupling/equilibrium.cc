@@ -1,0 +1,396 @@
+#include "coupling/equilibrium.h"
+
+#include "coupling/conjugate_gradients.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double near_worst_share = 0.98;
+constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
+// Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.
+constexpr double lent_stiffness = 1e-7;
+constexpr double longest_step = 0.1; // of one iteration, over the mean branch
+} // namespace
+
+template <int dim>
+Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& state,
+                              const EquilibriumParameters& wanted)
+  : network(of)
+  , parameters(wanted)
+  , active_number(of.links().size(), none)
+  , last(state)
+{
+  if (state.motions.empty())
+    position_at_event = network.intact_unknowns(state.strain);
+  else
+    {
+      position_at_event.resize(network.n_unknowns());
+      position_at_event << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())),
+        state.strain;
+    }
+  for (const auto& unbonded : state.unbonded)
+    {
+      const std::uint32_t link = network.link_of_segment(unbonded.segment);
+      if (active_number[link] == none)
+        {
+          active_number[link] = std::uint32_t(active.size());
+          active.push_back(activate(link));
+        }
+      auto& segment = active[active_number[link]].segments[unbonded.segment - network.links()[link].first_segment];
+      segment.bonded = false;
+      segment.shear_stress = unbonded.shear_stress;
+    }
+  position = position_at_event;
+  at_event = balance(position);
+  present = at_event;
+}
+
+/// As it stands at the last event, all bonded; a pair without a face never is.
+template <int dim>
+ActiveLink<dim> Equilibrium<dim>::activate(const std::uint32_t link) const
+{
+  const Link<dim>& of = network.links()[link];
+  ActiveLink<dim> result{link, network.link_motion(of, position_at_event), {}};
+  result.segments.resize(of.n_segments);
+  result.segments.front().bonded = of.has_face;
+  return result;
+}
+
+template <int dim>
+typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at) const
+{
+  const auto& links = network.links();
+  Balance result;
+  result.forces = Unknowns::Zero(network.n_unknowns());
+  result.active.resize(active.size());
+  double carried = 0.0;
+  std::size_t n_carrying = 0;
+  const auto add = [&](const Link<dim>& link, const Motion<dim>& forces) {
+    network.add_forces(link, forces, result.forces);
+    carried += forces.template head<dim>().norm();
+    ++n_carrying;
+  };
+  const auto add_answer = [&](const Link<dim>& link, const LinkAnswer<dim>& answer) {
+    add(link, answer.forces);
+    result.stored_energy += answer.stored_energy;
+    result.slip_energy += answer.slip_energy;
+  };
+  for (std::uint32_t k = 0; k < links.size(); ++k)
+    {
+      const Motion<dim> motion = network.link_motion(links[k], at);
+      if (active_number[k] != none)
+        {
+          auto& of_link = result.active[active_number[k]];
+          of_link = answer(network, active[active_number[k]], motion);
+          add_answer(links[k], of_link);
+        }
+      else if (links[k].has_face)
+        {
+          const Motion<dim> forces = network.bonded_stiffness(k) * motion;
+          add(links[k], forces);
+          result.stored_energy += 0.5 * motion.dot(forces);
+        }
+      else if (links[k].opening + motion[0] < 0.0)
+        {
+          result.touches.emplace_back(k, answer(network, activate(k), motion));
+          add_answer(links[k], result.touches.back().second);
+        }
+    }
+  result.stress = result.forces.template tail<n_voigt<dim>>() / network.volume();
+
+  double largest = 0.0;
+  for (std::size_t i = 0; i < network.n_grains(); ++i)
+    {
+      const auto force = result.forces.template segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(i));
+      largest = std::max({largest, force.template head<dim>().norm(),
+                          force.template tail<n_rotations<dim>>().norm() / network.radii()[i]});
+    }
+  result.unbalanced_ratio = carried > 0.0 ? largest / (carried / double(n_carrying)) : 0.0;
+  // Forces on grains act against the links' own.
+  result.forces.head(network.n_unknowns() - n_voigt<dim>) *= -1.0;
+  return result;
+}
+
+/// Forces on grains, and on the free strains what is missing of the given stress × volume.
+template <int dim>
+Unknowns Equilibrium<dim>::unbalanced(const Balance& of, const Control<dim>& control) const
+{
+  Unknowns forces = of.forces;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    forces[network.n_unknowns() - n_voigt<dim> + k] =
+      control.stress_given[k] ? network.volume() * (control.stress[k] - of.stress[k]) : 0.0;
+  return forces;
+}
+
+/// The unbalanced ratio, and for given stresses their error over the larger of stress and mean stress of the links.
+template <int dim>
+double Equilibrium<dim>::measure(const Balance& of, const Control<dim>& control) const
+{
+  double worst = of.unbalanced_ratio;
+  const double size = std::max(of.stress.norm(), control.stress.norm());
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    if (control.stress_given[k] && size > 0.0)
+      worst = std::max(worst, std::abs(control.stress[k] - of.stress[k]) / size);
+  return worst;
+}
+
+template <int dim>
+Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unknowns) const
+{
+  const auto& links = network.links();
+  Unknowns result = Unknowns::Zero(network.n_unknowns());
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    {
+      const auto& stiffness =
+        active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].tangent;
+      network.add_forces(links[k], stiffness * network.link_motion(links[k], unknowns), result);
+    }
+  for (std::size_t a = 0; a < active.size(); ++a)
+    if (const auto& link = links[active[a].link]; !link.has_face)
+      network.add_forces(link, at.active[a].tangent * network.link_motion(link, unknowns), result);
+  for (const auto& [k, touch] : at.touches)
+    network.add_forces(links[k], touch.tangent * network.link_motion(links[k], unknowns), result);
+  return result;
+}
+
+template <int dim>
+bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance)
+{
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
+  Unknowns to_target = Unknowns::Zero(network.n_unknowns());
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    if (!control.stress_given[k])
+      to_target[n_own + k] = control.strain[k] - position[n_own + k];
+  // The grains follow the strain as the intact network would: the first guess, and exact while nothing is broken.
+  if (!to_target.isZero())
+    {
+      to_target.head(n_own) = network.unit_motions() * to_target.template tail<n_voigt<dim>>();
+      position += to_target;
+      present = balance(position);
+    }
+
+  const auto precondition = [&](const Unknowns& r) { return network.precondition(r, control.stress_given); };
+  double error = measure(present, control);
+  double step_share = 1.0;
+  for (unsigned int k = 0; error > tolerance; ++k)
+    {
+      if (k == parameters.most_iterations)
+        return false;
+      ++iterations;
+      const Unknowns right = unbalanced(present, control);
+      const auto apply = [&](const Unknowns& x) {
+        Unknowns y = apply_tangent(present, x) + lent_stiffness * network.lent(x);
+        for (int c = 0; c < n_voigt<dim>; ++c)
+          if (!control.stress_given[c])
+            y[n_own + c] = 0.0;
+        return y;
+      };
+      Unknowns step =
+        step_share > 0.1
+          ? conjugate_gradients(apply, precondition, right, std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error)), 400)
+          : precondition(right);
+      const double longest = longest_step * network.mean_branch();
+      double largest = 0.0;
+      for (std::size_t i = 0; i < network.n_grains(); ++i)
+        largest = std::max(largest, step.template segment<dim>(n_motions<dim> * Eigen::Index(i)).norm());
+      if (largest > longest)
+        step *= longest / largest;
+
+      // Contacts that open, close or slide on the way change the balance: go no farther than it gets better.
+      double share = 1.0;
+      Unknowns trial;
+      Balance trial_balance;
+      double trial_error = 0.0;
+      for (; share > 0.05; share *= 0.5)
+        {
+          trial = position + share * step;
+          trial_balance = balance(trial);
+          trial_error = measure(trial_balance, control);
+          if (trial_error < error)
+            break;
+        }
+      step_share = trial_error < error ? 1.0 : step_share > 0.1 ? 0.05 : 1.0;
+      position = trial;
+      present = std::move(trial_balance);
+      error = trial_error;
+    }
+  return true;
+}
+
+template <int dim>
+std::vector<Overload> Equilibrium<dim>::overloads() const
+{
+  std::vector<Overload> result;
+  const auto check = [&](const std::uint32_t segment, const double normal, const double shear) {
+    const Strength& bond = network.strength(segment);
+    const double shear_strength = std::max(0.0, bond.cohesion - network.friction_slope() * normal); // (15)
+    const double in_tension = normal / bond.tensile;
+    const double in_shear = shear_strength > 0.0 ? shear / shear_strength
+                                                 : std::numeric_limits<double>::infinity();
+    if (normal > bond.tensile || shear > shear_strength)
+      result.push_back({std::max(in_tension, in_shear), segment, normal > bond.tensile});
+  };
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    {
+      const Link<dim>& link = network.links()[k];
+      const bool is_active = active_number[k] != none;
+      const Motion<dim> motion = is_active ? Motion<dim>::Zero() : network.link_motion(link, position);
+      for (std::uint32_t i = 0; i < link.n_segments; ++i)
+        {
+          if (is_active)
+            {
+              if (!active[active_number[k]].segments[i].bonded)
+                continue;
+              const auto& segment = present.active[active_number[k]].segments[i];
+              check(link.first_segment + i, segment.normal_stress, flat_joint::magnitude(segment.shear_stress));
+            }
+          else
+            {
+              const Vector<dim> strain = element_rows(network.elements()[i], link.half_length) * motion;
+              check(link.first_segment + i, link.normal_stiffness * strain[0],
+                    link.shear_stiffness * strain.template tail<dim - 1>().norm());
+            }
+        }
+    }
+  double worst = 0.0;
+  for (const Overload& overload : result)
+    worst = std::max(worst, overload.ratio);
+  if (parameters.break_rule == BreakRule::only_worst)
+    {
+      // The first by number among equals.
+      const auto first = std::find_if(result.begin(), result.end(),
+                                      [&](const Overload& overload) { return overload.ratio >= worst * (1.0 - tie); });
+      return first == result.end() ? std::vector<Overload>() : std::vector<Overload>{*first};
+    }
+  std::erase_if(result, [&](const Overload& overload) {
+    return overload.ratio < near_worst_share * worst * (1.0 - tie);
+  });
+  return result;
+}
+
+/// The way since the last event, taken as straight, into the energies; then the present becomes the last event.
+template <int dim>
+void Equilibrium<dim>::commit()
+{
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
+  const Unknowns way = position - position_at_event;
+  last.work.boundary +=
+    network.volume() * 0.5 * (at_event.stress + present.stress).dot(way.template tail<n_voigt<dim>>());
+  last.work.settled += 0.5 * (at_event.forces + present.forces).head(n_own).dot(way.head(n_own));
+  last.work.slip += present.slip_energy;
+
+  for (std::size_t a = 0; a < active.size(); ++a)
+    {
+      active[a].motion = network.link_motion(network.links()[active[a].link], position);
+      for (std::size_t i = 0; i < active[a].segments.size(); ++i)
+        if (!active[a].segments[i].bonded)
+          active[a].segments[i].shear_stress = present.active[a].segments[i].shear_stress;
+    }
+  position_at_event = position;
+  for (const auto& [link, touch] : present.touches)
+    {
+      ActiveLink<dim> touching = activate(link);
+      touching.segments.front().shear_stress = touch.segments.front().shear_stress;
+      active_number[link] = std::uint32_t(active.size());
+      active.push_back(std::move(touching));
+    }
+}
+
+template <int dim>
+void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events)
+{
+  commit();
+  for (const Overload& overload : overloads)
+    {
+      const std::uint32_t link = network.link_of_segment(overload.segment);
+      if (active_number[link] == none)
+        {
+          active_number[link] = std::uint32_t(active.size());
+          active.push_back(activate(link));
+        }
+      ActiveLink<dim>& broken = active[active_number[link]];
+      const double stored = answer(network, broken, broken.motion).stored_energy;
+      SegmentHistory<dim>& segment = broken.segments[overload.segment - network.links()[link].first_segment];
+      segment.bonded = false;
+      segment.shear_stress = {};
+      const double released = stored - answer(network, broken, broken.motion).stored_energy;
+      last.work.released += released;
+      ++(overload.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
+      events.push_back({overload.segment, overload.in_tension, released});
+    }
+  at_event = balance(position);
+  present = at_event;
+}
+
+template <int dim>
+NetworkState<dim> Equilibrium<dim>::state()
+{
+  commit();
+  at_event = balance(position);
+  present = at_event;
+  NetworkState<dim> result = last;
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
+  result.strain = position.template tail<n_voigt<dim>>();
+  result.stress = present.stress;
+  result.intact = active.empty();
+  result.motions.clear();
+  result.unbonded.clear();
+  if (result.intact)
+    return result;
+  result.motions.assign(position.data(), position.data() + n_own);
+  for (const ActiveLink<dim>& link : active)
+    for (std::uint32_t i = 0; i < link.segments.size(); ++i)
+      if (!link.segments[i].bonded)
+        {
+          const bool idle = !network.links()[link.link].has_face && link.segments[i].shear_stress == decltype(link.segments[i].shear_stress){};
+          if (!idle)
+            result.unbonded.push_back({network.links()[link.link].first_segment + i, link.segments[i].shear_stress});
+        }
+  std::sort(result.unbonded.begin(), result.unbonded.end(),
+            [](const auto& a, const auto& b) { return a.segment < b.segment; });
+  return result;
+}
+
+template <int dim>
+Stiffness<dim> Equilibrium<dim>::affine_tangent() const
+{
+  Stiffness<dim> result;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    result.col(k) = apply_tangent(present, Unknowns::Unit(network.n_unknowns(), network.n_unknowns() - n_voigt<dim> + k))
+                      .template tail<n_voigt<dim>>() /
+                    network.volume();
+  return result;
+}
+
+template <int dim>
+Stiffness<dim> Equilibrium<dim>::tangent() const
+{
+  if (active.empty() && present.touches.empty())
+    return network.intact_stiffness();
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
+  const auto apply = [&](const Unknowns& x) {
+    Unknowns y = apply_tangent(present, x);
+    y.template tail<n_voigt<dim>>().setZero();
+    return y;
+  };
+  const auto precondition = [&](const Unknowns& r) { return network.precondition(r, {}); };
+  Stiffness<dim> result;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      // From the intact network's rearrangement on.
+      Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
+      Unknowns right = -apply_tangent(present, unit);
+      right.template tail<n_voigt<dim>>().setZero();
+      unit.head(n_own) += conjugate_gradients(apply, precondition, right, 1e-10, 2000).head(n_own);
+      result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
+    }
+  return 0.5 * (result + result.transpose());
+}
+
+template class Equilibrium<2>;
+} // namespace feldspar

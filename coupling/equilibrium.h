@@ -1,0 +1,123 @@
+#pragma once
+
+#include "coupling/link_answer.h"
+#include "coupling/network_state.h"
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// What is prescribed, per Voigt component: a strain, or a stress.
+template <int dim>
+struct Control
+{
+  std::array<bool, n_voigt<dim>> stress_given{};
+  Voigt<dim> strain = Voigt<dim>::Zero(); ///< where a strain is given; elsewhere where to begin
+  Voigt<dim> stress = Voigt<dim>::Zero(); ///< where a stress is given [Pa]
+};
+
+template <int dim>
+Control<dim> strain_control(const Voigt<dim>& strain)
+{
+  Control<dim> control;
+  control.strain = strain;
+  return control;
+}
+
+enum class BreakRule
+{
+  near_worst, ///< every segment with at least 0.98 of the worst overload
+  only_worst
+};
+
+struct EquilibriumParameters
+{
+  double event_tolerance = 1e-3; ///< largest unbalanced over mean contact force, between events
+  double final_tolerance = 1e-6; ///< of the stress that is handed out
+  BreakRule break_rule = BreakRule::near_worst;
+  unsigned int most_iterations = 200; ///< of one relaxation
+};
+
+/// A segment beyond its strength.
+struct Overload
+{
+  double ratio; ///< max(σ̂/σ_b, |τ|/τ_c)
+  std::uint32_t segment;
+  bool in_tension;
+};
+
+/// A broken segment, in the order of breaking.
+template <int dim>
+struct BreakEvent
+{
+  std::uint32_t segment;
+  bool in_tension;
+  double released_energy; ///< [J]
+};
+
+/// A network on its way from one equilibrium to the next: relaxes with bonds frozen, breaks what is overloaded, relaxes
+/// again. No rate enters; docs/theory.md §6.3.
+template <int dim>
+class Equilibrium
+{
+public:
+  Equilibrium(const Network<dim>& network, const NetworkState<dim>& state, const EquilibriumParameters& parameters);
+
+  /// Bonds frozen: unknowns at which the forces balance to `tolerance`. False if there is no equilibrium to be found;
+  /// then it stands where the search ended.
+  bool relax(const Control<dim>& control, double tolerance);
+
+  /// Segments with bonds that are overloaded, and the worst ratio of all.
+  std::vector<Overload> overloads() const;
+
+  /// Makes the present position the last event and breaks these.
+  void break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events);
+
+  /// The state at the present position; the next event begins from it.
+  NetworkState<dim> state();
+
+  Voigt<dim> stress() const { return present.stress; }
+  double unbalanced_ratio() const { return present.unbalanced_ratio; }
+  double stored_energy() const { return present.stored_energy; }
+  const Unknowns& unknowns() const { return position; }
+  unsigned int n_iterations() const { return iterations; }
+
+  /// With bonds and open, stick and slip states frozen as they are [Pa].
+  Stiffness<dim> tangent() const;
+  /// The same without the grains' rearrangement [Pa].
+  Stiffness<dim> affine_tangent() const;
+
+private:
+  /// Forces at a position.
+  struct Balance
+  {
+    Unknowns forces; ///< on grains as they act, then volume × stress
+    Voigt<dim> stress;
+    double unbalanced_ratio = 0.0;
+    double stored_energy = 0.0;
+    double slip_energy = 0.0;
+    std::vector<LinkAnswer<dim>> active;               ///< of each active link
+    std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
+  };
+
+  Balance balance(const Unknowns& at) const;
+  Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
+  double measure(const Balance& of, const Control<dim>& control) const;
+  Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
+  ActiveLink<dim> activate(std::uint32_t link) const;
+  void commit();
+
+  const Network<dim>& network;
+  EquilibriumParameters parameters;
+  std::vector<ActiveLink<dim>> active; ///< ascending
+  std::vector<std::uint32_t> active_number; ///< of each joint in `active`, or none
+  NetworkState<dim> last;              ///< at the last event, but for what `active` holds
+  Unknowns position_at_event;
+  Balance at_event;
+  Unknowns position;
+  Balance present;
+  unsigned int iterations = 0;
+};
+} // namespace feldspar

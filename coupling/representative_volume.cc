@@ -1,0 +1,87 @@
+#include "coupling/representative_volume.h"
+
+#include <Eigen/LU>
+
+namespace feldspar
+{
+template <int dim>
+RepresentativeVolume<dim>::RepresentativeVolume(std::shared_ptr<const Network<dim>> network,
+                                                const EquilibriumParameters& wanted)
+  : reference(std::move(network))
+  , parameters(wanted)
+{
+  for (const std::uint32_t segment : reference->unbonded())
+    current.unbonded.push_back({segment, {}});
+  current.intact = current.unbonded.empty();
+}
+
+/// The strain at which the intact volume meets the control.
+template <int dim>
+std::optional<Voigt<dim>> RepresentativeVolume<dim>::intact_strain(const Control<dim>& control) const
+{
+  // Rows of given stresses: C_0 ε = σ; of given strains: ε itself.
+  Stiffness<dim> matrix = Stiffness<dim>::Identity();
+  Voigt<dim> right = control.strain;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    if (control.stress_given[k])
+      {
+        matrix.row(k) = reference->intact_stiffness().row(k);
+        right[k] = control.stress[k];
+      }
+  return Voigt<dim>(matrix.partialPivLu().solve(right));
+}
+
+template <int dim>
+Trial<dim> RepresentativeVolume<dim>::intact_trial(const Voigt<dim>& strain, const bool with_tangent) const
+{
+  Trial<dim> trial;
+  trial.state = current;
+  trial.state.strain = strain;
+  trial.state.stress = reference->intact_stiffness() * strain;
+  trial.state.work.boundary = 0.5 * reference->volume() * strain.dot(trial.state.stress); // no loss so far
+  if (with_tangent)
+    trial.tangent = reference->intact_stiffness();
+  return trial;
+}
+
+template <int dim>
+Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const Bonds bonds,
+                                            const bool with_tangent) const
+{
+  if (current.intact)
+    if (const auto strain = intact_strain(control); strain && reference->stays_intact(*strain))
+      return intact_trial(*strain, with_tangent);
+
+  Trial<dim> trial;
+  Equilibrium<dim> equilibrium(*reference, current, parameters);
+  for (;;)
+    {
+      trial.in_equilibrium = equilibrium.relax(control, parameters.event_tolerance);
+      auto overloads = bonds == Bonds::frozen || !trial.in_equilibrium ? std::vector<Overload>() : equilibrium.overloads();
+      if (overloads.empty() && trial.in_equilibrium)
+        {
+          trial.in_equilibrium = equilibrium.relax(control, parameters.final_tolerance);
+          if (bonds == Bonds::may_break && trial.in_equilibrium)
+            overloads = equilibrium.overloads();
+        }
+      if (overloads.empty())
+        break;
+      equilibrium.break_segments(overloads, trial.breaks);
+    }
+  if (with_tangent)
+    trial.tangent = equilibrium.tangent();
+  trial.unbalanced_ratio = equilibrium.unbalanced_ratio();
+  trial.state = equilibrium.state();
+  return trial;
+}
+
+template <int dim>
+double RepresentativeVolume<dim>::stored_energy() const
+{
+  if (current.intact)
+    return 0.5 * reference->volume() * current.strain.dot(current.stress);
+  return Equilibrium<dim>(*reference, current, parameters).stored_energy();
+}
+
+template class RepresentativeVolume<2>;
+} // namespace feldspar

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "coupling/equilibrium.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// What a representative volume would answer.
+template <int dim>
+struct Trial
+{
+  bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
+  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
+  std::vector<BreakEvent<dim>> breaks;
+  std::optional<Stiffness<dim>> tangent; ///< on request [Pa]
+  double unbalanced_ratio = 0.0;         ///< largest unbalanced over mean contact force
+};
+
+enum class Bonds
+{
+  may_break,
+  frozen
+};
+
+/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §6. Copies share the reference
+/// network and hold their own state only. Trying is not doing: history changes on accept().
+template <int dim>
+class RepresentativeVolume
+{
+public:
+  RepresentativeVolume(std::shared_ptr<const Network<dim>> network, const EquilibriumParameters& parameters = {});
+
+  Trial<dim> trial(const Control<dim>& control, Bonds bonds = Bonds::may_break, bool with_tangent = false) const;
+  Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break, const bool with_tangent = false) const
+  {
+    return trial(strain_control<dim>(strain), bonds, with_tangent);
+  }
+  void accept(Trial<dim>&& trial) { current = std::move(trial.state); }
+
+  const NetworkState<dim>& state() const { return current; }
+  void restore(NetworkState<dim> state) { current = std::move(state); }
+  const Network<dim>& network() const { return *reference; }
+  /// Energy stored in the contacts [J].
+  double stored_energy() const;
+
+private:
+  Trial<dim> intact_trial(const Voigt<dim>& strain, bool with_tangent) const;
+  std::optional<Voigt<dim>> intact_strain(const Control<dim>& control) const;
+
+  std::shared_ptr<const Network<dim>> reference; ///< shared: hundreds of volumes refer to one network
+  EquilibriumParameters parameters;
+  NetworkState<dim> current;
+};
+} // namespace feldspar
