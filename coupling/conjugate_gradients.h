@@ -2,16 +2,20 @@
 
 #include <Eigen/Core>
 
-#include <stdexcept>
-
 namespace feldspar
 {
 /// Solves `apply(x) = right` by preconditioned conjugate gradients until the residual's norm, in the preconditioner's
 /// measure, has fallen by `tolerance`. `apply` may be singular where `right` lies in its range: nothing is asked of the
-/// rest. Throws std::runtime_error if it does not get there. (Hestenes and Stiefel 1952.)
+/// rest. (Hestenes and Stiefel 1952.)
+struct LinearSolution
+{
+  Eigen::VectorXd x;
+  bool converged; ///< false: x is the best within the iterations allowed
+};
+
 template <typename Apply, typename Precondition>
-Eigen::VectorXd conjugate_gradients(const Apply& apply, const Precondition& precondition, const Eigen::VectorXd& right,
-                                    const double tolerance, const unsigned int most_iterations)
+LinearSolution conjugate_gradients(const Apply& apply, const Precondition& precondition, const Eigen::VectorXd& right,
+                                   const double tolerance, const unsigned int most_iterations)
 {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
   Eigen::VectorXd residual = right;
@@ -22,7 +26,7 @@ Eigen::VectorXd conjugate_gradients(const Apply& apply, const Precondition& prec
   for (unsigned int k = 0; measure > goal; ++k)
     {
       if (k == most_iterations)
-        throw std::runtime_error("conjugate gradients found no solution");
+        return {x, false};
       const Eigen::VectorXd image = apply(direction);
       const double curvature = direction.dot(image);
       if (!(curvature > 0.0)) // only round-off, or a motion without stiffness, is left
@@ -35,6 +39,6 @@ Eigen::VectorXd conjugate_gradients(const Apply& apply, const Precondition& prec
       direction = z + (next / measure) * direction;
       measure = next;
     }
-  return x;
+  return {x, true};
 }
 } // namespace feldspar

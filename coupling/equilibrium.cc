@@ -14,7 +14,8 @@ constexpr double near_worst_share = 0.98;
 constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
 // Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.
 constexpr double lent_stiffness = 1e-7;
-constexpr double longest_step = 0.1; // of one iteration, over the mean branch
+constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
+constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
 } // namespace
 
 template <int dim>
@@ -78,7 +79,6 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
   const auto add_answer = [&](const Link<dim>& link, const LinkAnswer<dim>& answer) {
     add(link, answer.forces);
     result.stored_energy += answer.stored_energy;
-    result.slip_energy += answer.slip_energy;
   };
   for (std::uint32_t k = 0; k < links.size(); ++k)
     {
@@ -190,10 +190,11 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
             y[n_own + c] = 0.0;
         return y;
       };
-      Unknowns step =
-        step_share > 0.1
-          ? conjugate_gradients(apply, precondition, right, std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error)), 400)
-          : precondition(right);
+      Unknowns step = step_share > 0.1
+                        ? conjugate_gradients(apply, precondition, right,
+                                              std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error)), 400)
+                            .x
+                        : precondition(right);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)
@@ -230,8 +231,7 @@ std::vector<Overload> Equilibrium<dim>::overloads() const
     const Strength& bond = network.strength(segment);
     const double shear_strength = std::max(0.0, bond.cohesion - network.friction_slope() * normal); // (15)
     const double in_tension = normal / bond.tensile;
-    const double in_shear = shear_strength > 0.0 ? shear / shear_strength
-                                                 : std::numeric_limits<double>::infinity();
+    const double in_shear = shear_strength > 0.0 ? shear / shear_strength : std::numeric_limits<double>::infinity();
     if (normal > bond.tensile || shear > shear_strength)
       result.push_back({std::max(in_tension, in_shear), segment, normal > bond.tensile});
   };
@@ -267,10 +267,38 @@ std::vector<Overload> Equilibrium<dim>::overloads() const
                                       [&](const Overload& overload) { return overload.ratio >= worst * (1.0 - tie); });
       return first == result.end() ? std::vector<Overload>() : std::vector<Overload>{*first};
     }
-  std::erase_if(result, [&](const Overload& overload) {
-    return overload.ratio < near_worst_share * worst * (1.0 - tie);
-  });
+  std::erase_if(result,
+                [&](const Overload& overload) { return overload.ratio < near_worst_share * worst * (1.0 - tie); });
   return result;
+}
+
+/// Dissipated between two positions on the way from the last event [J].
+template <int dim>
+double Equilibrium<dim>::slip_energy(const Balance& from, const Balance& to) const
+{
+  double sum = 0.0;
+  const auto add = [&](const std::uint32_t link, const LinkAnswer<dim>* before, const LinkAnswer<dim>& after) {
+    for (std::uint32_t i = 0; i < after.segments.size(); ++i)
+      {
+        const double area = network.segment_area(network.links()[link], i);
+        for (int c = 0; c < dim - 1; ++c)
+          {
+            const double old_stress = before ? before->segments[i].shear_stress[c] : 0.0;
+            const double old_slip = before ? before->segments[i].slip[c] : 0.0;
+            sum +=
+              0.5 * (old_stress + after.segments[i].shear_stress[c]) * (after.segments[i].slip[c] - old_slip) * area;
+          }
+      }
+  };
+  for (std::size_t a = 0; a < active.size(); ++a)
+    add(active[a].link, &from.active[a], to.active[a]);
+  for (const auto& [link, touch] : to.touches)
+    {
+      const auto before = std::find_if(from.touches.begin(), from.touches.end(),
+                                       [&, which = link](const auto& entry) { return entry.first == which; });
+      add(link, before == from.touches.end() ? nullptr : &before->second, touch);
+    }
+  return sum;
 }
 
 /// The way since the last event, taken as straight, into the energies; then the present becomes the last event.
@@ -279,10 +307,20 @@ void Equilibrium<dim>::commit()
 {
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   const Unknowns way = position - position_at_event;
-  last.work.boundary +=
-    network.volume() * 0.5 * (at_event.stress + present.stress).dot(way.template tail<n_voigt<dim>>());
-  last.work.settled += 0.5 * (at_event.forces + present.forces).head(n_own).dot(way.head(n_own));
-  last.work.slip += present.slip_energy;
+  const auto add_work = [&](const Balance& at, const double share) {
+    last.work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
+    last.work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
+  };
+  const unsigned int n_intervals = active.empty() ? 1 : n_work_intervals;
+  Balance before = at_event;
+  for (unsigned int k = 1; k <= n_intervals; ++k)
+    {
+      Balance after = k == n_intervals ? present : balance(position_at_event + double(k) / n_intervals * way);
+      add_work(before, 0.5 / n_intervals);
+      add_work(after, 0.5 / n_intervals);
+      last.work.slip += slip_energy(before, after);
+      before = std::move(after);
+    }
 
   for (std::size_t a = 0; a < active.size(); ++a)
     {
@@ -347,7 +385,8 @@ NetworkState<dim> Equilibrium<dim>::state()
     for (std::uint32_t i = 0; i < link.segments.size(); ++i)
       if (!link.segments[i].bonded)
         {
-          const bool idle = !network.links()[link.link].has_face && link.segments[i].shear_stress == decltype(link.segments[i].shear_stress){};
+          const bool idle = !network.links()[link.link].has_face &&
+                            link.segments[i].shear_stress == decltype(link.segments[i].shear_stress){};
           if (!idle)
             result.unbonded.push_back({network.links()[link.link].first_segment + i, link.segments[i].shear_stress});
         }
@@ -361,9 +400,10 @@ Stiffness<dim> Equilibrium<dim>::affine_tangent() const
 {
   Stiffness<dim> result;
   for (int k = 0; k < n_voigt<dim>; ++k)
-    result.col(k) = apply_tangent(present, Unknowns::Unit(network.n_unknowns(), network.n_unknowns() - n_voigt<dim> + k))
-                      .template tail<n_voigt<dim>>() /
-                    network.volume();
+    result.col(k) =
+      apply_tangent(present, Unknowns::Unit(network.n_unknowns(), network.n_unknowns() - n_voigt<dim> + k))
+        .template tail<n_voigt<dim>>() /
+      network.volume();
   return result;
 }
 
@@ -386,7 +426,7 @@ Stiffness<dim> Equilibrium<dim>::tangent() const
       Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
       Unknowns right = -apply_tangent(present, unit);
       right.template tail<n_voigt<dim>>().setZero();
-      unit.head(n_own) += conjugate_gradients(apply, precondition, right, 1e-10, 2000).head(n_own);
+      unit.head(n_own) += conjugate_gradients(apply, precondition, right, 1e-10, 2000).x.head(n_own);
       result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
     }
   return 0.5 * (result + result.transpose());

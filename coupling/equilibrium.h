@@ -97,8 +97,7 @@ private:
     Voigt<dim> stress;
     double unbalanced_ratio = 0.0;
     double stored_energy = 0.0;
-    double slip_energy = 0.0;
-    std::vector<LinkAnswer<dim>> active;               ///< of each active link
+    std::vector<LinkAnswer<dim>> active;                            ///< of each active link
     std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
   };
 
@@ -107,13 +106,14 @@ private:
   double measure(const Balance& of, const Control<dim>& control) const;
   Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
   ActiveLink<dim> activate(std::uint32_t link) const;
+  double slip_energy(const Balance& from, const Balance& to) const;
   void commit();
 
   const Network<dim>& network;
   EquilibriumParameters parameters;
-  std::vector<ActiveLink<dim>> active; ///< ascending
+  std::vector<ActiveLink<dim>> active;      ///< ascending
   std::vector<std::uint32_t> active_number; ///< of each joint in `active`, or none
-  NetworkState<dim> last;              ///< at the last event, but for what `active` holds
+  NetworkState<dim> last;                   ///< at the last event, but for what `active` holds
   Unknowns position_at_event;
   Balance at_event;
   Unknowns position;

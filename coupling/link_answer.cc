@@ -71,8 +71,7 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       step.slope = slope;
       for (int c = 0; c < dim - 1; ++c)
         step.shear_increment[c] = now[c + 1] - before[c + 1];
-      const auto update =
-        flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {old.shear_stress, false}, step);
+      const auto update = flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {old.shear_stress, false}, step);
       segment.normal_stress = mean_stress(face, update.normal);
       segment.shear_stress = update.state.shear_stress;
 
@@ -85,7 +84,14 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
         result.forces[2] -= update.normal.moment;
       result.stored_energy += flat_joint::normal_energy(face, step.gap, step.slope, false) +
                               0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
-      result.slip_energy += update.slip_energy;
+      bool sticks = true;
+      const double share = flat_joint::closed_share(step.gap_before, step.gap);
+      for (int c = 0; c < dim - 1; ++c)
+        {
+          const double trial = old.shear_stress[c] - k_s * share * step.shear_increment[c];
+          segment.slip[c] = (trial - segment.shear_stress[c]) / k_s;
+          sticks = sticks && trial == segment.shear_stress[c];
+        }
 
       const Pressing part = pressing_part(face, step.gap, step.slope);
       if (part.share == 0.0)
@@ -98,7 +104,7 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
         link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
       result.tangent += k_n * part.share * area * part_rows.row(0).transpose() * part_rows.row(0);
       result.tangent(2, 2) += k_n * second_moment;
-      if (update.slip_energy == 0.0 && step.gap < 0.0)
+      if (sticks && step.gap < 0.0)
         result.tangent += k_s * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
     }
   return result;

@@ -20,7 +20,7 @@ template <int dim>
 struct ActiveLink
 {
   std::uint32_t link;
-  Motion<dim> motion;                         ///< at the last event
+  Motion<dim> motion; ///< at the last event
   std::vector<SegmentHistory<dim>> segments;
 };
 
@@ -30,16 +30,16 @@ struct SegmentAnswer
 {
   double normal_stress;                     ///< σ̂ [Pa]
   std::array<double, dim - 1> shear_stress; ///< τ [Pa]
+  std::array<double, dim - 1> slip{};       ///< that friction let go since the last event, along τ [m]
 };
 
 template <int dim>
 struct LinkAnswer
 {
-  Motion<dim> forces = Motion<dim>::Zero(); ///< work-conjugate to the link's motion
+  Motion<dim> forces = Motion<dim>::Zero();                  ///< work-conjugate to the link's motion
   JointStiffness<dim> tangent = JointStiffness<dim>::Zero(); ///< bonds and open, stick, slip states frozen
   std::vector<SegmentAnswer<dim>> segments;
   double stored_energy = 0.0; ///< [J]
-  double slip_energy = 0.0;   ///< since the last event [J]
 };
 
 /// `motion` of the link now.

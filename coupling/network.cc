@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 namespace feldspar
 {
@@ -20,8 +21,7 @@ constexpr double regularity = 1e-9;        // of the factor's diagonal: grains m
 
 /// Axes n, t (n, t_1, t_2) of a contact as rows.
 template <int dim>
-Tensor<dim> contact_axes(const Vector<dim>& normal)
-  requires(dim == 2)
+Tensor<dim> contact_axes(const Vector<dim>& normal) requires(dim == 2)
 {
   Tensor<2> axes;
   axes << normal[0], normal[1], -normal[1], normal[0];
@@ -140,10 +140,12 @@ Network<dim>::Network(const Specimen<dim>& specimen)
 }
 
 template <int dim>
-double Network<dim>::segment_area(const Link<dim>& link, const std::uint32_t segment) const
+double Network<dim>::segment_area(const Link<dim>& link, const std::uint32_t i) const
 {
   const double r = link.half_length;
-  return face[segment % face.size()].area * r * (dim == 2 ? plane_thickness : r);
+  if (!link.has_face)
+    return face_area<dim>(r, plane_thickness);
+  return face[i].area * r * (dim == 2 ? plane_thickness : r);
 }
 
 template <int dim>
@@ -271,9 +273,11 @@ void Network<dim>::solve_unit_strains()
         y.tail<n_voigt<dim>>().setZero();
         return y;
       };
-      const Unknowns solution = conjugate_gradients(
+      const auto solution = conjugate_gradients(
         apply, [&](const Unknowns& r) { return precondition(r, no_strain_free); }, right, 1e-13, 500);
-      unit_motion.col(k) = solution.head(n_own);
+      if (!solution.converged)
+        throw std::runtime_error("the intact network has no solution");
+      unit_motion.col(k) = solution.x.head(n_own);
       affine.head(n_own) = unit_motion.col(k);
       c_0.col(k) = apply_bonded(affine).template tail<n_voigt<dim>>() / cell_volume;
     }

@@ -38,9 +38,9 @@ struct Link
   std::uint32_t first_segment; ///< among all segments of the network
   std::uint32_t n_segments;
   bool has_face;
-  Tensor<dim> axes;    ///< rows n, t (n, t_1, t_2)
-  Vector<dim> branch;  ///< from centre 1 to centre 2, through the periodic image [m]
-  double arm_1, arm_2; ///< from the centres to the contact point [m]
+  Tensor<dim> axes;        ///< rows n, t (n, t_1, t_2)
+  Vector<dim> branch;      ///< from centre 1 to centre 2, through the periodic image [m]
+  double arm_1, arm_2;     ///< from the centres to the contact point [m]
   double normal_stiffness; ///< k_n [Pa/m]
   double shear_stiffness;  ///< k_s [Pa/m]
   double half_length;      ///< R̄ [m]
@@ -106,7 +106,8 @@ public:
   const Strength& strength(const std::uint32_t segment) const { return strengths[segment]; }
   double friction_slope() const { return tan_bond_friction; }
   double thickness() const { return plane_thickness; }
-  double segment_area(const Link<dim>& link, std::uint32_t segment) const;
+  /// Of a link's segment i [m²].
+  double segment_area(const Link<dim>& link, std::uint32_t i) const;
   std::uint32_t link_of_segment(const std::uint32_t segment) const
   {
     const auto n = std::uint32_t(strengths.size());
@@ -166,7 +167,7 @@ private:
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor; ///< of the grains' part, made regular
-  Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
+  Motion<dim> stiffness_scale;                               ///< mean of the diagonal, of each motion of a grain
   Stiffness<dim> c_0;
   Eigen::MatrixXd unit_motion;
   std::vector<UnitResponse<dim>> unit_responses;

@@ -32,8 +32,8 @@ struct NetworkState
   Voigt<dim> strain = Voigt<dim>::Zero();
   Voigt<dim> stress = Voigt<dim>::Zero(); ///< [Pa]
   bool intact = true;
-  std::vector<double> motions;                 ///< of all grains; empty while intact
-  std::vector<UnbondedSegment<dim>> unbonded;  ///< ascending; pairs without a face where they touch
+  std::vector<double> motions;                ///< of all grains; empty while intact
+  std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
   std::uint32_t n_tension_breaks = 0;
   std::uint32_t n_shear_breaks = 0;
   NetworkWork work;

@@ -57,7 +57,8 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const B
   for (;;)
     {
       trial.in_equilibrium = equilibrium.relax(control, parameters.event_tolerance);
-      auto overloads = bonds == Bonds::frozen || !trial.in_equilibrium ? std::vector<Overload>() : equilibrium.overloads();
+      auto overloads =
+        bonds == Bonds::frozen || !trial.in_equilibrium ? std::vector<Overload>() : equilibrium.overloads();
       if (overloads.empty() && trial.in_equilibrium)
         {
           trial.in_equilibrium = equilibrium.relax(control, parameters.final_tolerance);

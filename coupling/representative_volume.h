@@ -34,7 +34,8 @@ public:
   RepresentativeVolume(std::shared_ptr<const Network<dim>> network, const EquilibriumParameters& parameters = {});
 
   Trial<dim> trial(const Control<dim>& control, Bonds bonds = Bonds::may_break, bool with_tangent = false) const;
-  Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break, const bool with_tangent = false) const
+  Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
+                   const bool with_tangent = false) const
   {
     return trial(strain_control<dim>(strain), bonds, with_tangent);
   }
