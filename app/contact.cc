@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -19,52 +18,121 @@ namespace feldspar
 {
 namespace
 {
-constexpr double thickness = 1.0; // [m]
+constexpr double thickness = 1.0; // of a joint in the plane [m]
 
-flat_joint::Face<double> make_face(const FlatJointParameters& joint, const ContactParameters& grains)
+Face<double> make_face(const FlatJointParameters& joint, const ContactParameters& grains)
 {
-  const double normal_stiffness = joint.modulus / (grains.radius_1 + grains.radius_2);
-  const double half_length = joint.radius_multiplier * std::min(grains.radius_1, grains.radius_2); // (12)
-  return {normal_stiffness, normal_stiffness / joint.stiffness_ratio, 2.0 * half_length / joint.n_segments, thickness,
-          joint.friction};
+  const double normal_stiffness = stiffness_per_area(joint.modulus, grains.radius_1, grains.radius_2);
+  return {normal_stiffness, normal_stiffness / joint.stiffness_ratio,
+          face_half_length(joint.radius_multiplier, grains.radius_1, grains.radius_2), thickness, joint.friction};
 }
 
 /// The segments of the joint: all as strong as the mean, at rest at first.
+template <int dim>
 struct Segments
 {
-  explicit Segments(const FlatJointParameters& joint)
+  Segments(const FlatJointParameters& joint, const std::size_t n)
     : strength{joint.bond_tensile_strength, joint.bond_cohesion, std::tan(joint.bond_friction_angle)}
-    , updates(joint.n_segments)
+    , updates(n)
   {
     for (auto& update : updates)
-      update.state = {{0.0}, true};
+      update.state = {{}, true};
   }
 
   const flat_joint::Bond<double>& bond(unsigned int) const { return strength; }
-  const flat_joint::SegmentState<2, double>& state(const unsigned int i) const { return updates[i].state; }
-  void set(const unsigned int i, const flat_joint::SegmentUpdate<2, double>& update) { updates[i] = update; }
+  const flat_joint::SegmentState<dim, double>& state(const unsigned int i) const { return updates[i].state; }
+  void set(const unsigned int i, const flat_joint::SegmentUpdate<dim, double>& update) { updates[i] = update; }
 
   flat_joint::Bond<double> strength;
-  std::vector<flat_joint::SegmentUpdate<2, double>> updates;
+  std::vector<flat_joint::SegmentUpdate<dim, double>> updates;
 };
 
-std::string csv_header(const unsigned int n_segments)
+/// Columns of the path and of the answer.
+template <int dim>
+struct Columns;
+
+template <>
+struct Columns<2>
 {
-  std::string header = "normal_force_N,shear_force_N,moment_Nm";
-  for (unsigned int i = 1; i <= n_segments; ++i)
-    header += fmt::format(",sigma_{0}_Pa,tau_{0}_Pa,bonded_{0}", i);
+  static constexpr const char* path = "normal_m,shear_m,rotation_rad";
+  static constexpr const char* resultants = "normal_force_N,shear_force_N,moment_Nm";
+  static constexpr const char* segment = ",sigma_{0}_Pa,tau_{0}_Pa,bonded_{0}";
+};
+
+template <>
+struct Columns<3>
+{
+  static constexpr const char* path = "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad";
+  static constexpr const char* resultants =
+    "normal_force_N,shear_force_1_N,shear_force_2_N,twist_moment_Nm,bend_moment_1_Nm,bend_moment_2_Nm";
+  static constexpr const char* segment = ",sigma_{0}_Pa,tau_1_{0}_Pa,tau_2_{0}_Pa,bonded_{0}";
+};
+
+template <int dim>
+std::string csv_header(const std::size_t n_segments)
+{
+  std::string header = Columns<dim>::resultants;
+  for (std::size_t i = 1; i <= n_segments; ++i)
+    header += fmt::format(fmt::runtime(Columns<dim>::segment), i);
   return header + '\n';
 }
 
-std::string csv_row(const flat_joint::Face<double>& face, const FaceResultants<2, double>& sum,
-                    const Segments& segments)
+/// From one row of the path to the next; the contact plane stays where it is.
+template <int dim>
+FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std::vector<double>& now)
+{
+  FaceMotion<dim, double> motion;
+  motion.opening_before = before[0];
+  motion.opening = now[0];
+  for (int c = 0; c < dim - 1; ++c)
+    motion.slip_increment[c] = now[1 + c] - before[1 + c];
+  for (int c = 0; c < n_rotations<dim>; ++c)
+    {
+      motion.rotation_before[c] = before[dim + c];
+      motion.rotation[c] = now[dim + c];
+    }
+  return motion;
+}
+
+template <int dim>
+std::string csv_row(const Face<double>& face, const std::vector<FaceElement<dim>>& elements,
+                    const FaceResultants<dim, double>& sum, const Segments<dim>& segments)
 {
   // Adding zero turns -0 into 0.
-  std::string row = fmt::format("{},{},{}", sum.normal_force + 0.0, sum.shear_force[0] + 0.0, sum.moment + 0.0);
-  for (const auto& segment : segments.updates)
-    fmt::format_to(std::back_inserter(row), ",{},{},{:d}", mean_stress(face, segment.normal) + 0.0,
-                   segment.state.shear_stress[0] + 0.0, segment.state.bonded);
+  std::string row = fmt::format("{}", sum.normal_force + 0.0);
+  const auto append = [&row](const double value) { fmt::format_to(std::back_inserter(row), ",{}", value + 0.0); };
+  for (const double force : sum.shear_force)
+    append(force);
+  for (const double moment : sum.moment)
+    append(moment);
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    {
+      const auto& update = segments.updates[i];
+      append(mean_stress(place_segment(face, elements[i]).segment, update.normal));
+      for (const double tau : update.state.shear_stress)
+        append(tau);
+      fmt::format_to(std::back_inserter(row), ",{:d}", update.state.bonded);
+    }
   return row + '\n';
+}
+
+/// What the joint answers to the path.
+template <int dim>
+std::string answer(const Input& input)
+{
+  const auto path = read_csv(input.contact.path_file, Columns<dim>::path);
+  const Face<double> face = make_face(input.flat_joint, input.contact);
+  const auto elements = face_elements<dim>(face_division<dim>(input.flat_joint));
+  Segments<dim> segments(input.flat_joint, elements.size());
+  std::string table = csv_header<dim>(elements.size());
+  std::vector<double> before(dim + n_rotations<dim>, 0.0);
+  for (const std::vector<double>& now : path)
+    {
+      const auto sum = update_face<dim>(face, elements, row_motion<dim>(before, now), segments);
+      table += csv_row<dim>(face, elements, sum, segments);
+      before = now;
+    }
+  return table;
 }
 } // namespace
 
@@ -74,23 +142,8 @@ int run_contact(const CommonOptions& options)
   if (input.contact.path_file.empty())
     throw InputError(
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", options.input.string()));
-  const auto path = read_csv(input.contact.path_file, "normal_m,shear_m,rotation_rad");
+  const std::string table = input.specimen.dimension == 2 ? answer<2>(input) : answer<3>(input);
   const OutputFolder folder(options.output, options.input, options.force);
-
-  const flat_joint::Face<double> face = make_face(input.flat_joint, input.contact);
-  Segments segments(input.flat_joint);
-  std::string table = csv_header(input.flat_joint.n_segments);
-  std::vector<double> before{0.0, 0.0, 0.0};
-  for (const std::vector<double>& now : path)
-    {
-      const FaceMotion<2, double> motion{.opening_before = before[0],
-                                         .opening = now[0],
-                                         .slope_before = before[2],
-                                         .slope = now[2],
-                                         .shear_increment = {now[1] - before[1]}};
-      table += csv_row(face, update_face(face, input.flat_joint.n_segments, motion, segments), segments);
-      before = now;
-    }
   write_text_file(folder.path() / "contact.csv", table);
   if (!options.quiet)
     fmt::print("{}\n", (folder.path() / "contact.csv").string());

@@ -321,7 +321,8 @@ std::vector<Parameter> make_parameter_table()
   const Section<C> contact_path{"Contact path", &Input::contact};
 
   return {
-    specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}}, "discs in the plane, one metre thick"),
+    specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}, {"3", 3}},
+                                  "2: discs in the plane, one metre thick; 3: spheres"),
     specimen.choice<std::string>("Shape", &S::shape, {{"box", "box"}}, "of the specimen"),
     specimen.quantity("Width", &S::width, length, "mm", above_zero,
                       "across the axis of the tests; at least four radii of the largest grain"),
@@ -340,7 +341,11 @@ std::vector<Parameter> make_parameter_table()
                   "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing"),
     specimen.file("Specimen file", &S::specimen_file, "a finished specimen.h5 to be tested; none makes a specimen"),
 
-    flat_joint.integer("Segments", &F::n_segments, {'[', 1.0, 32.0, ']'}, "of a face, each of which breaks by itself"),
+    flat_joint.integer("Segments", &F::n_segments, {'[', 1.0, 32.0, ']'},
+                       "of a face in two dimensions, each of which breaks by itself"),
+    flat_joint.integer("Rings", &F::n_rings, {'[', 1.0, 16.0, ']'}, "of a face in three dimensions, of equal width"),
+    flat_joint.integer("Sectors", &F::n_sectors, {'[', 3.0, 32.0, ']'},
+                       "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself"),
     flat_joint.quantity("Modulus", &F::modulus, stress, "GPa", above_zero,
                         "E; the normal stiffness is E over the sum of both radii"),
     flat_joint.number("Stiffness ratio", &F::stiffness_ratio, above_zero, "normal over shear stiffness"),
@@ -434,8 +439,10 @@ std::vector<Parameter> make_parameter_table()
 
     contact.quantity("Radius 1", &C::radius_1, length, "mm", above_zero, "of grain 1 of `feldspar contact`"),
     contact.quantity("Radius 2", &C::radius_2, length, "mm", above_zero, "of grain 2 of `feldspar contact`"),
-    contact_path.file("File", &C::path_file,
-                      "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad"),
+    contact_path.file(
+      "File", &C::path_file,
+      "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad; in three dimensions "
+      "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad"),
     file_parameter(
       "Report", "Reference file", "figures of the rock and of other models (JSON) to set the results beside",
       [](auto& input) -> auto& { return input.reference_file; }),

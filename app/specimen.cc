@@ -4,6 +4,7 @@
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/specimen_source.h"
+#include "dem/input_error.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,9 @@ namespace feldspar
 int run_specimen(const CommonOptions& options)
 {
   const Input input = read_input(options.input);
+  if (input.specimen.dimension != 2)
+    throw InputError(fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet",
+                                 options.input.string()));
   const OutputFolder folder(options.output, options.input, options.force);
   Progress progress(options.quiet);
   watch_for_interrupt();

@@ -1,8 +1,8 @@
 #include "dem/dynamics.h"
 
 #include "dem/contact_motion.h"
-#include "dem/flat_joint_law.h"
 #include "dem/hdf5_archive.h"
+#include "dem/joint_update.h"
 #include "dem/neighbours.h"
 #include "dem/parallel.h"
 
@@ -245,19 +245,19 @@ template <int dim>
 double Dynamics<dim>::joint_energy(const std::size_t j) const
 {
   const auto& joints = body.joints;
-  const flat_joint::Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j],
-                                      joints.half_length[j] * (2.0 / joints.n_segments), joints.thickness,
-                                      joints.friction};
-  double sum = 0.0;
-  for (unsigned int i = 0; i < joints.n_segments; ++i)
-    {
-      const std::size_t k = joints.segment(i, j);
-      const double rho = flat_joint::segment_offset(i, joints.n_segments, joints.half_length[j]);
-      sum += flat_joint::normal_energy(face, flat_joint::gap_at(joints.opening[j], joints.slope[j], rho),
-                                       joints.slope[j], joints.bonded[k] > 0.5);
-      sum += 0.5 * squared_norm<dim - 1>(joints.shear_stress, k) * face.segment_area() / face.shear_stiffness;
-    }
-  return sum;
+  const Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j], joints.half_length[j],
+                          joints.thickness, joints.friction};
+  std::array<double, n_rotations<dim>> rotation;
+  for (int c = 0; c < n_rotations<dim>; ++c)
+    rotation[c] = joints.rotation[c][j];
+  const auto shear_stress_of = [&](const unsigned int i) {
+    std::array<double, dim - 1> tau;
+    for (int c = 0; c < dim - 1; ++c)
+      tau[c] = joints.shear_stress[c][joints.segment(i, j)];
+    return tau;
+  };
+  const auto bonded_of = [&](const unsigned int i) { return joints.bonded[joints.segment(i, j)] > 0.5; };
+  return face_energy(face, joints.elements, joints.opening[j], rotation, shear_stress_of, bonded_of);
 }
 
 /// A joint loses its faces when nothing holds and they have slid or opened past each other; the pair may touch again.
@@ -269,7 +269,10 @@ void Dynamics<dim>::remove_torn_faces()
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
       const double reach = 2.0 * joints.half_length[j];
-      if ((std::abs(joints.slip[j]) <= reach && joints.opening[j] <= reach) || joints.holds(j))
+      std::array<double, dim - 1> slip;
+      for (int c = 0; c < dim - 1; ++c)
+        slip[c] = joints.slip[c][j];
+      if ((flat_joint::magnitude(slip) <= reach && joints.opening[j] <= reach) || joints.holds(j))
         kept.push_back(j);
       else
         {
@@ -385,9 +388,7 @@ bool Dynamics<dim>::contacts_may_be_missed()
 template <int dim>
 double Dynamics<dim>::touch_stiffness(const double radius_1, const double radius_2) const
 {
-  const double k_n = body.particle_contact.modulus / (radius_1 + radius_2);
-  const double r = std::min(radius_1, radius_2);
-  return k_n * (dim == 2 ? 2.0 * r * body.thickness : std::numbers::pi * r * r);
+  return feldspar::touch_stiffness<dim>(body.particle_contact.modulus, radius_1, radius_2, body.thickness);
 }
 
 template <int dim>
@@ -405,13 +406,18 @@ void Dynamics<dim>::choose_time_step()
   const auto& joints = body.joints;
   Components<dim> k;
   resize<dim>(k, n_own);
-  std::vector<double> k_turning(n_own, 0.0);
+  Components<n_rotations<dim>> k_turning;
+  resize<n_rotations<dim>>(k_turning, n_own);
   const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
-                       const double arm, const double k_bending) {
+                       const double arm, const double k_bending, const double k_twist) {
     const std::uint32_t i = owner(grain);
     for (int c = 0; c < dim; ++c)
       k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
-    k_turning[i] += k_s * arm * arm + k_bending;
+    for (int c = 0; c < n_rotations<dim>; ++c)
+      {
+        const double axial = dim == 3 ? normal[c] * normal[c] : 0.0; // discs turn about an axis across every normal
+        k_turning[c][i] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
+      }
   };
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
@@ -419,19 +425,19 @@ void Dynamics<dim>::choose_time_step()
       const double k_n = joints.normal_stiffness[j] * area;
       const double k_s = joints.shear_stiffness[j] * area;
       const double k_bending = joints.normal_stiffness[j] * joints.face_second_moment(j);
-      const double half_distance = 0.5 * (joints.rest_distance[j] + joints.opening[j]);
+      const double k_twist = joints.shear_stiffness[j] * joints.face_polar_moment(j);
+      const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
       const auto normal = at<dim>(joints.normal, j);
-      add(joints.grain_1[j], normal, k_n, k_s, half_distance + joints.half_radius_difference[j], k_bending);
-      add(joints.grain_2[j], normal, k_n, k_s, half_distance - joints.half_radius_difference[j], k_bending);
+      add(joints.grain_1[j], normal, k_n, k_s, a.one, k_bending, k_twist);
+      add(joints.grain_2[j], normal, k_n, k_s, a.two, k_bending, k_twist);
     }
   for (const auto& touch : touches)
     if (touch.touching)
       {
         const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
-        add(touch.grain_1, touch.normal, touch.stiffness.normal, k_s,
-            0.5 * touch.distance + touch.half_radius_difference, 0.0);
-        add(touch.grain_2, touch.normal, touch.stiffness.normal, k_s,
-            0.5 * touch.distance - touch.half_radius_difference, 0.0);
+        const auto a = arms(touch.frame.distance, touch.half_radius_difference);
+        add(touch.grain_1, touch.frame.normal, touch.stiffness.normal, k_s, a.one, 0.0, 0.0);
+        add(touch.grain_2, touch.frame.normal, touch.stiffness.normal, k_s, a.two, 0.0, 0.0);
       }
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     for (const auto& touch : wall_touches[w])
@@ -439,7 +445,8 @@ void Dynamics<dim>::choose_time_step()
         {
           const double k_n = wall_stiffness(grains.radius[touch.grain]);
           const double k_s = wall_list[w].friction > 0.0 ? k_n / body.particle_contact.stiffness_ratio : 0.0;
-          add(touch.grain, Vector<dim>::Unit(wall_list[w].axis), k_n, k_s, touch.zero_distance - touch.overlap, 0.0);
+          add(touch.grain, Vector<dim>::Unit(wall_list[w].axis), k_n, k_s, touch.zero_distance - touch.overlap, 0.0,
+              0.0);
         }
 
   double largest = 0.0;
@@ -447,7 +454,8 @@ void Dynamics<dim>::choose_time_step()
     {
       for (int c = 0; c < dim; ++c)
         largest = std::max(largest, k[c][i] / grains.mass[i]);
-      largest = std::max(largest, k_turning[i] / grains.moment_of_inertia[i]);
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        largest = std::max(largest, k_turning[c][i] / grains.moment_of_inertia[i]);
     }
   if (largest == 0.0) // nothing touches: the stiffest contact a grain could make
     for (std::size_t i = 0; i < n_own; ++i)
@@ -525,7 +533,6 @@ void Dynamics<dim>::update_touches(const double step)
             touch.couple_2 = {};
             continue;
           }
-        const auto now = contact_frame<dim, double>(centre_1, centre_2);
         std::array<double, dim - 1> slip{};
         if (touch.touching && friction > 0.0)
           {
@@ -535,21 +542,27 @@ void Dynamics<dim>::update_touches(const double step)
                 turn_1[c] = step * grains.spin[c][touch.grain_1];
                 turn_2[c] = step * grains.spin[c][touch.grain_2];
               }
-            slip = slip_increment(ContactFrame<dim, double>{touch.normal, touch.distance}, now,
-                                  touch.half_radius_difference, turn_1, turn_2);
+            const auto motion =
+              contact_motion(touch.frame, centre_1, centre_2, touch.half_radius_difference, turn_1, turn_2);
+            touch.frame = motion.frame;
+            slip = motion.slip;
+          }
+        else
+          {
+            touch.frame = contact_frame<dim, double>(centre_1, centre_2);
+            if constexpr (dim == 3)
+              touch.frame.tangent = space::tangent_to(touch.frame.normal);
           }
         const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
-                                                          touch.zero_distance - now.distance, slip);
+                                                          touch.zero_distance - touch.frame.distance, slip);
         if (!touch.touching)
           std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
         touch.touching = true;
-        touch.distance = now.distance;
-        touch.normal = now.normal;
         touch.normal_force = response.normal_force;
         touch.shear_force = response.shear_force;
         touch.slip_energy += response.slip_energy;
-        const auto answer =
-          contact_force(now, touch.half_radius_difference, response.normal_force, response.shear_force, 0.0);
+        const auto answer = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
+                                          response.shear_force, std::array<double, n_rotations<dim>>{});
         touch.force = answer.force;
         touch.couple_1 = answer.couple_1;
         touch.couple_2 = answer.couple_2;
@@ -735,7 +748,7 @@ double Dynamics<dim>::unbalanced_force_ratio() const
   for (const auto& touch : touches)
     if (touch.touching)
       {
-        carried += std::hypot(touch.normal_force, touch.shear_force[0]);
+        carried += std::hypot(touch.normal_force, flat_joint::magnitude(touch.shear_force));
         ++n_contacts;
       }
   return carried > 0.0 && n_free > 0 ? (unbalanced / double(n_free)) / (carried / double(n_contacts)) : 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/contact_motion.h"
 #include "dem/joint_sweep.h"
 #include "dem/linear_contact_law.h"
 #include "dem/neighbours.h"
@@ -98,8 +99,7 @@ private:
     double zero_distance;          ///< centre distance below which they press [m]
     double half_radius_difference; ///< [m]
     bool touching = false;
-    double distance = 0.0; ///< at the last step in which they touched [m]
-    std::array<double, dim> normal{};
+    ContactFrame<dim, double> frame{}; ///< at the last step in which they touched
     std::array<double, dim - 1> shear_force{};
     double normal_force = 0.0;
     double slip_energy = 0.0;

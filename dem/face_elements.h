@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/parameters.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,13 +64,12 @@ struct FaceElement
 {
   std::array<double, dim - 1> offset; ///< of the centroid: along t in 2D; along the face's axes t_1, t_2 in 3D
   double area;                        ///< over R̄t in 2D, over R̄² in 3D
-  double second_moment;               ///< own, about its centroid: ℓ³/12 over R̄³ in 2D; 0 in 3D, where it is lumped
+  double second_moment; ///< own, about its centroid: ℓ³/12 over R̄³ in 2D; 0 in 3D, where it is lumped
 };
 
 /// N equal segments from ρ = +R̄ to -R̄; (8).
 template <int dim>
-  requires(dim == 2)
-std::vector<FaceElement<dim>> face_elements(const unsigned int n_segments)
+requires(dim == 2) std::vector<FaceElement<dim>> face_elements(const unsigned int n_segments)
 {
   std::vector<FaceElement<dim>> elements;
   const double length = 2.0 / n_segments;
@@ -80,8 +81,7 @@ std::vector<FaceElement<dim>> face_elements(const unsigned int n_segments)
 
 /// N_r rings of equal width times N_α sectors of equal angle, counted from t_1 to t_2, ring by ring from the middle.
 template <int dim>
-  requires(dim == 3)
-std::vector<FaceElement<dim>> face_elements(const unsigned int n_rings, const unsigned int n_sectors)
+requires(dim == 3) std::vector<FaceElement<dim>> face_elements(const unsigned int n_rings, const unsigned int n_sectors)
 {
   std::vector<FaceElement<dim>> elements;
   const double angle = 2.0 * std::numbers::pi / n_sectors;
@@ -105,6 +105,15 @@ std::vector<FaceElement<dim>> face_elements(const unsigned int n_rings, const un
 /// How a face is divided: {N}, or {N_r, N_α}.
 template <int dim>
 using FaceDivision = std::array<unsigned int, dim - 1>;
+
+template <int dim>
+FaceDivision<dim> face_division(const FlatJointParameters& joint)
+{
+  if constexpr (dim == 2)
+    return {joint.n_segments};
+  else
+    return {joint.n_rings, joint.n_sectors};
+}
 
 template <int dim>
 std::vector<FaceElement<dim>> face_elements(const FaceDivision<dim>& division)

@@ -4,9 +4,10 @@
 
 #include <array>
 
-/// The flat-joint law: how one segment of a joint's face answers a motion of its two grains.
+/// The flat-joint law: how one segment of a joint's face answers a motion of its two grains. In three dimensions a
+/// segment is an element of a disk, its stress that at its centroid; all else is the same.
 ///
-/// Force: normal stress by gap, shear stress by accumulated slip, bending by the gap's slope over the face.
+/// Force: normal stress by gap, shear stress by accumulated slip, bending by the gap's slope over the segment.
 /// Breaking: tension beyond the bond tensile strength, or shear beyond cohesion + friction; for good.
 /// After breaking the face stays: it closes, opens, slides with friction and resists rotation.
 ///
@@ -19,17 +20,29 @@ using simd::absolute;
 using simd::larger;
 using simd::select;
 
-/// The face shared by the segments of one joint in two dimensions.
-template <typename Real>
-struct Face
+/// A segment of a face in two dimensions.
+template <int dim, typename Real>
+struct Segment
 {
   Real normal_stiffness; ///< k_n [Pa/m]
   Real shear_stiffness;  ///< k_s [Pa/m]
-  Real segment_length;   ///< ℓ = 2R̄/N [m] (8)
+  Real length;           ///< ℓ [m]
   double thickness;      ///< t [m]
   double friction;       ///< μ [-]
 
-  Real segment_area() const { return segment_length * thickness; }
+  Real area() const { return length * thickness; }
+};
+
+/// An element of a face in three dimensions.
+template <typename Real>
+struct Segment<3, Real>
+{
+  Real normal_stiffness; ///< k_n [Pa/m]
+  Real shear_stiffness;  ///< k_s [Pa/m]
+  Real element_area;     ///< A_e [m²]
+  double friction;       ///< μ [-]
+
+  Real area() const { return element_area; }
 };
 
 /// Strength of one segment's bond.
@@ -55,7 +68,7 @@ struct SegmentMotion
 {
   Real gap_before;                           ///< centroid gap at the start [m]
   Real gap;                                  ///< centroid gap at the end [m]
-  Real slope;                                ///< θ at the end: the gap falls by θ per length along t [rad]
+  Real slope;                                ///< θ at the end: the gap falls by θ per length along t [rad]; 2D only
   std::array<Real, dim - 1> shear_increment; ///< ΔU_s at the centroid [m]
 };
 
@@ -79,18 +92,33 @@ struct SegmentUpdate
   Real released_energy; ///< stored energy lost at a break in this step [J]
 };
 
-/// Distance of segment i = 0 … N-1 from the middle of the face, along t [m]; (8), counted from 0.
-template <typename Real>
-Real segment_offset(const unsigned int i, const unsigned int n_segments, const Real& half_length)
-{
-  return half_length * ((double(n_segments) - 1.0 - 2.0 * i) / n_segments);
-}
-
 /// g(ρ) = g_0 + U_n - θρ [m], positive open; (6) with ξ = R̄ - ρ.
 template <typename Real>
-Real gap_at(const Real& opening, const Real& slope, const Real& offset)
+Real gap_at(const Real& opening, const std::array<Real, 1>& rotation, const std::array<Real, 1>& offset)
 {
-  return opening - slope * offset;
+  return opening - rotation[0] * offset[0];
+}
+
+/// g(r) = g_0 + U_n + n·(θ × r) [m]; θ about n, t_1 and t_2, r along t_1 and t_2.
+template <typename Real>
+Real gap_at(const Real& opening, const std::array<Real, 3>& rotation, const std::array<Real, 2>& offset)
+{
+  return opening + (rotation[1] * offset[1] - rotation[2] * offset[0]);
+}
+
+/// Slip at a segment from that at the contact point, ΔU_s; the same all over a face that does not twist.
+template <typename Real>
+std::array<Real, 1> slip_at(const std::array<Real, 1>& slip, const Real& /*twist*/,
+                            const std::array<Real, 1>& /*offset*/)
+{
+  return slip;
+}
+
+/// ΔU_s + Δθ_n n × r in three dimensions.
+template <typename Real>
+std::array<Real, 2> slip_at(const std::array<Real, 2>& slip, const Real& twist, const std::array<Real, 2>& offset)
+{
+  return {slip[0] - twist * offset[1], slip[1] + twist * offset[0]};
 }
 
 /// The closed part of an unbonded segment, whose gap runs linearly from g_min to g_max.
@@ -102,27 +130,28 @@ struct ClosedPart
 };
 
 template <typename Real>
-ClosedPart<Real> closed_part(const Face<Real>& face, const Real& gap, const Real& slope)
+ClosedPart<Real> closed_part(const Segment<2, Real>& segment, const Real& gap, const Real& slope)
 {
-  const Real rise = absolute(slope) * face.segment_length; // g_max - g_min
+  const Real rise = absolute(slope) * segment.length; // g_max - g_min
   const Real g_min = gap - 0.5 * rise;
   const Real share = -g_min / select(rise > 0.0, rise, Real(1.0));
   const Real part = select(g_min >= 0.0, Real(0.0), select(gap + 0.5 * rise <= 0.0, Real(1.0), share));
-  return {g_min, part * face.segment_length};
+  return {g_min, part * segment.length};
 }
 
 /// Exact integrals of the piecewise linear stress σ = k_n g, which acts where bonded or closed; (7), (10), (11).
 template <typename Real, typename Mask>
-NormalResponse<Real> normal_response(const Face<Real>& face, const Real& gap, const Real& slope, const Mask& bonded)
+NormalResponse<Real> normal_response(const Segment<2, Real>& segment, const Real& gap, const Real& slope,
+                                     const Mask& bonded)
 {
-  const Real k_n = face.normal_stiffness;
-  const Real l = face.segment_length;
-  const double t = face.thickness;
+  const Real k_n = segment.normal_stiffness;
+  const Real l = segment.length;
+  const double t = segment.thickness;
   NormalResponse<Real> response{-k_n * (l * t) * gap, -k_n * (l * l * l * (t / 12.0)) * slope};
   if (simd::all(bonded))
     return response;
 
-  const auto [g_min, h] = closed_part(face, gap, slope);
+  const auto [g_min, h] = closed_part(segment, gap, slope);
   const auto partly = !bonded && h < l;
   const Real force = -0.5 * k_n * t * h * g_min;
   const Real arm = select(slope < 0.0, Real(-1.0), Real(1.0)) * (0.5 * l - h * (1.0 / 3.0));
@@ -131,22 +160,37 @@ NormalResponse<Real> normal_response(const Face<Real>& face, const Real& gap, co
   return response;
 }
 
+/// σ = k_n g at the centroid over the whole element, without a moment of its own: bending and twist are lumped.
+template <typename Real, typename Mask>
+NormalResponse<Real> normal_response(const Segment<3, Real>& segment, const Real& gap, const Real& /*slope*/,
+                                     const Mask& bonded)
+{
+  const Real force = -segment.normal_stiffness * segment.area() * gap;
+  return {select(!bonded && gap >= 0.0, Real(0.0), force), Real(0.0)};
+}
+
 /// What the normal stress stores [J].
 template <typename Real, typename Mask>
-Real normal_energy(const Face<Real>& face, const Real& gap, const Real& slope, const Mask& bonded)
+Real normal_energy(const Segment<2, Real>& segment, const Real& gap, const Real& slope, const Mask& bonded)
 {
-  const Real l = face.segment_length;
-  const auto [g_min, h] = closed_part(face, gap, slope);
+  const Real l = segment.length;
+  const auto [g_min, h] = closed_part(segment, gap, slope);
   const Real whole = l * gap * gap + slope * slope * (l * l * l * (1.0 / 12.0));
   const Real part = h * g_min * g_min * (1.0 / 3.0);
-  return 0.5 * face.normal_stiffness * face.thickness * select(!bonded && h < l, part, whole);
+  return 0.5 * segment.normal_stiffness * segment.thickness * select(!bonded && h < l, part, whole);
+}
+
+template <typename Real, typename Mask>
+Real normal_energy(const Segment<3, Real>& segment, const Real& gap, const Real& /*slope*/, const Mask& bonded)
+{
+  return select(!bonded && gap >= 0.0, Real(0.0), 0.5 * segment.normal_stiffness * segment.area() * gap * gap);
 }
 
 /// σ̂ = -F_n/A [Pa], tension positive.
-template <typename Real>
-Real mean_stress(const Face<Real>& face, const NormalResponse<Real>& normal)
+template <int dim, typename Real>
+Real mean_stress(const Segment<dim, Real>& segment, const NormalResponse<Real>& normal)
 {
-  return -normal.force / face.segment_area();
+  return -normal.force / segment.area();
 }
 
 /// Share of a step, 0 … 1, in which the centroid gap is negative when it moves linearly; only then does an unbonded
@@ -175,10 +219,10 @@ Real magnitude(const std::array<Real, 2>& shear)
 
 /// One update of one segment, in this order: tension, trial shear, friction or shear strength, answer.
 template <int dim, typename Real>
-SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, const SegmentState<dim, Real>& old,
-                                const SegmentMotion<dim, Real>& motion)
+SegmentUpdate<dim, Real> update(const Segment<dim, Real>& segment, const Bond<Real>& bond,
+                                const SegmentState<dim, Real>& old, const SegmentMotion<dim, Real>& motion)
 {
-  const Real k_s = face.shear_stiffness;
+  const Real k_s = segment.shear_stiffness;
   const auto unbonded = !old.bonded;
   const bool some_unbonded = simd::any(unbonded);
   SegmentUpdate<dim, Real> result;
@@ -186,7 +230,7 @@ SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, 
   result.released_energy = Real(0.0);
 
   // Tension: a bonded segment beyond σ_b breaks.
-  const Real bonded_stress = face.normal_stiffness * motion.gap; // (10)
+  const Real bonded_stress = segment.normal_stiffness * motion.gap; // (10)
   result.tension_break = old.bonded && bonded_stress > bond.tensile_strength;
 
   // Trial shear (13): the whole increment while bonded, else its closed share.
@@ -203,12 +247,12 @@ SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, 
 
   const auto broke = result.tension_break || result.shear_break;
   result.state.bonded = old.bonded && !broke;
-  result.normal = normal_response(face, motion.gap, motion.slope, result.state.bonded);
+  result.normal = normal_response(segment, motion.gap, motion.slope, result.state.bonded);
 
   // Friction (14) limits an unbonded segment.
   if (some_unbonded)
     {
-      const Real limit = face.friction * larger(Real(0.0), -mean_stress(face, result.normal));
+      const Real limit = segment.friction * larger(Real(0.0), -mean_stress(segment, result.normal));
       const Real size = magnitude(tau);
       const auto slides = unbonded && size > limit;
       const Real kept = select(slides, limit / select(slides, size, Real(1.0)), Real(1.0));
@@ -220,7 +264,7 @@ SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, 
           tau[c] = kept * trial;
           slip_work += 0.5 * (old.shear_stress[c] + tau[c]) * (trial - tau[c]);
         }
-      result.slip_energy = select(slides, slip_work * face.segment_area() / k_s, Real(0.0));
+      result.slip_energy = select(slides, slip_work * segment.area() / k_s, Real(0.0));
     }
 
   // A break leaves no shear, and lets go at once what it stored.
@@ -233,9 +277,9 @@ SegmentUpdate<dim, Real> update(const Face<Real>& face, const Bond<Real>& bond, 
           tau[c] = select(broke, Real(0.0), tau[c]);
         }
       const Real stored =
-        normal_energy(face, motion.gap, motion.slope, old.bonded) + 0.5 * shear_squared * face.segment_area() / k_s;
+        normal_energy(segment, motion.gap, motion.slope, old.bonded) + 0.5 * shear_squared * segment.area() / k_s;
       result.released_energy =
-        select(broke, stored - normal_energy(face, motion.gap, motion.slope, result.state.bonded), Real(0.0));
+        select(broke, stored - normal_energy(segment, motion.gap, motion.slope, result.state.bonded), Real(0.0));
     }
   return result;
 }

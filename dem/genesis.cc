@@ -278,7 +278,7 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
   });
 
   auto& joints = specimen.joints;
-  joints.n_segments = wanted.n_segments;
+  joints.divide(face_division<dim>(wanted));
   joints.thickness = specimen.thickness;
   joints.friction = wanted.friction;
   joints.friction_slope = std::tan(wanted.bond_friction_angle);
@@ -293,13 +293,19 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
       joints.grain_1[j] = one;
       joints.grain_2[j] = two;
       joints.number[j] = std::uint32_t(j);
-      joints.normal_stiffness[j] = wanted.modulus / (radius_1 + radius_2);
+      joints.normal_stiffness[j] = stiffness_per_area(wanted.modulus, radius_1, radius_2);
       joints.shear_stiffness[j] = joints.normal_stiffness[j] / wanted.stiffness_ratio;
-      joints.half_length[j] = wanted.radius_multiplier * std::min(radius_1, radius_2); // (12)
+      joints.half_length[j] = face_half_length(wanted.radius_multiplier, radius_1, radius_2);
       joints.half_radius_difference[j] = 0.5 * (radius_1 - radius_2);
       joints.rest_distance[j] = branch.norm();
       for (int c = 0; c < dim; ++c)
         joints.normal[c][j] = branch[c] / joints.rest_distance[j];
+      if constexpr (dim == 3)
+        {
+          const auto tangent = space::tangent_to({joints.normal[0][j], joints.normal[1][j], joints.normal[2][j]});
+          for (int c = 0; c < 3; ++c)
+            joints.tangent[c][j] = tangent[c];
+        }
     }
 
   // Slit and gapped joints are drawn from all by lot.
@@ -311,7 +317,7 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
   std::fill(joints.bonded.begin(), joints.bonded.end(), 1.0);
   for (std::size_t k = 0; k < n_gapped + n_slit; ++k)
     {
-      for (unsigned int i = 0; i < wanted.n_segments; ++i)
+      for (unsigned int i = 0; i < joints.n_segments; ++i)
         joints.bonded[joints.segment(i, lot[k])] = 0.0;
       if (k < n_gapped)
         {
@@ -322,7 +328,7 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
 
   Random random(specimen.seed, RandomStream::strengths);
   for (std::size_t j = 0; j < n; ++j)
-    for (unsigned int i = 0; i < wanted.n_segments; ++i)
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
       {
         const std::size_t k = joints.segment(i, j);
         if (i > 0 && wanted.strength_draw == StrengthDraw::per_contact)
@@ -364,4 +370,5 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const FlatJointParameters&,
                                       const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&);
 template void install_joints<2>(Specimen<2>&, const FlatJointParameters&);
+template void install_joints<3>(Specimen<3>&, const FlatJointParameters&);
 } // namespace feldspar

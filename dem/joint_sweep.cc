@@ -10,7 +10,6 @@ namespace feldspar
 namespace
 {
 using flat_joint::Bond;
-using flat_joint::Face;
 using flat_joint::SegmentState;
 using flat_joint::SegmentUpdate;
 
@@ -91,7 +90,6 @@ void update_joint(Joints<dim>& joints, const Grains<dim>& grains, const double d
   const Real rest_distance = simd::load<Real>(&joints.rest_distance[j]);
   const Real half_radius_difference = simd::load<Real>(&joints.half_radius_difference[j]);
   const Real opening_before = simd::load<Real>(&joints.opening[j]);
-  const Real slope_before = simd::load<Real>(&joints.slope[j]);
 
   auto turn_1 = gather<Real, n_turns>(grains.spin, grain_1);
   auto turn_2 = gather<Real, n_turns>(grains.spin, grain_2);
@@ -100,27 +98,35 @@ void update_joint(Joints<dim>& joints, const Grains<dim>& grains, const double d
       turn_1[c] *= dt;
       turn_2[c] *= dt;
     }
-  const ContactFrame<dim, Real> before{load<Real, dim>(joints.normal, j), rest_distance + opening_before};
-  const auto now =
-    contact_frame<dim, Real>(gather<Real, dim>(grains.position, grain_1), gather<Real, dim>(grains.position, grain_2));
+  ContactFrame<dim, Real> before;
+  before.normal = load<Real, dim>(joints.normal, j);
+  before.distance = rest_distance + opening_before;
+  if constexpr (dim == 3)
+    before.tangent = load<Real, 3>(joints.tangent, j);
+  const auto contact =
+    contact_motion(before, gather<Real, dim>(grains.position, grain_1), gather<Real, dim>(grains.position, grain_2),
+                   half_radius_difference, turn_1, turn_2);
   FaceMotion<dim, Real> motion;
   motion.opening_before = opening_before;
-  motion.opening = now.distance - rest_distance;
-  motion.slope_before = slope_before;
-  motion.slope = slope_before + (turn_2[0] - turn_1[0]);
-  motion.shear_increment = slip_increment(before, now, half_radius_difference, turn_1, turn_2);
+  motion.opening = contact.frame.distance - rest_distance;
+  motion.rotation_before = load<Real, n_turns>(joints.rotation, j);
+  for (std::size_t c = 0; c < n_turns; ++c)
+    motion.rotation[c] = motion.rotation_before[c] + contact.rotation[c];
+  motion.slip_increment = contact.slip;
 
   const Face<Real> face{simd::load<Real>(&joints.normal_stiffness[j]), simd::load<Real>(&joints.shear_stiffness[j]),
-                        simd::load<Real>(&joints.half_length[j]) * (2.0 / joints.n_segments), joints.thickness,
-                        joints.friction};
-  const auto resultants = update_face(face, joints.n_segments, motion, StoredSegments<dim, Real>{joints, j, breaks});
-  const auto answer =
-    contact_force(now, half_radius_difference, resultants.normal_force, resultants.shear_force, resultants.moment);
+                        simd::load<Real>(&joints.half_length[j]), joints.thickness, joints.friction};
+  const auto resultants = update_face(face, joints.elements, motion, StoredSegments<dim, Real>{joints, j, breaks});
+  const auto answer = contact_force(contact.frame, half_radius_difference, resultants.normal_force,
+                                    resultants.shear_force, resultants.moment);
 
-  store<Real, dim>(now.normal, joints.normal, j);
+  store<Real, dim>(contact.frame.normal, joints.normal, j);
+  if constexpr (dim == 3)
+    store<Real, 3>(contact.frame.tangent, joints.tangent, j);
   simd::store(motion.opening, &joints.opening[j]);
-  simd::store(motion.slope, &joints.slope[j]);
-  simd::store(simd::load<Real>(&joints.slip[j]) + motion.shear_increment[0], &joints.slip[j]);
+  store<Real, n_turns>(motion.rotation, joints.rotation, j);
+  for (int c = 0; c < dim - 1; ++c)
+    simd::store(simd::load<Real>(&joints.slip[c][j]) + contact.slip[c], &joints.slip[c][j]);
   simd::store(simd::load<Real>(&joints.slip_energy[j]) + resultants.slip_energy, &joints.slip_energy[j]);
   store<Real, dim>(answer.force, joints.force, j);
   store<Real, n_turns>(answer.couple_1, joints.couple_1, j);
@@ -150,4 +156,5 @@ std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, 
 }
 
 template std::vector<Break> sweep_joints<2>(Joints<2>&, const Grains<2>&, double);
+template std::vector<Break> sweep_joints<3>(Joints<3>&, const Grains<3>&, double);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/face_elements.h"
 #include "dem/grains.h"
 
 #include <cstdint>
@@ -8,16 +9,19 @@
 
 namespace feldspar
 {
-/// The flat joints of a specimen, structure of arrays, ordered in space. Per segment: [segment * size() + joint].
+/// The flat joints of a specimen, structure of arrays, ordered in space. Per segment (in space: element of the disk):
+/// [segment * size() + joint].
 template <int dim>
 struct Joints
 {
   static constexpr int n_shear = dim - 1;
 
-  unsigned int n_segments = 0;
-  double thickness = 1.0;      ///< of the plane [m]
-  double friction = 0.0;       ///< μ of broken segments
-  double friction_slope = 0.0; ///< tan φ_b
+  FaceDivision<dim> division{};           ///< set by divide()
+  unsigned int n_segments = 0;            ///< of every face
+  std::vector<FaceElement<dim>> elements; ///< the same of every face; [n_segments]
+  double thickness = 1.0;                 ///< of the plane [m]
+  double friction = 0.0;                  ///< μ of broken segments
+  double friction_slope = 0.0;            ///< tan φ_b
 
   std::vector<std::uint32_t> grain_1, grain_2;
   std::vector<std::uint32_t> number;          ///< given at installation, for good
@@ -27,11 +31,12 @@ struct Joints
   std::vector<double> half_radius_difference; ///< ½(R1 - R2) [m]
   std::vector<double> rest_distance;          ///< centre distance at which the gap is zero [m]
 
-  Components<dim> normal;          ///< from grain 1 to grain 2
-  std::vector<double> opening;     ///< g_0 + U_n [m]
-  std::vector<double> slope;       ///< θ = φ_2 - φ_1 [rad]
-  std::vector<double> slip;        ///< relative shear since installation [m]
-  std::vector<double> slip_energy; ///< dissipated by friction since installation [J]
+  Components<dim> normal;                ///< from grain 1 to grain 2
+  Components<dim == 3 ? 3 : 0> tangent;  ///< t_1 in space, carried with the contact plane; t_2 = n × t_1
+  std::vector<double> opening;           ///< g_0 + U_n [m]
+  Components<n_rotations<dim>> rotation; ///< θ of grain 2 against grain 1, about k, or n, t_1 and t_2 [rad]
+  Components<n_shear> slip;              ///< relative shear since installation [m]
+  std::vector<double> slip_energy;       ///< dissipated by friction since installation [J]
 
   Components<n_shear> shear_stress;     ///< τ of each segment [Pa]
   std::vector<double> bonded;           ///< 1 bonded, 0 not; each segment (a double: it is a mask in the sweep)
@@ -45,12 +50,23 @@ struct Joints
   std::size_t size() const { return grain_1.size(); }
   std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
 
-  double face_area(const std::size_t joint) const { return 2.0 * half_length[joint] * thickness; }
-  /// Second moment of the face about the axis out of the plane, ⅔R̄³t [m⁴].
+  void divide(const FaceDivision<dim>& into)
+  {
+    division = into;
+    elements = face_elements<dim>(into);
+    n_segments = unsigned(elements.size());
+  }
+
+  double face_area(const std::size_t joint) const { return feldspar::face_area<dim>(half_length[joint], thickness); }
+  /// Second moment of the face about an axis in it [m⁴].
   double face_second_moment(const std::size_t joint) const
   {
-    const double r = half_length[joint];
-    return 2.0 / 3.0 * r * r * r * thickness;
+    return feldspar::face_second_moment<dim>(half_length[joint], thickness);
+  }
+  /// Second moment of the face about its normal [m⁴]; 0 in the plane.
+  double face_polar_moment(const std::size_t joint) const
+  {
+    return feldspar::face_polar_moment<dim>(half_length[joint]);
   }
 
   bool holds(const std::size_t joint) const
@@ -72,9 +88,22 @@ struct Joints
     visit("rest_distance", rest_distance);
     for (int c = 0; c < dim; ++c)
       visit(std::string("normal_") + "xyz"[c], normal[c]);
+    for (std::size_t c = 0; c < tangent.size(); ++c)
+      visit(std::string("tangent_") + "xyz"[c], tangent[c]);
     visit("opening", opening);
-    visit("slope", slope);
-    visit("slip", slip);
+    if constexpr (dim == 2)
+      {
+        visit("slope", rotation[0]);
+        visit("slip", slip[0]);
+      }
+    else
+      {
+        visit("twist", rotation[0]);
+        visit("bend_1", rotation[1]);
+        visit("bend_2", rotation[2]);
+        visit("slip_1", slip[0]);
+        visit("slip_2", slip[1]);
+      }
     visit("slip_energy", slip_energy);
   }
 

@@ -1,6 +1,6 @@
 #include "dem/lab_tests.h"
 
-#include "dem/flat_joint_law.h"
+#include "dem/contact_motion.h"
 #include "dem/fragments.h"
 #include "dem/hdf5_archive.h"
 
@@ -44,10 +44,19 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
 {
   const auto& joints = dynamics.specimen().joints;
   const Vector<dim> normal = at<dim>(joints.normal, event.joint);
-  const double arm = 0.5 * (joints.rest_distance[event.joint] + joints.opening[event.joint]) +
-                     joints.half_radius_difference[event.joint];
-  const double rho = flat_joint::segment_offset(event.segment, joints.n_segments, joints.half_length[event.joint]);
-  const Vector<dim> tangent(-normal[1], normal[0]);
+  const double arm =
+    arms(joints.rest_distance[event.joint] + joints.opening[event.joint], joints.half_radius_difference[event.joint])
+      .one;
+  const double half_length = joints.half_length[event.joint];
+  const FaceElement<dim>& element = joints.elements[event.segment];
+  Vector<dim> from_contact;
+  if constexpr (dim == 2)
+    from_contact = half_length * element.offset[0] * Vector<dim>(-normal[1], normal[0]);
+  else
+    {
+      const Vector<dim> tangent = at<dim>(joints.tangent, event.joint);
+      from_contact = half_length * (element.offset[0] * tangent + element.offset[1] * normal.cross(tangent));
+    }
 
   Crack result;
   result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
@@ -56,9 +65,9 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
   result.step = dynamics.n_steps();
   result.axial_strain = axial_strain;
   result.centroid = in_space<dim>(at<dim>(dynamics.specimen().grains.position, joints.grain_1[event.joint]) +
-                                  arm * normal + rho * tangent);
+                                  arm * normal + from_contact);
   result.normal = in_space<dim>(normal);
-  result.size = 2.0 * joints.half_length[event.joint] / joints.n_segments;
+  result.size = half_length * (dim == 2 ? element.area : std::sqrt(element.area));
   result.released_energy = event.released_energy;
   return result;
 }

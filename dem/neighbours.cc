@@ -152,5 +152,7 @@ std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains)
 }
 
 template std::vector<GrainPair> pairs_within<2>(const Grains<2>&, double);
+template std::vector<GrainPair> pairs_within<3>(const Grains<3>&, double);
 template std::vector<std::uint32_t> spatial_order<2>(const Grains<2>&);
+template std::vector<std::uint32_t> spatial_order<3>(const Grains<3>&);
 } // namespace feldspar

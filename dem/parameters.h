@@ -33,7 +33,9 @@ enum class StrengthDraw
 /// The faces between the grains and their bonds.
 struct FlatJointParameters
 {
-  unsigned int n_segments = 4;
+  unsigned int n_segments = 4;   ///< of a face in the plane
+  unsigned int n_rings = 2;      ///< of a face in space
+  unsigned int n_sectors = 4;    ///< of each ring
   double modulus = 80e9;         ///< E [Pa]; k_n = E/(R1+R2)
   double stiffness_ratio = 1.25; ///< κ = k_n/k_s
   double friction = 0.5;

@@ -56,7 +56,15 @@ void transfer(Archive& root, Specimen<dim>& specimen)
 
   auto joints = root.subgroup("joints");
   auto& stored = specimen.joints;
-  joints.value("n_segments", stored.n_segments);
+  auto division = stored.division;
+  if constexpr (dim == 2)
+    joints.value("n_segments", division[0]);
+  else
+    {
+      joints.value("n_rings", division[0]);
+      joints.value("n_sectors", division[1]);
+    }
+  stored.divide(division);
   joints.value("thickness_m", stored.thickness);
   joints.value("friction", stored.friction);
   joints.value("friction_slope", stored.friction_slope);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -163,6 +164,55 @@ TEST(Contact, ARowIsOneUpdate)
   const Table sticking = run_contact("1e-6,0,0\n5e-7,0,0\n-5e-7,1e-7,0\n");
   for (int i = 1; i <= n_segments; ++i)
     expect_near(tau(sticking.rows[2], i), -k_s * 0.5e-7);
+}
+
+TEST(Contact, TwistsAndBendsInThreeDimensions)
+{
+  // The pair of the two-grain verification, as in tests/unit/space_joint_test.cc: R̄ = λR = 5 mm, k_n = E/2R.
+  const TemporaryFolder folder;
+  folder.write("path.csv", "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad\n0,0,0,0,0,0\n"
+                           "1e-3,0,0,0,0,0\n0,1e-6,-2e-6,0,0,0\n0,0,0,0.2,0,0\n0,0,0,0,0.4,0\n0,0,0,0,0,0.4\n");
+  folder.write("joint.prm", R"(subsection Specimen
+  set Dimension = 3
+end
+subsection Contact path
+  set File = path.csv
+end
+subsection Contact
+  set Radius 1 = 6.25 mm
+  set Radius 2 = 6.25 mm
+end
+subsection Flat joint
+  set Rings = 2
+  set Sectors = 8
+  set Modulus = 29 GPa
+  set Stiffness ratio = 2.3
+  set Radius multiplier = 0.8
+  set Bond tensile strength = 1e9 GPa
+  set Bond cohesion = 1e9 GPa
+end
+)");
+  const auto outcome = run_feldspar(folder.path(), "contact joint.prm --output results");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const Table table = read_table(folder.path() / "results/contact.csv");
+  EXPECT_TRUE(table.header.starts_with(
+    "normal_force_N,shear_force_1_N,shear_force_2_N,twist_moment_Nm,bend_moment_1_Nm,bend_moment_2_Nm,"
+    "sigma_1_Pa,tau_1_1_Pa,tau_2_1_Pa,bonded_1,"))
+    << table.header;
+  ASSERT_EQ(table.rows.size(), 6u);
+  ASSERT_EQ(table.rows[0].size(), 6u + 16u * 4u);
+  constexpr double pi = std::numbers::pi;
+  constexpr double normal_stiffness = 29e9 / 12.5e-3;
+  const double area = pi * 25e-6;
+  const double chord = std::sin(pi / 8.0) / (pi / 8.0);
+  const double polar = pi * (1.0 / 36.0 + 49.0 / 108.0) * chord * chord * std::pow(5e-3, 4); // lumped Σ A r²
+  expect_near(table.rows[1][0], -normal_stiffness * area * 1e-3);
+  // The shear stresses of sixteen elements, summed up.
+  EXPECT_NEAR(table.rows[2][1], -normal_stiffness / 2.3 * area * 1e-6, 1e-9 * 1e2);
+  EXPECT_NEAR(table.rows[2][2], normal_stiffness / 2.3 * area * 2e-6, 1e-9 * 1e2);
+  EXPECT_NEAR(table.rows[3][3], -normal_stiffness / 2.3 * polar * 0.2, 1e-9 * 181.0);
+  EXPECT_NEAR(table.rows[4][4], -normal_stiffness * 0.5 * polar * 0.4, 1e-9 * 416.0);
+  EXPECT_NEAR(table.rows[5][5], -normal_stiffness * 0.5 * polar * 0.4, 1e-9 * 416.0);
 }
 
 TEST(Contact, WritesTheSameWhereTheDecimalSignIsAComma)

@@ -14,7 +14,7 @@ namespace feldspar
 namespace
 {
 using flat_joint::Bond;
-using flat_joint::Face;
+using flat_joint::Segment;
 using flat_joint::SegmentMotion;
 using flat_joint::SegmentState;
 using flat_joint::SegmentUpdate;
@@ -23,7 +23,9 @@ using flat_joint::SegmentUpdate;
 constexpr double modulus = 80e9;
 constexpr double half_length = 1e-3;
 constexpr unsigned int n_segments = 4;
-const Face<double> face{modulus / 2e-3, modulus / 2e-3 / 1.25, 2.0 * half_length / n_segments, 1.0, 0.5};
+const Face<double> face{modulus / 2e-3, modulus / 2e-3 / 1.25, half_length, 1.0, 0.5};
+const auto elements = face_elements<2>(n_segments);
+const Segment<2, double> segment = place_segment(face, elements[0]).segment;
 const Bond<double> strong{1e30, 1e30, 0.0};
 const Bond<double> table_1{22e6, 400e6, std::tan(10.0 * std::numbers::pi / 180.0)};
 
@@ -38,11 +40,11 @@ struct Answer
 Answer quadrature(const double gap, const double slope, const bool bonded)
 {
   constexpr int n = 200000;
-  const double width = face.segment_length / n;
+  const double width = segment.length / n;
   Answer sum{0.0, 0.0};
   for (int i = 0; i < n; ++i)
     {
-      const double s = -0.5 * face.segment_length + (i + 0.5) * width;
+      const double s = -0.5 * segment.length + (i + 0.5) * width;
       const double g = gap - slope * s;
       const double force = bonded || g < 0.0 ? -face.normal_stiffness * g * width * face.thickness : 0.0;
       sum.force += force;
@@ -71,12 +73,12 @@ TEST_P(NormalResponse, IsTheIntegralOfTheStressProfile)
 {
   const auto [gap, slope, bonded] = GetParam();
   const auto exact = quadrature(gap, slope, bonded);
-  const auto answer = flat_joint::normal_response(face, gap, slope, bonded);
+  const auto answer = flat_joint::normal_response(segment, gap, slope, bonded);
   const double force_scale =
-    face.normal_stiffness * face.segment_area() * (std::abs(gap) + std::abs(slope) * face.segment_length);
+    face.normal_stiffness * segment.area() * (std::abs(gap) + std::abs(slope) * segment.length);
   EXPECT_NEAR(answer.force, exact.force, 1e-9 * force_scale);
-  EXPECT_NEAR(answer.moment, exact.moment, 1e-9 * force_scale * face.segment_length);
-  EXPECT_DOUBLE_EQ(mean_stress(face, answer), -answer.force / face.segment_area());
+  EXPECT_NEAR(answer.moment, exact.moment, 1e-9 * force_scale * segment.length);
+  EXPECT_DOUBLE_EQ(mean_stress(segment, answer), -answer.force / segment.area());
 }
 
 INSTANTIATE_TEST_SUITE_P(BondedClosedOpenAndPartlyOpenTiltedBothWays, NormalResponse,
@@ -97,9 +99,9 @@ TEST(NormalResponse, EnergyIsTheWorkOfForceAndMoment)
       {
         const double slope = 1e-3;
         const auto energy = [&](const double g, const double theta) {
-          return flat_joint::normal_energy(face, g, theta, bonded);
+          return flat_joint::normal_energy(segment, g, theta, bonded);
         };
-        const auto answer = flat_joint::normal_response(face, gap, slope, bonded);
+        const auto answer = flat_joint::normal_response(segment, gap, slope, bonded);
         EXPECT_NEAR((energy(gap + h, slope) - energy(gap - h, slope)) / (2 * h), -answer.force,
                     1e-4 * (1.0 + std::abs(answer.force)));
         const double turn = 1e-8;
@@ -145,12 +147,12 @@ TEST(Face, BondedIsTheContinuumBarWhateverTheNumberOfSegments)
   const double opening = 3e-8;
   const double slip = -2e-8;
   const double theta = 5e-5;
-  const auto answer = update_face<double>(face, n_segments, {0.0, opening, 0.0, theta, {slip}}, segments);
+  const auto answer = update_face<2>(face, elements, {0.0, opening, {0.0}, {theta}, {slip}}, segments);
   const double area = 2.0 * half_length;
   EXPECT_NEAR(answer.normal_force, -face.normal_stiffness * area * opening, 1e-12 * std::abs(answer.normal_force));
   EXPECT_NEAR(answer.shear_force[0], -face.shear_stiffness * area * slip, 1e-12 * std::abs(answer.shear_force[0]));
-  EXPECT_NEAR(answer.moment, -face.normal_stiffness * (2.0 / 3.0) * std::pow(half_length, 3) * theta,
-              1e-12 * std::abs(answer.moment));
+  EXPECT_NEAR(answer.moment[0], -face.normal_stiffness * (2.0 / 3.0) * std::pow(half_length, 3) * theta,
+              1e-12 * std::abs(answer.moment[0]));
 }
 
 TEST(Face, PartlyBrokenKeepsTheMomentOfWhatHolds)
@@ -160,10 +162,10 @@ TEST(Face, PartlyBrokenKeepsTheMomentOfWhatHolds)
   Segments segments(strong);
   segments.states[0].bonded = segments.states[1].bonded = false;
   const double opening = 1e-7;
-  const auto answer = update_face<double>(face, n_segments, {0.0, opening, 0.0, 0.0, {0.0}}, segments);
+  const auto answer = update_face<2>(face, elements, {0.0, opening, {0.0}, {0.0}, {0.0}}, segments);
   const double force = -face.normal_stiffness * half_length * opening;
   EXPECT_NEAR(answer.normal_force, force, 1e-12 * std::abs(force));
-  EXPECT_NEAR(answer.moment, 0.5 * half_length * force, 1e-12 * std::abs(half_length * force));
+  EXPECT_NEAR(answer.moment[0], 0.5 * half_length * force, 1e-12 * std::abs(half_length * force));
 }
 
 TEST(Face, BrokenRocksOnItsEdge)
@@ -174,26 +176,26 @@ TEST(Face, BrokenRocksOnItsEdge)
   const double theta = 1e-3;
   const double c = 0.7 * half_length;
   const double opening = theta * (half_length - c); // g = 0 at ρ = R̄ - c
-  const auto answer = update_face<double>(face, n_segments, {opening, opening, theta, theta, {0.0}}, segments);
+  const auto answer = update_face<2>(face, elements, {opening, opening, {theta}, {theta}, {0.0}}, segments);
   const double force = 0.5 * face.normal_stiffness * theta * c * c;
   EXPECT_NEAR(answer.normal_force, force, 1e-12 * force);
-  EXPECT_NEAR(answer.moment, -(half_length - c / 3.0) * force, 1e-12 * half_length * force);
+  EXPECT_NEAR(answer.moment[0], -(half_length - c / 3.0) * force, 1e-12 * half_length * force);
 }
 
 TEST(Break, InTensionBeyondTheStrengthAndNotBefore)
 {
   Segments segments(table_1);
   const double critical = table_1.tensile_strength / face.normal_stiffness;
-  update_face<double>(face, n_segments, {0.0, 0.999 * critical, 0.0, 0.0, {0.0}}, segments);
+  update_face<2>(face, elements, {0.0, 0.999 * critical, {0.0}, {0.0}, {0.0}}, segments);
   EXPECT_EQ(segments.n_bonded(), 4u);
   const auto broken =
-    update_face<double>(face, n_segments, {0.999 * critical, 1.001 * critical, 0.0, 0.0, {0.0}}, segments);
+    update_face<2>(face, elements, {0.999 * critical, 1.001 * critical, {0.0}, {0.0}, {0.0}}, segments);
   EXPECT_EQ(segments.n_bonded(), 0u);
   EXPECT_TRUE(segments.updates[0].tension_break);
   EXPECT_EQ(broken.normal_force, 0.0);
   // Lets go what it stored: ½ k_n A g².
   EXPECT_NEAR(segments.updates[0].released_energy,
-              0.5 * face.normal_stiffness * face.segment_area() * std::pow(1.001 * critical, 2), 1e-12);
+              0.5 * face.normal_stiffness * segment.area() * std::pow(1.001 * critical, 2), 1e-12);
 }
 
 TEST(Break, InBendingOneSegmentAtATime)
@@ -201,9 +203,9 @@ TEST(Break, InBendingOneSegmentAtATime)
   // θ < 0 opens the side of positive ρ; its outermost segment has ρ = ¾R̄, the next ¼R̄.
   Segments segments(table_1);
   const double critical = -table_1.tensile_strength / face.normal_stiffness / (0.75 * half_length);
-  update_face<double>(face, n_segments, {0.0, 0.0, 0.0, 0.99 * critical, {0.0}}, segments);
+  update_face<2>(face, elements, {0.0, 0.0, {0.0}, {0.99 * critical}, {0.0}}, segments);
   EXPECT_EQ(segments.n_bonded(), 4u);
-  update_face<double>(face, n_segments, {0.0, 0.0, 0.99 * critical, 1.01 * critical, {0.0}}, segments);
+  update_face<2>(face, elements, {0.0, 0.0, {0.99 * critical}, {1.01 * critical}, {0.0}}, segments);
   EXPECT_EQ(segments.n_bonded(), 3u);
   EXPECT_FALSE(segments.states[0].bonded);
 }
@@ -215,11 +217,11 @@ TEST(Break, InShearByCohesionAndFriction)
   const double closing = -pressure / face.normal_stiffness;
   const double tau_c = table_1.cohesion + pressure * table_1.friction_slope;
   Segments segments(table_1);
-  update_face<double>(face, n_segments, {0.0, closing, 0.0, 0.0, {0.999 * tau_c / face.shear_stiffness}}, segments);
+  update_face<2>(face, elements, {0.0, closing, {0.0}, {0.0}, {0.999 * tau_c / face.shear_stiffness}}, segments);
   EXPECT_EQ(segments.n_bonded(), 4u);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -0.999 * tau_c, 1e-6 * tau_c);
-  const auto answer = update_face<double>(
-    face, n_segments, {closing, closing, 0.0, 0.0, {0.002 * tau_c / face.shear_stiffness}}, segments);
+  const auto answer =
+    update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {0.002 * tau_c / face.shear_stiffness}}, segments);
   EXPECT_EQ(segments.n_bonded(), 0u);
   EXPECT_TRUE(segments.updates[0].shear_break);
   EXPECT_EQ(answer.shear_force[0], 0.0);
@@ -230,13 +232,13 @@ TEST(Break, TensionComesBeforeShear)
 {
   // Overloaded both ways in one step: the tension check is first. The other order would count a shear crack.
   Segments segments(table_1);
-  update_face<double>(face, n_segments,
-                      {0.0,
-                       2.0 * table_1.tensile_strength / face.normal_stiffness,
-                       0.0,
-                       0.0,
-                       {2.0 * table_1.cohesion / face.shear_stiffness}},
-                      segments);
+  update_face<2>(face, elements,
+                 {0.0,
+                  2.0 * table_1.tensile_strength / face.normal_stiffness,
+                  {0.0},
+                  {0.0},
+                  {2.0 * table_1.cohesion / face.shear_stiffness}},
+                 segments);
   EXPECT_TRUE(segments.updates[0].tension_break);
   EXPECT_FALSE(segments.updates[0].shear_break);
 }
@@ -247,19 +249,19 @@ TEST(Friction, SlidesAtTheLimitAndSticksOnReversal)
   const double closing = -pressure / face.normal_stiffness;
   const double limit = face.friction * pressure;
   Segments segments(table_1, false);
-  update_face<double>(face, n_segments, {closing, closing, 0.0, 0.0, {5.0 * limit / face.shear_stiffness}}, segments);
+  update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {5.0 * limit / face.shear_stiffness}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -limit, 1e-9 * limit);
   // Slip of 4 limit/k_s under the mean of start and end stress, ½ limit: 2 limit²/k_s per area.
-  EXPECT_NEAR(segments.updates[0].slip_energy, 2.0 * limit * limit / face.shear_stiffness * face.segment_area(), 1e-12);
+  EXPECT_NEAR(segments.updates[0].slip_energy, 2.0 * limit * limit / face.shear_stiffness * segment.area(), 1e-12);
   // Back by half the limit: elastic.
-  update_face<double>(face, n_segments, {closing, closing, 0.0, 0.0, {-0.5 * limit / face.shear_stiffness}}, segments);
+  update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {-0.5 * limit / face.shear_stiffness}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -0.5 * limit, 1e-9 * limit);
   EXPECT_EQ(segments.updates[0].slip_energy, 0.0);
   // And past the limit on the other side.
-  update_face<double>(face, n_segments, {closing, closing, 0.0, 0.0, {-3.0 * limit / face.shear_stiffness}}, segments);
+  update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {-3.0 * limit / face.shear_stiffness}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], limit, 1e-9 * limit);
   // Opened, nothing is left.
-  update_face<double>(face, n_segments, {closing, 1e-9, 0.0, 0.0, {0.0}}, segments);
+  update_face<2>(face, elements, {closing, 1e-9, {0.0}, {0.0}, {0.0}}, segments);
   EXPECT_EQ(segments.states[0].shear_stress[0], 0.0);
 }
 
@@ -269,7 +271,7 @@ TEST(Friction, GathersShearOnlyWhileClosed)
   // give 4/3 of this.
   const double slip = 1e-9;
   Segments segments(table_1, false);
-  update_face<double>(face, n_segments, {1e-8, -3e-8, 0.0, 0.0, {slip}}, segments);
+  update_face<2>(face, elements, {1e-8, -3e-8, {0.0}, {0.0}, {slip}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -face.shear_stiffness * 0.75 * slip,
               1e-9 * face.shear_stiffness * slip);
 }
@@ -278,8 +280,8 @@ TEST(Law, AnswersAPackAsItsMembers)
 {
   // Bit for bit: the sweep's vector lanes and the single contact are the same arithmetic.
   using simd::Pack;
-  const Face<Pack> faces{face.normal_stiffness, face.shear_stiffness, face.segment_length, face.thickness,
-                         face.friction};
+  const Segment<2, Pack> packed_segment{segment.normal_stiffness, segment.shear_stiffness, segment.length,
+                                        segment.thickness, segment.friction};
   const Bond<Pack> bonds{table_1.tensile_strength, table_1.cohesion, table_1.friction_slope};
   for (int k = 0; k < 200; ++k)
     {
@@ -290,16 +292,49 @@ TEST(Law, AnswersAPackAsItsMembers)
       const auto tau = [k](const int i) { return 3e7 * std::sin(5.0 + 1.9 * k + i); };
       const auto bonded = [k](const int i) { return (k + i) % 3 != 0; };
       const Pack bonded_number([&](const auto i) { return double(bonded(i)); });
-      const auto packed = flat_joint::update<2, Pack>(faces, bonds, {{Pack(tau)}, bonded_number > 0.5},
+      const auto packed = flat_joint::update<2, Pack>(packed_segment, bonds, {{Pack(tau)}, bonded_number > 0.5},
                                                       {Pack(gap_before), Pack(gap), Pack(slope), {Pack(slip)}});
       for (int i = 0; i < int(Pack::size()); ++i)
         {
-          const auto single = flat_joint::update<2, double>(face, table_1, {{tau(i)}, bonded(i)},
+          const auto single = flat_joint::update<2, double>(segment, table_1, {{tau(i)}, bonded(i)},
                                                             {gap_before(i), gap(i), slope(i), {slip(i)}});
           EXPECT_EQ(double(packed.state.shear_stress[0][i]), single.state.shear_stress[0]);
           EXPECT_EQ(bool(packed.state.bonded[i]), single.state.bonded);
           EXPECT_EQ(double(packed.normal.force[i]), single.normal.force);
           EXPECT_EQ(double(packed.normal.moment[i]), single.normal.moment);
+          EXPECT_EQ(double(packed.slip_energy[i]), single.slip_energy);
+          EXPECT_EQ(double(packed.released_energy[i]), single.released_energy);
+        }
+    }
+}
+
+TEST(Law, AnswersAPackAsItsMembersInThreeDimensions)
+{
+  using simd::Pack;
+  const Segment<3, double> element{face.normal_stiffness, face.shear_stiffness, 1e-7, 0.5};
+  const Segment<3, Pack> packed_element{element.normal_stiffness, element.shear_stiffness, element.element_area, 0.5};
+  const Bond<Pack> bonds{table_1.tensile_strength, table_1.cohesion, table_1.friction_slope};
+  for (int k = 0; k < 200; ++k)
+    {
+      const auto gap_before = [k](const int i) { return 1e-7 * std::sin(1.0 + 3.7 * k + i); };
+      const auto gap = [k](const int i) { return 1.2e-6 * std::sin(2.0 + 1.3 * k + i); };
+      const auto slip_1 = [k](const int i) { return 1.5e-5 * std::sin(4.0 + 0.7 * k + i); };
+      const auto slip_2 = [k](const int i) { return 1.5e-5 * std::sin(0.5 + 2.3 * k + i); };
+      const auto tau_1 = [k](const int i) { return 3e7 * std::sin(5.0 + 1.9 * k + i); };
+      const auto tau_2 = [k](const int i) { return 3e7 * std::cos(2.0 + 0.4 * k + i); };
+      const auto bonded = [k](const int i) { return (k + i) % 3 != 0; };
+      const Pack bonded_number([&](const auto i) { return double(bonded(i)); });
+      const auto packed =
+        flat_joint::update<3, Pack>(packed_element, bonds, {{Pack(tau_1), Pack(tau_2)}, bonded_number > 0.5},
+                                    {Pack(gap_before), Pack(gap), Pack(0.0), {Pack(slip_1), Pack(slip_2)}});
+      for (int i = 0; i < int(Pack::size()); ++i)
+        {
+          const auto single = flat_joint::update<3, double>(element, table_1, {{tau_1(i), tau_2(i)}, bonded(i)},
+                                                            {gap_before(i), gap(i), 0.0, {slip_1(i), slip_2(i)}});
+          for (int c = 0; c < 2; ++c)
+            EXPECT_EQ(double(packed.state.shear_stress[c][i]), single.state.shear_stress[c]);
+          EXPECT_EQ(bool(packed.state.bonded[i]), single.state.bonded);
+          EXPECT_EQ(double(packed.normal.force[i]), single.normal.force);
           EXPECT_EQ(double(packed.slip_energy[i]), single.slip_energy);
           EXPECT_EQ(double(packed.released_energy[i]), single.released_energy);
         }

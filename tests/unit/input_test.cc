@@ -36,6 +36,8 @@ subsection Specimen
 end
 SUBSECTION Flat joint
   SET Segments = 3
+  set Rings = 3
+  set Sectors = 12
   set Modulus = 70 GPa
   set Stiffness ratio = 1.5
   set Friction = 0.6
@@ -159,6 +161,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.specimen.specimen_file, "");
 
   EXPECT_EQ(input.flat_joint.n_segments, 3u);
+  EXPECT_EQ(input.flat_joint.n_rings, 3u);
+  EXPECT_EQ(input.flat_joint.n_sectors, 12u);
   EXPECT_EQ(input.flat_joint.modulus, 70e9);
   EXPECT_EQ(input.flat_joint.stiffness_ratio, 1.5);
   EXPECT_EQ(input.flat_joint.friction, 0.6);
@@ -293,7 +297,7 @@ TEST(Input, ErrorsNameTheLineOnWhichAnEntryStarts)
 TEST(Input, ChecksEveryRange)
 {
   const std::vector<std::pair<std::string_view, std::string_view>> mistakes{
-    {"Specimen", "Dimension = 3"},
+    {"Specimen", "Dimension = 4"},
     {"Specimen", "Shape = cylinder"},
     {"Specimen", "Width = 0 mm"},
     {"Specimen", "Height = -1 mm"},
@@ -306,6 +310,8 @@ TEST(Input, ChecksEveryRange)
     {"Specimen", "Specimen file = ."},
     {"Flat joint", "Segments = 0"},
     {"Flat joint", "Segments = 33"},
+    {"Flat joint", "Rings = 0"},
+    {"Flat joint", "Sectors = 2"},
     {"Flat joint", "Segments = 2.5"},
     {"Flat joint", "Segments = -1"},
     {"Flat joint", "Modulus = 0 GPa"},

@@ -2,6 +2,8 @@
 
 #include "dem/genesis.h"
 
+#include <type_traits>
+
 /// Specimens for tests that need one quickly.
 namespace feldspar
 {
@@ -19,10 +21,11 @@ inline Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bon
 }
 
 /// Grains where one wants them, density 3000 kg/m³, no joints.
-inline Specimen<2> placed_specimen(const std::vector<double>& radii, const Components<2>& positions)
+template <int dim = 2>
+Specimen<dim> placed_specimen(const std::vector<double>& radii, const std::type_identity_t<Components<dim>>& positions)
 {
-  Specimen<2> specimen;
-  specimen.size = {1.0, 1.0};
+  Specimen<dim> specimen;
+  specimen.size.setOnes();
   specimen.particle_contact.friction = 0.0;
   specimen.grains.place(radii, positions);
   specimen.grains.set_density(3000.0, specimen.thickness);
