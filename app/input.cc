@@ -117,6 +117,17 @@ private:
   dealii::ParameterHandler handler;
 };
 
+/// What an entry that is not given means in three dimensions.
+void settle_dimension(Input& input, const GivenValues& values)
+{
+  if (input.specimen.dimension == 2)
+    return;
+  if (!values.has("Specimen", "Porosity"))
+    input.specimen.porosity = 0.36;
+  if (!values.has("Flat joint", "Coordination number") && !values.has("Flat joint", "Installation gap ratio"))
+    input.flat_joint.installation_gap_ratio = 0.05;
+}
+
 /// The gap that gets a joint follows from exactly one of two entries; naming the one takes the other's default away.
 void settle_installation(Input& input, const GivenValues& values)
 {
@@ -156,6 +167,8 @@ void check_variants(const Input& input, const GivenValues& values)
 void check_specimen(const Input& input, const GivenValues& values)
 {
   const SpecimenParameters& specimen = input.specimen;
+  if (specimen.shape == "cylinder" && specimen.dimension != 3)
+    throw values.error("Specimen", "Shape", "needs Dimension = 3");
   if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
     throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
@@ -215,6 +228,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       {
         throw values.error(given.section, given.entry, error.what());
       }
+  settle_dimension(input, values);
   settle_installation(input, values);
   check_variants(input, values);
   for (const Variant& variant : variants(input))

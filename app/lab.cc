@@ -148,8 +148,8 @@ int run_lab(const CommonOptions& options)
 
   const Input input = read_input(options.input);
   if (input.specimen.dimension != 2)
-    throw InputError(fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet",
-                                 options.input.string()));
+    throw InputError(
+      fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet", options.input.string()));
   compare({}, reference_of(input)); // a bad reference file is said before the work, not after it
   const OutputFolder folder(options.output, options.input, options.force);
   remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's

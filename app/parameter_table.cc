@@ -261,7 +261,7 @@ std::string read_variant_entry(const std::string_view text)
     (parameter->section == "Specimen" || parameter->section == "Flat joint" ||
      parameter->section == "Particle contact" || parameter->section == "Dynamics" || parameter->section == "Tests") &&
     !parameter->entry.ends_with("file") && parameter->entry != "List" && parameter->entry != "Confinements" &&
-    parameter->entry != "Steps between checkpoints";
+    parameter->entry != "Steps between checkpoints" && parameter->entry != "Dimension" && parameter->entry != "Shape";
   if (!one_value)
     throw InputError("is not an entry that can vary; write Section/Entry, e.g. Flat joint/Segments");
   return std::string(text);
@@ -323,7 +323,8 @@ std::vector<Parameter> make_parameter_table()
   return {
     specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}, {"3", 3}},
                                   "2: discs in the plane, one metre thick; 3: spheres"),
-    specimen.choice<std::string>("Shape", &S::shape, {{"box", "box"}}, "of the specimen"),
+    specimen.choice<std::string>("Shape", &S::shape, {{"box", "box"}, {"cylinder", "cylinder"}},
+                                 "of the specimen; a cylinder is upright, its diameter the width, in three dimensions"),
     specimen.quantity("Width", &S::width, length, "mm", above_zero,
                       "across the axis of the tests; at least four radii of the largest grain"),
     specimen.quantity("Height", &S::height, length, "mm", above_zero,
@@ -331,8 +332,10 @@ std::vector<Parameter> make_parameter_table()
     specimen.quantity("Minimum radius", &S::minimum_radius, length, "mm", above_zero, "of the grains"),
     specimen.number("Radius ratio", &S::radius_ratio, {'[', 1.0, infinity, ')'},
                     "largest over smallest radius; radii are drawn uniformly between them"),
-    specimen.number("Porosity", &S::porosity, {'(', 0.0, 1.0, ')'},
-                    "of the finished packing; with the radii it gives the number of grains"),
+    specimen.number(
+      "Porosity", &S::porosity, {'(', 0.0, 1.0, ')'},
+      "of the finished packing; with the radii it gives the number of grains; in three dimensions 0.36 unless "
+      "it is given"),
     specimen.quantity("Density", &S::bulk_density, density, "kg/m^3", above_zero,
                       "of the rock as a body; a grain's is this over (1 - Porosity)"),
     specimen.number("Packing stress ratio", &S::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
@@ -369,8 +372,8 @@ std::vector<Parameter> make_parameter_table()
     flat_joint.optional_number("Installation gap ratio", &F::installation_gap_ratio, from_zero,
                                "largest gap that gets a joint, over the mean radius; instead of Coordination number"),
     flat_joint.optional_number("Coordination number", &F::coordination_number, above_zero,
-                               "mean number of joints of a grain, from which the gap follows; the default holds unless "
-                               "Installation gap ratio is given"),
+                               "mean number of joints of a grain, from which the gap follows; the default holds in two "
+                               "dimensions unless Installation gap ratio is given; in three that is 0.05 instead"),
     flat_joint.number("Gapped fraction", &F::gapped_fraction, fraction,
                       "share of the joints without bonds and with an initial gap"),
     flat_joint.number("Slit fraction", &F::slit_fraction, fraction,

@@ -4,7 +4,6 @@
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/specimen_source.h"
-#include "dem/input_error.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +11,11 @@
 
 namespace feldspar
 {
-int run_specimen(const CommonOptions& options)
+namespace
 {
-  const Input input = read_input(options.input);
-  if (input.specimen.dimension != 2)
-    throw InputError(fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet",
-                                 options.input.string()));
+template <int dim>
+int make_specimens(const CommonOptions& options, const Input& input)
+{
   const OutputFolder folder(options.output, options.input, options.force);
   Progress progress(options.quiet);
   watch_for_interrupt();
@@ -26,7 +24,7 @@ int run_specimen(const CommonOptions& options)
   const auto orders = specimen_orders(all_variants);
   for (const SpecimenOrder& order : orders) // with --force: one that lies there already is another input's
     std::filesystem::remove(folder.path() / (order.name + ".h5"));
-  const auto specimens = provide_specimens<2>(all_variants, orders, folder.path(), progress);
+  const auto specimens = provide_specimens<dim>(all_variants, orders, folder.path(), progress);
   for (std::size_t k = 0; k < orders.size(); ++k)
     {
       if (!options.quiet)
@@ -34,5 +32,12 @@ int run_specimen(const CommonOptions& options)
       fmt::print("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
     }
   return 0;
+}
+} // namespace
+
+int run_specimen(const CommonOptions& options)
+{
+  const Input input = read_input(options.input);
+  return input.specimen.dimension == 2 ? make_specimens<2>(options, input) : make_specimens<3>(options, input);
 }
 } // namespace feldspar

@@ -81,6 +81,8 @@ std::string describe(const SpecimenReport& report)
                      report.largest_overlap_ratio, report.resolution, report.radius_multiplier);
 }
 
+template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                       const std::filesystem::path&, Progress&);
 template std::vector<Specimen<2>> provide_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
                                                        const std::filesystem::path&, Progress&);
 } // namespace feldspar

@@ -250,7 +250,15 @@ ContactMotion<3, Real> contact_motion(const ContactFrame<3, Real>& before, const
   for (int c = 0; c < 3; ++c)
     t[c] = (t[c] - along * n[c]) * lengthen;
 
-  motion.rotation = {dot(difference, n), dot(difference, t), dot(difference, cross(n, t))};
+  // Along the mean of the old axes and the new, so that forces before and after do the work they store.
+  const auto mean = [&](const Triple<Real>& old_axis, const Triple<Real>& new_axis) {
+    Real sum(0.0);
+    for (int c = 0; c < 3; ++c)
+      sum += difference[c] * (old_axis[c] + new_axis[c]);
+    return 0.5 * sum;
+  };
+  motion.rotation = {mean(before.normal, n), mean(before.tangent, t),
+                     mean(cross(before.normal, before.tangent), cross(n, t))};
   motion.slip = {arc * sine_1 + half_radius_difference * motion.rotation[2],
                  arc * sine_2 - half_radius_difference * motion.rotation[1]};
   return motion;

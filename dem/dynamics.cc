@@ -343,23 +343,24 @@ void Dynamics<dim>::find_contacts()
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     {
       const Wall& wall = wall_list[w];
+      const auto& before = wall_touches[w]; // ascending, as `near` will be
+      auto known = before.begin();
       std::vector<WallTouch> near;
       for (std::uint32_t i = 0; i < grains.size(); ++i)
         {
-          const double distance = (grains.position[wall.axis][i] - wall.position) * wall.side;
+          const double distance = (wall_coordinate(wall, i) - wall.position) * wall.side;
           if (distance > grains.radius[i] + skin)
             continue;
-          const auto known = std::find_if(wall_touches[w].begin(), wall_touches[w].end(),
-                                          [i](const WallTouch& touch) { return touch.grain == i; });
-          if (known != wall_touches[w].end())
-            near.push_back(*known);
+          for (; known != before.end() && known->grain < i; ++known)
+            slip_energy_of_lost_contacts += known->slip_energy;
+          if (known != before.end() && known->grain == i)
+            near.push_back(*known++);
           else
             near.push_back(
               {i, zero_force == ZeroForce::as_placed ? std::min(grains.radius[i], distance) : grains.radius[i]});
         }
-      for (const auto& touch : wall_touches[w])
-        if (std::none_of(near.begin(), near.end(), [&](const WallTouch& kept) { return kept.grain == touch.grain; }))
-          slip_energy_of_lost_contacts += touch.slip_energy;
+      for (; known != before.end(); ++known)
+        slip_energy_of_lost_contacts += known->slip_energy;
       wall_touches[w] = std::move(near);
     }
   position_at_search = grains.position;
@@ -445,8 +446,8 @@ void Dynamics<dim>::choose_time_step()
         {
           const double k_n = wall_stiffness(grains.radius[touch.grain]);
           const double k_s = wall_list[w].friction > 0.0 ? k_n / body.particle_contact.stiffness_ratio : 0.0;
-          add(touch.grain, Vector<dim>::Unit(wall_list[w].axis), k_n, k_s, touch.zero_distance - touch.overlap, 0.0,
-              0.0);
+          add(touch.grain, wall_direction(wall_list[w], touch.grain), k_n, k_s, touch.zero_distance - touch.overlap,
+              0.0, 0.0);
         }
 
   double largest = 0.0;
@@ -608,6 +609,25 @@ void Dynamics<dim>::sum_forces()
   });
 }
 
+/// Along which the coordinate of a wall grows.
+template <int dim>
+Vector<dim> Dynamics<dim>::wall_direction(const Wall& wall, const std::uint32_t grain) const
+{
+  if (!wall.round)
+    return Vector<dim>::Unit(wall.axis);
+  Vector<dim> from_axis = at<dim>(body.grains.position, grain) - 0.5 * body.size;
+  from_axis[dim - 1] = 0.0;
+  return from_axis.normalized();
+}
+
+template <int dim>
+double Dynamics<dim>::wall_coordinate(const Wall& wall, const std::uint32_t grain) const
+{
+  if (!wall.round)
+    return body.grains.position[wall.axis][grain];
+  return body.distance_from_axis(at<dim>(body.grains.position, grain));
+}
+
 template <int dim>
 void Dynamics<dim>::press_walls(const double step)
 {
@@ -619,7 +639,7 @@ void Dynamics<dim>::press_walls(const double step)
       for (auto& touch : wall_touches[w])
         {
           const std::uint32_t i = touch.grain;
-          const double distance = (grains.position[wall.axis][i] - wall.position) * wall.side;
+          const double distance = (wall_coordinate(wall, i) - wall.position) * wall.side;
           const double k_n = wall_stiffness(grains.radius[i]);
           const double overlap = touch.zero_distance - distance;
           if (touch.overlap == 0.0 && overlap > 0.0)
@@ -633,7 +653,11 @@ void Dynamics<dim>::press_walls(const double step)
           touch.overlap = std::max(0.0, overlap);
           touch.shear_force = response.shear_force;
           touch.slip_energy += response.slip_energy;
-          grains.force[wall.axis][i] += wall.side * response.normal_force;
+          if (wall.round)
+            set<dim>(grains.force, i,
+                     at<dim>(grains.force, i) + wall.side * response.normal_force * wall_direction(wall, i));
+          else
+            grains.force[wall.axis][i] += wall.side * response.normal_force;
           if (wall.friction > 0.0)
             add_wall_shear(wall, i, distance, response.shear_force);
           sum += response.normal_force;
@@ -769,9 +793,9 @@ Tensor<dim> Dynamics<dim>::mean_stress() const
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     for (const auto& touch : wall_touches[w])
       {
-        const int axis = wall_list[w].axis;
-        const double distance = std::abs(grains.position[axis][touch.grain] - wall_list[w].position);
-        sum(axis, axis) -= wall_stiffness(grains.radius[touch.grain]) * touch.overlap * distance;
+        const Vector<dim> normal = wall_direction(wall_list[w], touch.grain);
+        const double distance = std::abs(wall_coordinate(wall_list[w], touch.grain) - wall_list[w].position);
+        sum -= wall_stiffness(grains.radius[touch.grain]) * touch.overlap * distance * (normal * normal.transpose());
       }
   return sum / body.volume();
 }
@@ -873,7 +897,38 @@ void Dynamics<2>::add_wall_shear(const Wall& wall, const std::uint32_t grain, co
   body.grains.couple[0][grain] -= distance * shear_force[0];
 }
 
+/// Planes only. The shear force has components along the two other axes, in cyclic order.
+template <>
+std::array<double, 2> Dynamics<3>::slip_on_wall(const Wall& wall, const std::uint32_t grain, const double distance,
+                                                const double step) const
+{
+  const int one = (wall.axis + 1) % 3;
+  const int two = (wall.axis + 2) % 3;
+  // The contact lies at -d n from the centre, n along `side` of the axis: v + ω × (-d n).
+  const double arm = distance * wall.side;
+  const auto& velocity = body.grains.velocity;
+  const auto& spin = body.grains.spin;
+  return {step * (velocity[one][grain] - arm * spin[two][grain]),
+          step * (velocity[two][grain] + arm * spin[one][grain])};
+}
+
+template <>
+void Dynamics<3>::add_wall_shear(const Wall& wall, const std::uint32_t grain, const double distance,
+                                 const std::array<double, 2>& shear_force)
+{
+  const int one = (wall.axis + 1) % 3;
+  const int two = (wall.axis + 2) % 3;
+  const double arm = distance * wall.side;
+  body.grains.force[one][grain] += shear_force[0];
+  body.grains.force[two][grain] += shear_force[1];
+  body.grains.couple[one][grain] += arm * shear_force[1];
+  body.grains.couple[two][grain] -= arm * shear_force[0];
+}
+
 template class Dynamics<2>;
 template void Dynamics<2>::transfer(Hdf5Writer&);
 template void Dynamics<2>::transfer(Hdf5Reader&);
+template class Dynamics<3>;
+template void Dynamics<3>::transfer(Hdf5Writer&);
+template void Dynamics<3>::transfer(Hdf5Reader&);
 } // namespace feldspar

@@ -12,16 +12,25 @@
 
 namespace feldspar
 {
-/// A rigid plane across one axis, on which grains lie from one side.
+/// A rigid plane across one axis, on which grains lie from one side; or a smooth cylinder about the last axis through
+/// the middle of the specimen, whose coordinate is the distance from that axis.
 struct Wall
 {
   int axis = 0;
   double side = 1.0;     ///< +1: grains lie towards larger coordinates, -1: towards smaller ones
   double position = 0.0; ///< [m]
-  double velocity = 0.0; ///< along the axis [m/s]
+  double velocity = 0.0; ///< along its coordinate [m/s]
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
+  bool round = false;          ///< the cylinder
 };
+
+/// The side of a cylinder.
+template <int dim>
+Wall round_wall(const Specimen<dim>& specimen)
+{
+  return {.side = -1.0, .position = 0.5 * specimen.size[0], .round = true};
+}
 
 /// Where a contact without a face begins to press.
 enum class ZeroForce
@@ -151,6 +160,8 @@ private:
   std::vector<Break> update_contacts(double dt);
   void update_touches(double dt);
   void press_walls(double dt);
+  Vector<dim> wall_direction(const Wall& wall, std::uint32_t grain) const;
+  double wall_coordinate(const Wall& wall, std::uint32_t grain) const;
   std::array<double, dim - 1> slip_on_wall(const Wall& wall, std::uint32_t grain, double distance, double dt) const;
   void add_wall_shear(const Wall& wall, std::uint32_t grain, double distance,
                       const std::array<double, dim - 1>& shear_force);

@@ -70,26 +70,34 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
 {
   const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
-    throw InputError(
-      fmt::format("Specimen: {} grain(s) fill a box of {} m × {} m; make it larger or the grains smaller", radii.size(),
-                  wanted.width, wanted.height));
+    throw InputError(fmt::format("Specimen: {} grain(s) fill a {} of {} m × {} m; make it larger or the grains smaller",
+                                 radii.size(), specimen.round ? "cylinder" : "box", wanted.width, wanted.height));
   Random random(specimen.seed, RandomStream::positions);
   Components<dim> positions;
   for (const double radius : radii)
-    for (int c = 0; c < dim; ++c)
-      positions[c].push_back(specimen.periodic ? random.uniform(0.0, specimen.size[c])
-                                               : random.uniform(radius, specimen.size[c] - radius));
+    {
+      const double margin = specimen.periodic ? 0.0 : radius;
+      Vector<dim> position;
+      do
+        for (int c = 0; c < dim; ++c)
+          position[c] = random.uniform(margin, specimen.size[c] - margin);
+      while (specimen.round && specimen.distance_from_axis(position) > 0.5 * specimen.size[0] - radius);
+      for (int c = 0; c < dim; ++c)
+        positions[c].push_back(position[c]);
+    }
 
   Specimen<dim> loose = specimen;
   loose.particle_contact.friction = 0.0;
   loose.grains.place(radii, positions);
   loose.grains.set_density(wanted.bulk_density / (1.0 - wanted.porosity), loose.thickness);
   Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
-  for (int axis = 0; axis < dim && !specimen.periodic; ++axis)
+  for (int axis = specimen.round ? dim - 1 : 0; axis < dim && !specimen.periodic; ++axis)
     {
       dynamics.add_wall({axis, 1.0, 0.0, 0.0});
       dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
     }
+  if (specimen.round)
+    dynamics.add_wall(round_wall(specimen));
 
   // The first overlaps are as large as grains; let go, they would throw grains about: follow the forces step by step
   // without gathering speed.
@@ -239,7 +247,8 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
       const Vector<dim> x = at<dim>(grains.position, i);
-      if ((x.array() > margin).all() && (x.array() < specimen.size.array() - margin).all())
+      const bool inside = !specimen.round || specimen.distance_from_axis(x) < 0.5 * specimen.size[0] - margin;
+      if (inside && (x.array() > margin).all() && (x.array() < specimen.size.array() - margin).all())
         {
           sum += n_joints[i];
           ++n_core;
@@ -353,6 +362,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
   specimen.size.setConstant(wanted.width);
   specimen.size[dim - 1] = wanted.height;
   specimen.periodic = wanted.shape == "periodic";
+  specimen.round = wanted.shape == "cylinder";
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
@@ -368,6 +378,8 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
 }
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const FlatJointParameters&,
+                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&);
+template Specimen<3> make_specimen<3>(const SpecimenParameters&, const FlatJointParameters&,
                                       const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&);
 template void install_joints<2>(Specimen<2>&, const FlatJointParameters&);
 template void install_joints<3>(Specimen<3>&, const FlatJointParameters&);

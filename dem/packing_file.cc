@@ -49,8 +49,8 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
 {
   std::ifstream file(wanted.packing_file);
   if (!file)
-    throw InputError(fmt::format("{}: cannot be read; Specimen/Packing file names a text file of lines x y radius",
-                                 wanted.packing_file));
+    throw InputError(fmt::format("{}: cannot be read; Specimen/Packing file names a text file of lines x y {}radius",
+                                 wanted.packing_file, dim == 3 ? "z " : ""));
   std::vector<double> radii;
   Components<dim> positions;
   std::vector<std::size_t> line_of;
@@ -72,6 +72,11 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
                                          "xyz"[c], values[c], length));
           positions[c].push_back(values[c]);
         }
+      if (wanted.shape == "cylinder")
+        if (const double r = std::hypot(values[0] - 0.5 * wanted.width, values[1] - 0.5 * wanted.width);
+            r > 0.5 * wanted.width)
+          throw InputError(fmt::format("{}: lies {} m from the axis of the cylinder; allowed are 0 to {} m", where, r,
+                                       0.5 * wanted.width));
       radii.push_back(values[dim]);
       line_of.push_back(n);
     }
@@ -94,4 +99,5 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
 }
 
 template Grains<2> read_packing<2>(const SpecimenParameters&);
+template Grains<3> read_packing<3>(const SpecimenParameters&);
 } // namespace feldspar

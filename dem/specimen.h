@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace feldspar
 {
@@ -17,6 +18,7 @@ struct Specimen
 {
   Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
   bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
+  bool round = false;                     ///< a cylinder about the last axis, in space; the box is around it
   double thickness = 1.0;                 ///< of the plane [m]
   double bulk_density = 0.0;              ///< [kg/m³]
   std::uint64_t seed = 0;
@@ -31,7 +33,13 @@ struct Specimen
   /// The grain, or image of a grain, that a joint leads to.
   PeriodicImage<dim> second_of(std::size_t joint) const;
 
-  double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0); }
+  double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0) * (round ? 0.25 * std::numbers::pi : 1.0); }
+
+  /// Distance of a point from the axis of the tests through the middle [m].
+  double distance_from_axis(const Vector<dim>& point) const
+  {
+    return (point - 0.5 * size).template head<dim - 1>().norm();
+  }
 };
 
 template <int dim>

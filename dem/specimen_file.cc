@@ -25,6 +25,9 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   std::uint32_t periodic = specimen.periodic;
   root.value("periodic", periodic);
   specimen.periodic = periodic != 0;
+  std::uint32_t round = specimen.round;
+  root.value("round", round);
+  specimen.round = round != 0;
   root.value("thickness_m", specimen.thickness);
   root.value("bulk_density_kg_per_m3", specimen.bulk_density);
   root.value("seed", specimen.seed);
@@ -162,4 +165,6 @@ Specimen<dim> read_specimen(const std::filesystem::path& file)
 
 template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&);
 template Specimen<2> read_specimen<2>(const std::filesystem::path&);
+template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&);
+template Specimen<3> read_specimen<3>(const std::filesystem::path&);
 } // namespace feldspar
