@@ -20,10 +20,10 @@ struct Pressing
   double offset; ///< of its centroid from the segment's, along t [m]
 };
 
-Pressing pressing_part(const flat_joint::Face<double>& face, const double gap, const double slope)
+Pressing pressing_part(const flat_joint::Segment<2, double>& face, const double gap, const double slope)
 {
   const double length = flat_joint::closed_part(face, gap, slope).length;
-  return {length / face.segment_length, (slope < 0.0 ? -0.5 : 0.5) * (face.segment_length - length)};
+  return {length / face.length, (slope < 0.0 ? -0.5 : 0.5) * (face.length - length)};
 }
 } // namespace
 
@@ -44,8 +44,8 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
     {
       const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
       const double r = link.half_length;
-      const flat_joint::Face<double> face{k_n, k_s, element.area * r, network.thickness(), link.friction};
-      const double area = face.segment_area();
+      const flat_joint::Segment<2, double> face{k_n, k_s, element.area * r, network.thickness(), link.friction};
+      const double area = face.area();
       const auto rows = element_rows(element, r);
       const Vector<dim> now = rows * motion;
       const Vector<dim> before = rows * active.motion;
@@ -99,7 +99,7 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       FaceElement<dim> pressing = element;
       pressing.offset[0] += part.offset / r;
       const auto part_rows = element_rows(pressing, r);
-      const double part_length = part.share * face.segment_length;
+      const double part_length = part.share * face.length;
       const double second_moment =
         link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
       result.tangent += k_n * part.share * area * part_rows.row(0).transpose() * part_rows.row(0);

@@ -69,7 +69,7 @@ Network<dim>::Network(const Specimen<dim>& specimen)
   , plane_thickness(specimen.thickness)
   , tan_bond_friction(specimen.joints.friction_slope)
   , edges(specimen.cell())
-  , face(face_elements<dim>({specimen.joints.n_segments}))
+  , face(specimen.joints.elements)
   , grain_radii(specimen.grains.radius)
 {
   if (!specimen.periodic)
