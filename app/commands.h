@@ -14,17 +14,19 @@ inline constexpr int user_error = 2;
 inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 } // namespace exit_code
 
-/// What `lab`, `specimen` and `contact` have in common on the command line.
+/// What `lab`, `rve`, `specimen` and `contact` have in common on the command line.
 struct CommonOptions
 {
   std::filesystem::path input;
-  std::optional<std::filesystem::path> resume; ///< of `lab`: the folder of a run to be taken up
+  std::optional<std::filesystem::path> resume; ///< of `lab` and `rve`: the folder of a run to be taken up
   std::optional<std::filesystem::path> output;
   bool force = false;
   bool quiet = false;
 };
 
 int run_lab(const CommonOptions& options);
+
+int run_rve(const CommonOptions& options);
 
 int run_specimen(const CommonOptions& options);
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "coupling/parameters.h"
 #include "dem/lab_results.h"
 #include "dem/parameters.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,16 @@ struct ContactParameters
   double radius_1 = 1e-3; ///< [m]
   double radius_2 = 1e-3; ///< [m]
   std::string path_file;  ///< CSV of the displacements
+};
+
+/// The path of `feldspar rve`.
+struct StrainPathParameters
+{
+  std::string path_file;                        ///< CSV of points; empty: a direction
+  std::vector<std::optional<double>> direction; ///< of the strain, tensor shear; none: free, at its confinement
+  double size = 1e-3;                           ///< of the strain at the end, over the direction
+  double confining_pressure = 0.0;              ///< compression positive [Pa]
+  double largest_step = 1e-5;                   ///< of any component of the strain
 };
 
 /// All that an input file says. A default-constructed value is what an empty file means.
@@ -34,6 +46,8 @@ struct Input
   std::string variant_entry;               ///< Section/Entry; empty: no variants
   std::vector<std::string> variant_values; ///< as they would stand in an input file
   ContactParameters contact;
+  StrainPathParameters strain_path;
+  EquilibriumParameters equilibrium;
   std::string reference_file; ///< figures of the rock that results are set beside; empty: none
 };
 

@@ -84,6 +84,11 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
   const auto specimens = provide_specimens<2>(all_variants, orders, folder, progress);
+  for (const auto& specimen : specimens)
+    if (specimen.periodic)
+      throw InputError(fmt::format("{}: Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen "
+                                   "between walls (feldspar rve takes a cell)",
+                                   input_file.string()));
 
   // Break it.
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
@@ -137,7 +142,7 @@ int run_lab(const CommonOptions& options)
   };
   if (options.resume)
     {
-      const RunRecord run = read_run_record(*options.resume);
+      const RunRecord run = read_run_record("lab", *options.resume);
       if (run.complete)
         {
           fmt::print("{}: this run is complete\n", options.resume->string());
@@ -150,10 +155,16 @@ int run_lab(const CommonOptions& options)
   if (input.specimen.dimension != 2)
     throw InputError(
       fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet", options.input.string()));
+  for (const Variant& variant : variants(input))
+    if (variant.input.specimen.shape == "periodic")
+      throw InputError(
+        fmt::format("{}: Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set "
+                    "Shape = box, or use feldspar rve",
+                    options.input.string()));
   compare({}, reference_of(input)); // a bad reference file is said before the work, not after it
   const OutputFolder folder(options.output, options.input, options.force);
   remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
-  write_run_record(options.input, folder.path());
+  write_run_record("lab", options.input, folder.path());
   try
     {
       return run_or_say_how_to_resume(folder.path(), input, options.input);

@@ -2,10 +2,9 @@
 
 #include "app/interrupt.h"
 #include "app/jobs.h"
-#include "app/parameter_table.h"
+#include "app/run_record.h"
 #include "dem/input_error.h"
 #include "dem/lab_tests.h"
-#include "feldspar_version.h"
 
 #include <fmt/format.h>
 
@@ -30,14 +29,6 @@ struct PlannedTest
   std::string identity; ///< of its checkpoints: program, input and test
 };
 
-std::string identity(const Input& input, const std::string& name)
-{
-  std::string text = fmt::format("{} {}\n", version, name);
-  for (const Parameter& parameter : parameter_table())
-    text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
-  return text;
-}
-
 std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
                               const std::vector<Specimen<2>>& specimens)
 {
@@ -49,7 +40,7 @@ std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::v
         const std::string group =
           variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, orders[s].variant + 1) : test_name;
         const std::string full_name = fmt::format("{}_seed_{}", group, specimens[s].seed);
-        planned.push_back({test, &variant, &specimens[s], group, full_name, identity(variant.input, full_name)});
+        planned.push_back({test, &variant, &specimens[s], group, full_name, run_identity(variant.input, full_name)});
       };
       for (const TestKind kind : variant.input.test_list)
         if (kind == TestKind::triaxial_compression)

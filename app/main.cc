@@ -29,12 +29,8 @@ public:
   {
     app.set_version_flag("--version", fmt::format("feldspar {}", version));
     app.require_subcommand(0, 1);
-    CLI::App& lab = add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab);
-    CLI::Option* const resume =
-      lab.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")->type_name("DIR");
-    lab.get_option("INPUT")->required(false)->excludes(resume);
-    lab.get_option("--output")->excludes(resume);
-    lab.get_option("--force")->excludes(resume);
+    add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab));
+    add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_parameters();
@@ -79,6 +75,16 @@ private:
     return command;
   }
 
+  void add_resume(CLI::App& command)
+  {
+    CLI::Option* const resume =
+      command.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")
+        ->type_name("DIR");
+    command.get_option("INPUT")->required(false)->excludes(resume);
+    command.get_option("--output")->excludes(resume);
+    command.get_option("--force")->excludes(resume);
+  }
+
   void add_parameters()
   {
     CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
@@ -104,7 +110,7 @@ private:
   {
     if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
       return;
-    const std::vector<std::string_view> names{"lab", "specimen", "contact", "parameters"};
+    const std::vector<std::string_view> names{"lab", "rve", "specimen", "contact", "parameters"};
     if (std::find(names.begin(), names.end(), argv[1]) == names.end())
       throw InputError(fmt::format("{}: no such command{}", argv[1], suggestion(argv[1], names)));
   }

@@ -20,6 +20,7 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view none = "none";
+constexpr std::string_view free_component = "free";
 constexpr std::size_t most_seeds = 10000;
 
 /// An interval as it is written in books: '[' and ']' take the bound in, '(' and ')' leave it out.
@@ -259,9 +260,11 @@ std::string read_variant_entry(const std::string_view text)
   const bool one_value =
     parameter != nullptr &&
     (parameter->section == "Specimen" || parameter->section == "Flat joint" ||
-     parameter->section == "Particle contact" || parameter->section == "Dynamics" || parameter->section == "Tests") &&
-    !parameter->entry.ends_with("file") && parameter->entry != "List" && parameter->entry != "Confinements" &&
-    parameter->entry != "Steps between checkpoints" && parameter->entry != "Dimension" && parameter->entry != "Shape";
+     parameter->section == "Particle contact" || parameter->section == "Dynamics" || parameter->section == "Tests" ||
+     parameter->section == "Strain path" || parameter->section == "Representative volume") &&
+    !parameter->entry.ends_with("file") && parameter->entry != "File" && parameter->entry != "List" &&
+    parameter->entry != "Confinements" && parameter->entry != "Steps between checkpoints" &&
+    parameter->entry != "Dimension" && parameter->entry != "Shape";
   if (!one_value)
     throw InputError("is not an entry that can vary; write Section/Entry, e.g. Flat joint/Segments");
   return std::string(text);
@@ -304,6 +307,28 @@ std::vector<std::uint64_t> read_seeds(const std::string_view text)
   return seeds;
 }
 
+std::vector<std::optional<double>> read_direction(const std::string_view text)
+{
+  std::vector<std::optional<double>> direction;
+  if (text == none)
+    return direction;
+  for (const std::string_view piece : split_at_commas(text))
+    direction.push_back(piece == free_component ? std::nullopt : std::optional(parse_number(piece)));
+  if (direction.size() != 3)
+    throw InputError(fmt::format("{} component(s); there must be 3: xx, yy, xy", direction.size()));
+  if (std::none_of(direction.begin(), direction.end(), [](const auto& entry) { return entry.value_or(0.0) != 0.0; }))
+    throw InputError("at least one component must be a number other than 0");
+  return direction;
+}
+
+std::string write_direction(const std::vector<std::optional<double>>& direction)
+{
+  std::string text;
+  for (const auto& component : direction)
+    text += (text.empty() ? "" : ", ") + (component ? format_number(*component) : std::string(free_component));
+  return text.empty() ? std::string(none) : text;
+}
+
 std::vector<Parameter> make_parameter_table()
 {
   using S = SpecimenParameters;
@@ -312,6 +337,8 @@ std::vector<Parameter> make_parameter_table()
   using D = DynamicsParameters;
   using T = TestParameters;
   using C = ContactParameters;
+  using R = StrainPathParameters;
+  using E = EquilibriumParameters;
   const Section<S> specimen{"Specimen", &Input::specimen};
   const Section<F> flat_joint{"Flat joint", &Input::flat_joint};
   const Section<P> particle_contact{"Particle contact", &Input::particle_contact};
@@ -319,16 +346,20 @@ std::vector<Parameter> make_parameter_table()
   const Section<T> tests{"Tests", &Input::tests};
   const Section<C> contact{"Contact", &Input::contact};
   const Section<C> contact_path{"Contact path", &Input::contact};
+  const Section<R> strain_path{"Strain path", &Input::strain_path};
+  const Section<E> equilibrium{"Representative volume", &Input::equilibrium};
 
   return {
     specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}, {"3", 3}},
                                   "2: discs in the plane, one metre thick; 3: spheres"),
-    specimen.choice<std::string>("Shape", &S::shape, {{"box", "box"}, {"cylinder", "cylinder"}},
-                                 "of the specimen; a cylinder is upright, its diameter the width, in three dimensions"),
+    specimen.choice<std::string>(
+      "Shape", &S::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
+      "box or, in three dimensions, upright cylinder with the width as diameter: between "
+      "walls, for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`"),
     specimen.quantity("Width", &S::width, length, "mm", above_zero,
-                      "across the axis of the tests; at least four radii of the largest grain"),
+                      "of the box or cell, across the axis of the tests; at least four radii of the largest grain"),
     specimen.quantity("Height", &S::height, length, "mm", above_zero,
-                      "along the axis of the tests; at least four radii of the largest grain"),
+                      "of the box or cell, along the axis of the tests; at least four radii of the largest grain"),
     specimen.quantity("Minimum radius", &S::minimum_radius, length, "mm", above_zero, "of the grains"),
     specimen.number("Radius ratio", &S::radius_ratio, {'[', 1.0, infinity, ')'},
                     "largest over smallest radius; radii are drawn uniformly between them"),
@@ -446,6 +477,32 @@ std::vector<Parameter> make_parameter_table()
       "File", &C::path_file,
       "displacements since rest, a CSV with the columns normal_m,shear_m,rotation_rad; in three dimensions "
       "normal_m,shear_1_m,shear_2_m,twist_rad,bend_1_rad,bend_2_rad"),
+
+    strain_path.file(
+      "File", &R::path_file,
+      "points of the path of `feldspar rve`, a CSV with a column for each of xx,yy,xy: strain_xx (tensor "
+      "shear) or stress_xx_Pa, tension positive; straight ways between; instead of Direction"),
+    {"Strain path", "Direction", "", "none, or a number or free for each of xx, yy, xy",
+     "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement",
+     [](Input& input, const std::string_view text) { input.strain_path.direction = read_direction(text); },
+     [](const Input& input) { return write_direction(input.strain_path.direction); }},
+    strain_path.number("Size", &R::size, {'(', 0.0, largest_strain, ']'}, "of the strain at the end, over Direction"),
+    strain_path.quantity("Confining pressure", &R::confining_pressure, stress, "MPa", from_zero,
+                         "compression positive, on all sides before the strain begins; strains of Direction count from "
+                         "there"),
+    strain_path.number("Largest step", &R::largest_step, {'(', 0.0, largest_strain, ']'},
+                       "of any component of the strain in one increment"),
+
+    equilibrium.number("Event tolerance", &E::event_tolerance, {'[', 1e-12, 0.1, ']'},
+                       "largest unbalanced over mean contact force, between breaks"),
+    equilibrium.number("Final tolerance", &E::final_tolerance, {'[', 1e-12, 0.1, ']'},
+                       "the same, of the stress that is handed out"),
+    equilibrium.choice<BreakRule>("Break rule", &E::break_rule,
+                                  {{"near worst", BreakRule::near_worst}, {"only worst", BreakRule::only_worst}},
+                                  "whether segments with 0.98 of the worst overload break together with it"),
+    equilibrium.integer("Most iterations", &E::most_iterations, {'[', 1.0, 1e6, ']'},
+                        "in search of one equilibrium, before there is said to be none"),
+
     file_parameter(
       "Report", "Reference file", "figures of the rock and of other models (JSON) to set the results beside",
       [](auto& input) -> auto& { return input.reference_file; }),

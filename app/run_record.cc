@@ -1,6 +1,8 @@
 #include "app/run_record.h"
 
+#include "app/parameter_table.h"
 #include "dem/input_error.h"
+#include "feldspar_version.h"
 #include "report/text_file.h"
 
 #include <fmt/format.h>
@@ -22,8 +24,10 @@ std::filesystem::path copy_of_input(const std::filesystem::path& folder, const s
 {
   return folder / ("input" + input_file.extension().string());
 }
+
 struct Contents
 {
+  std::string command;
   std::filesystem::path input_file;
   std::filesystem::path relative_to; ///< the folder of the input
   bool complete;
@@ -32,6 +36,7 @@ struct Contents
 void write(const std::filesystem::path& folder, const Contents& contents)
 {
   nlohmann::ordered_json json;
+  json["command"] = contents.command;
   json["input_file"] = contents.input_file.string();
   json["relative_to"] = contents.relative_to.string();
   json["complete"] = contents.complete;
@@ -46,19 +51,30 @@ Contents read(const std::filesystem::path& folder)
     return json.is_object() && json.contains(name) && json[name].type() == type;
   };
   using Type = nlohmann::json::value_t;
-  if (!holds("input_file", Type::string) || !holds("relative_to", Type::string) || !holds("complete", Type::boolean))
-    throw InputError(fmt::format("--resume {}: not the folder of a `feldspar lab` run; {} is missing in it or damaged",
+  if (!holds("command", Type::string) || !holds("input_file", Type::string) || !holds("relative_to", Type::string) ||
+      !holds("complete", Type::boolean))
+    throw InputError(fmt::format("--resume {}: not the folder of a run; {} is missing in it or damaged",
                                  folder.string(), record_name));
-  return {json["input_file"].get<std::string>(), json["relative_to"].get<std::string>(), json["complete"].get<bool>()};
+  return {json["command"].get<std::string>(), json["input_file"].get<std::string>(),
+          json["relative_to"].get<std::string>(), json["complete"].get<bool>()};
 }
 } // namespace
 
-void write_run_record(const std::filesystem::path& input_file, const std::filesystem::path& folder)
+void write_run_record(const std::string& command, const std::filesystem::path& input_file,
+                      const std::filesystem::path& folder)
 {
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_text_file(copy_of_input(folder, input_file), text);
-  write(folder, {input_file, std::filesystem::absolute(input_file).parent_path(), false});
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), false});
+}
+
+std::string run_identity(const Input& input, const std::string& part)
+{
+  std::string text = fmt::format("{} {}\n", version, part);
+  for (const Parameter& parameter : parameter_table())
+    text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+  return text;
 }
 
 void mark_complete(const std::filesystem::path& folder)
@@ -82,9 +98,12 @@ void remove_run(const std::filesystem::path& folder)
     std::filesystem::remove(specimen);
 }
 
-RunRecord read_run_record(const std::filesystem::path& folder)
+RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder)
 {
   const Contents contents = read(folder);
+  if (contents.command != command)
+    throw InputError(
+      fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
   return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to), contents.input_file,
           contents.complete};
 }

@@ -166,6 +166,8 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   for (int k = 0; k < n_voigt<dim>; ++k)
     if (!control.stress_given[k])
       to_target[n_own + k] = control.strain[k] - position[n_own + k];
+  if (!to_target.allFinite() || !control.stress.allFinite())
+    return false;
   // The grains follow the strain as the intact network would: the first guess, and exact while nothing is broken.
   if (!to_target.isZero())
     {
@@ -177,7 +179,7 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   const auto precondition = [&](const Unknowns& r) { return network.precondition(r, control.stress_given); };
   double error = measure(present, control);
   double step_share = 1.0;
-  for (unsigned int k = 0; error > tolerance; ++k)
+  for (unsigned int k = 0; !(error <= tolerance); ++k)
     {
       if (k == parameters.most_iterations)
         return false;
@@ -393,6 +395,35 @@ NetworkState<dim> Equilibrium<dim>::state()
   std::sort(result.unbonded.begin(), result.unbonded.end(),
             [](const auto& a, const auto& b) { return a.segment < b.segment; });
   return result;
+}
+
+template <int dim>
+std::vector<Motion<dim>> Equilibrium<dim>::link_forces() const
+{
+  const auto& links = network.links();
+  std::vector<Motion<dim>> forces(links.size(), Motion<dim>::Zero());
+  for (std::uint32_t k = 0; k < links.size(); ++k)
+    if (active_number[k] != none)
+      forces[k] = present.active[active_number[k]].forces;
+    else if (links[k].has_face)
+      forces[k] = network.bonded_stiffness(k) * network.link_motion(links[k], position);
+  for (const auto& [k, touch] : present.touches)
+    forces[k] = touch.forces;
+  return forces;
+}
+
+template <int dim>
+std::vector<JointStiffness<dim>> Equilibrium<dim>::link_tangents() const
+{
+  std::vector<JointStiffness<dim>> tangents(network.links().size(), JointStiffness<dim>::Zero());
+  for (std::uint32_t k = 0; k < tangents.size(); ++k)
+    if (active_number[k] != none)
+      tangents[k] = present.active[active_number[k]].tangent;
+    else if (k < network.n_joints())
+      tangents[k] = network.bonded_stiffness(k);
+  for (const auto& [k, touch] : present.touches)
+    tangents[k] = touch.tangent;
+  return tangents;
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include "coupling/link_answer.h"
 #include "coupling/network_state.h"
+#include "coupling/parameters.h"
 
 #include <limits>
 #include <optional>
@@ -25,20 +26,6 @@ Control<dim> strain_control(const Voigt<dim>& strain)
   control.strain = strain;
   return control;
 }
-
-enum class BreakRule
-{
-  near_worst, ///< every segment with at least 0.98 of the worst overload
-  only_worst
-};
-
-struct EquilibriumParameters
-{
-  double event_tolerance = 1e-3; ///< largest unbalanced over mean contact force, between events
-  double final_tolerance = 1e-6; ///< of the stress that is handed out
-  BreakRule break_rule = BreakRule::near_worst;
-  unsigned int most_iterations = 200; ///< of one relaxation
-};
 
 /// A segment beyond its strength.
 struct Overload
@@ -81,6 +68,10 @@ public:
   Voigt<dim> stress() const { return present.stress; }
   double unbalanced_ratio() const { return present.unbalanced_ratio; }
   double stored_energy() const { return present.stored_energy; }
+  /// In each link's own axes; [n_links].
+  std::vector<Motion<dim>> link_forces() const;
+  /// Bonds and open, stick and slip states frozen; [n_links].
+  std::vector<JointStiffness<dim>> link_tangents() const;
   const Unknowns& unknowns() const { return position; }
   unsigned int n_iterations() const { return iterations; }
 

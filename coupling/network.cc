@@ -62,7 +62,7 @@ JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const Elemen
 }
 
 template <int dim>
-Network<dim>::Network(const Specimen<dim>& specimen)
+Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation)
   : number_of_grains(specimen.grains.size())
   , number_of_joints(specimen.joints.size())
   , cell_volume(specimen.volume())
@@ -132,6 +132,16 @@ Network<dim>::Network(const Specimen<dim>& specimen)
                            0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
                            k_n / specimen.particle_contact.stiffness_ratio, std::min(radius_1, radius_2),
                            std::max(0.0, branch.norm() - radius_1 - radius_2), specimen.particle_contact.friction});
+    }
+
+  // Cell and grains turn together; what a link is in its own axes stays.
+  edges = rotation * edges;
+  for (Vector<dim>& centre : centres)
+    centre = rotation * centre;
+  for (Link<dim>& link : all_links)
+    {
+      link.axes = link.axes * rotation.transpose();
+      link.branch = rotation * link.branch;
     }
 
   factorise();
@@ -394,7 +404,7 @@ template <int dim>
 bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
 {
   const double size = strain.norm();
-  if (size >= touching_strain)
+  if (!(size < touching_strain)) // nor is one that is not finite
     return false;
   for (const Bound& bound : bounds)
     {

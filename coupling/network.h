@@ -84,8 +84,8 @@ template <int dim>
 class Network
 {
 public:
-  /// Throws InputError where the specimen is not periodic.
-  explicit Network(const Specimen<dim>& specimen);
+  /// The specimen turned by a rotation. Throws InputError where it is not periodic.
+  explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity());
 
   std::size_t n_grains() const { return number_of_grains; }
   std::size_t n_joints() const { return number_of_joints; }

@@ -15,9 +15,8 @@ RepresentativeVolume<dim>::RepresentativeVolume(std::shared_ptr<const Network<di
   current.intact = current.unbonded.empty();
 }
 
-/// The strain at which the intact volume meets the control.
 template <int dim>
-std::optional<Voigt<dim>> RepresentativeVolume<dim>::intact_strain(const Control<dim>& control) const
+Voigt<dim> RepresentativeVolume<dim>::intact_strain(const Control<dim>& control) const
 {
   // Rows of given stresses: C_0 ε = σ; of given strains: ε itself.
   Stiffness<dim> matrix = Stiffness<dim>::Identity();
@@ -28,7 +27,7 @@ std::optional<Voigt<dim>> RepresentativeVolume<dim>::intact_strain(const Control
         matrix.row(k) = reference->intact_stiffness().row(k);
         right[k] = control.stress[k];
       }
-  return Voigt<dim>(matrix.partialPivLu().solve(right));
+  return matrix.partialPivLu().solve(right);
 }
 
 template <int dim>
@@ -49,8 +48,8 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const B
                                             const bool with_tangent) const
 {
   if (current.intact)
-    if (const auto strain = intact_strain(control); strain && reference->stays_intact(*strain))
-      return intact_trial(*strain, with_tangent);
+    if (const Voigt<dim> strain = intact_strain(control); reference->stays_intact(strain))
+      return intact_trial(strain, with_tangent);
 
   Trial<dim> trial;
   Equilibrium<dim> equilibrium(*reference, current, parameters);

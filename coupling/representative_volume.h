@@ -44,12 +44,13 @@ public:
   const NetworkState<dim>& state() const { return current; }
   void restore(NetworkState<dim> state) { current = std::move(state); }
   const Network<dim>& network() const { return *reference; }
+  /// The strain at which the intact volume would meet a control.
+  Voigt<dim> intact_strain(const Control<dim>& control) const;
   /// Energy stored in the contacts [J].
   double stored_energy() const;
 
 private:
   Trial<dim> intact_trial(const Voigt<dim>& strain, bool with_tangent) const;
-  std::optional<Voigt<dim>> intact_strain(const Control<dim>& control) const;
 
   std::shared_ptr<const Network<dim>> reference; ///< shared: hundreds of volumes refer to one network
   EquilibriumParameters parameters;

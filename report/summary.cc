@@ -1,5 +1,6 @@
 #include "report/summary.h"
 
+#include "report/provenance_json.h"
 #include "report/result_table.h"
 #include "report/statistics.h"
 #include "report/strength_data.h"
@@ -16,8 +17,6 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-constexpr int schema_version = 1;
 
 /// Whole numbers are written as such.
 Json number(const double value)
@@ -108,15 +107,7 @@ Json fits(const std::vector<FinishedTest>& tests)
 void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests,
                    const std::filesystem::path& file)
 {
-  Json json;
-  json["schema_version"] = schema_version;
-  json["feldspar_version"] = provenance.version;
-  json["commit"] = provenance.commit;
-  json["input"]["file"] = provenance.input_file;
-  for (const auto& entry : provenance.input)
-    json["input"]["parameters"][entry.section][entry.entry] = entry.value;
-  json["host"]["processor"] = provenance.processor;
-  json["host"]["threads"] = provenance.n_threads;
+  Json json = as_json(provenance);
   json["tests"] = Json::array();
   for (const auto& test : tests)
     json["tests"].push_back(describe(test));

@@ -1,0 +1,221 @@
+#include "app/commands.h"
+#include "app/input.h"
+#include "app/interrupt.h"
+#include "app/jobs.h"
+#include "app/output_folder.h"
+#include "app/progress.h"
+#include "app/provenance.h"
+#include "app/run_record.h"
+#include "app/rve_results.h"
+#include "app/specimen_source.h"
+#include "app/strain_path.h"
+#include "dem/input_error.h"
+#include "report/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+/// `feldspar rve`: representative volumes along a path of strain or stress, one for each seed.
+namespace feldspar
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds time_between_checkpoints{20};
+
+double seconds_since(const Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Tells the progress how all volumes stand.
+class Board
+{
+public:
+  Board(Progress& shown, const std::size_t n_volumes)
+    : progress(shown)
+    , entries(n_volumes)
+  {
+    progress.start("paths");
+  }
+
+  void update(const std::size_t k, const double fraction, const std::string& text)
+  {
+    const std::lock_guard lock(showing);
+    entries[k] = {fraction, text};
+    double sum = 0.0;
+    std::vector<ProgressDetail> running;
+    for (const auto& entry : entries)
+      {
+        sum += entry.fraction / double(entries.size());
+        if (entry.fraction > 0.0 && entry.fraction < 1.0)
+          running.push_back(entry);
+      }
+    progress.update(sum, fmt::format("{} volume(s)", entries.size()), running);
+  }
+
+private:
+  Progress& progress;
+  std::mutex showing;
+  std::vector<ProgressDetail> entries;
+};
+
+template <int dim>
+std::string describe(const std::string& name, const PathSample<dim>& sample)
+{
+  std::string stresses;
+  for (const double component : sample.stress)
+    stresses += fmt::format("{}{:.2f}", stresses.empty() ? "" : ", ", component / 1e6);
+  return fmt::format("{}: stress {} MPa, {} cracks", name, stresses, sample.n_tension_cracks + sample.n_shear_cracks);
+}
+
+/// The path of one volume, from its checkpoint if there is one, to its end or to Ctrl-C.
+template <int dim>
+FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
+                               const std::filesystem::path& folder,
+                               const std::function<void(const PathRun<dim>&)>& show)
+{
+  const auto started = Clock::now();
+  const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
+  PathRun<dim> run(network, path_legs<dim>(variant.input.strain_path),
+                   {.largest_step = variant.input.strain_path.largest_step, .equilibrium = variant.input.equilibrium});
+  const auto checkpoint = folder / "checkpoints" / (name + ".h5");
+  const std::string identity = run_identity(variant.input, name);
+  if (std::filesystem::exists(checkpoint))
+    try
+      {
+        run.read_checkpoint(checkpoint, identity);
+      }
+    catch (const InputError& error)
+      {
+        fmt::print(stderr, "feldspar: {}; going back to the start of its path\n", error.what());
+        run = PathRun<dim>(network, path_legs<dim>(variant.input.strain_path), run.settings());
+      }
+  auto last_checkpoint = Clock::now();
+  while (!run.has_ended() && !interrupted())
+    {
+      run.advance();
+      show(run);
+      if (Clock::now() - last_checkpoint > time_between_checkpoints)
+        {
+          run.write_checkpoint(checkpoint, identity);
+          last_checkpoint = Clock::now();
+        }
+    }
+  run.write_checkpoint(checkpoint, identity);
+  return {name,    variant.label, specimen.seed,        specimen.report,
+          network, run.record(),  run.volume().state(), seconds_since(started)};
+}
+
+template <int dim>
+int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
+           const bool quiet)
+{
+  Progress progress(quiet);
+  watch_for_interrupt();
+
+  // Make the rock.
+  const auto all_variants = variants(input);
+  const auto orders = specimen_orders(all_variants);
+  const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
+  for (const auto& specimen : specimens)
+    if (!specimen.periodic)
+      throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; a representative volume "
+                                   "needs a periodic cell (feldspar lab takes walls)",
+                                   input_file.string()));
+
+  // Strain it.
+  std::filesystem::create_directories(folder / "checkpoints");
+  std::vector<FinishedVolume<dim>> volumes(orders.size());
+  Board board(progress, orders.size());
+  for_each_job(orders.size(), [&](const std::size_t k) {
+    const std::string name = "rve" + orders[k].name.substr(std::string("specimen").size());
+    volumes[k] =
+      run_volume<dim>(all_variants[orders[k].variant], name, specimens[k], folder, [&](const PathRun<dim>& run) {
+        board.update(k, run.progress(), describe(name, run.record().samples.back()));
+      });
+  });
+  progress.finish(fmt::format("{} volume(s)", volumes.size()));
+
+  // Report.
+  write_results(provenance(input, input_file), volumes, folder);
+  std::string text;
+  for (const auto& volume : volumes)
+    text += describe(volume) + "\n";
+  write_text_file(folder / "log.txt", text);
+  if (!quiet)
+    fmt::print("\n{}", text);
+  fmt::print("{}\n", folder.string());
+  if (interrupted())
+    {
+      fmt::print(stderr, "feldspar: interrupted; go on with: feldspar rve --resume {}\n", folder.string());
+      return exit_code::interrupted;
+    }
+  std::filesystem::remove_all(folder / "checkpoints");
+  mark_complete(folder);
+  const auto failed = std::find_if(volumes.begin(), volumes.end(),
+                                   [](const FinishedVolume<dim>& volume) { return !volume.record.failure.empty(); });
+  if (failed == volumes.end())
+    return 0;
+  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  return exit_code::user_error;
+}
+
+/// What can be told before any work.
+void check(const Input& input, const std::filesystem::path& file)
+{
+  try
+    {
+      for (const Variant& variant : variants(input))
+        {
+          if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
+            throw InputError(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
+                                         variant.input.specimen.shape));
+          path_legs<2>(variant.input.strain_path);
+        }
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
+} // namespace
+
+int run_rve(const CommonOptions& options)
+{
+  if (options.input.empty() && !options.resume)
+    throw InputError("rve needs an INPUT, or --resume with the folder of a run; see feldspar rve --help");
+  if (options.resume)
+    {
+      const RunRecord run = read_run_record("rve", *options.resume);
+      if (run.complete)
+        {
+          fmt::print("{}: this run is complete\n", options.resume->string());
+          return 0;
+        }
+      return run_in<2>(*options.resume, run.input, run.input_file, options.quiet);
+    }
+  const Input input = read_input(options.input);
+  check(input, options.input);
+  const OutputFolder folder(options.output, options.input, options.force);
+  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
+  write_run_record("rve", options.input, folder.path());
+  try
+    {
+      return run_in<2>(folder.path(), input, options.input, options.quiet);
+    }
+  catch (const InputError&)
+    {
+      remove_run(folder.path()); // a mistake leaves nothing
+      throw;
+    }
+  catch (const Interrupted&)
+    {
+      remove_run(folder.path());
+      throw;
+    }
+}
+} // namespace feldspar

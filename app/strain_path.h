@@ -1,0 +1,13 @@
+#pragma once
+
+#include "app/input.h"
+#include "coupling/path_run.h"
+
+#include <vector>
+
+namespace feldspar
+{
+/// The legs of the path of `feldspar rve`, from its direction or its file. Throws InputError.
+template <int dim>
+std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path);
+} // namespace feldspar

@@ -1,0 +1,22 @@
+#pragma once
+
+/// What the user may choose of a representative volume, in SI units. A default-constructed value is the default.
+namespace feldspar
+{
+/// Largest magnitude of a strain that is taken: the kinematics are those of small strains.
+inline constexpr double largest_strain = 0.1;
+
+enum class BreakRule
+{
+  near_worst, ///< every segment with at least 0.98 of the worst overload
+  only_worst
+};
+
+struct EquilibriumParameters
+{
+  double event_tolerance = 1e-3; ///< largest unbalanced over mean contact force, between events
+  double final_tolerance = 1e-6; ///< of the stress that is handed out
+  BreakRule break_rule = BreakRule::near_worst;
+  unsigned int most_iterations = 200; ///< of one relaxation
+};
+} // namespace feldspar

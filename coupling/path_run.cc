@@ -1,0 +1,231 @@
+#include "coupling/path_run.h"
+
+#include "coupling/homogenisation.h"
+#include "dem/hdf5_archive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+std::array<double, n_voigt<dim>> as_array(const Voigt<dim>& voigt)
+{
+  std::array<double, n_voigt<dim>> result;
+  std::copy(voigt.data(), voigt.data() + voigt.size(), result.begin());
+  return result;
+}
+
+/// "xx = 1e-4, yy = …", each strain or stress that is given.
+template <int dim>
+std::string describe(const Control<dim>& control)
+{
+  std::string text;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const std::string given =
+        control.stress_given[k]
+          ? fmt::format("stress_{} = {:.6g} MPa", voigt_name<dim>(k), control.stress[k] / 1e6)
+          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), (k < dim ? 1.0 : 0.5) * control.strain[k]);
+      text += (text.empty() ? "" : ", ") + given;
+    }
+  return text;
+}
+
+template <typename Archive>
+void transfer_flag(Archive& archive, const std::string& name, bool& flag)
+{
+  std::uint32_t stored = flag;
+  archive.value(name, stored);
+  flag = stored != 0;
+}
+
+template <int dim, typename Archive>
+void transfer(Archive& archive, NetworkState<dim>& state)
+{
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      archive.value("strain_" + voigt_name<dim>(k), state.strain[k]);
+      archive.value("stress_" + voigt_name<dim>(k), state.stress[k]);
+    }
+  transfer_flag(archive, "intact", state.intact);
+  archive.array("motions", state.motions);
+  archive.bytes("unbonded", state.unbonded);
+  archive.value("n_tension_breaks", state.n_tension_breaks);
+  archive.value("n_shear_breaks", state.n_shear_breaks);
+  archive.value("boundary_work", state.work.boundary);
+  archive.value("slip_work", state.work.slip);
+  archive.value("released_work", state.work.released);
+  archive.value("settled_work", state.work.settled);
+}
+} // namespace
+
+template <int dim>
+double PathSample<dim>::energy_imbalance() const
+{
+  const double size = std::abs(work.boundary) + std::abs(stored_energy) + std::abs(work.slip) +
+                      std::abs(work.released) + std::abs(work.settled);
+  return size > 0.0 ? std::abs(unaccounted()) / size : 0.0;
+}
+
+template <int dim>
+PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> wanted_legs,
+                      const PathParameters& wanted)
+  : legs(std::move(wanted_legs))
+  , parameters(wanted)
+  , body(std::move(network), wanted.equilibrium)
+  , forces(body.network().links().size(), Motion<dim>::Zero())
+{
+  path_record.samples.emplace_back();
+  begin_leg();
+}
+
+template <int dim>
+void PathRun<dim>::begin_leg()
+{
+  start = body.state();
+  position = 0;
+  cuts = 0;
+  if (leg == legs.size())
+    return;
+  target = legs[leg].target;
+  Control<dim> from = target;
+  from.strain = start.strain;
+  from.stress = start.stress;
+  if (legs[leg].counts_from_here)
+    target.strain += start.strain;
+  const Voigt<dim> way = body.intact_strain(target) - body.intact_strain(from);
+  const double largest = strain_tensor<dim>(way).cwiseAbs().maxCoeff();
+  // A leg without a way is one increment: it finds the equilibrium.
+  const auto n_increments = std::uint64_t(std::max(1.0, std::ceil(largest / parameters.largest_step - 1e-9)));
+  length = n_increments << parameters.most_cuts;
+}
+
+template <int dim>
+void PathRun<dim>::advance()
+{
+  const std::uint64_t increment = std::uint64_t(1) << (parameters.most_cuts - cuts);
+  const double share = double(position + increment) / double(length);
+  Control<dim> control = target;
+  control.strain = start.strain + share * (target.strain - start.strain);
+  control.stress = start.stress + share * (target.stress - start.stress);
+
+  Trial<dim> trial = body.trial(control);
+  if (!trial.in_equilibrium)
+    {
+      if (cuts == parameters.most_cuts)
+        path_record.failure = fmt::format("no equilibrium was found at {}; the path ends before it, at {}",
+                                          describe(control), describe(strain_control<dim>(body.state().strain)));
+      else
+        ++cuts;
+      return;
+    }
+  for (const auto& event : trial.breaks)
+    {
+      const std::uint32_t joint = body.network().link_of_segment(event.segment);
+      path_record.cracks.push_back({path_record.samples.size(), joint,
+                                    event.segment - body.network().links()[joint].first_segment, event.in_tension,
+                                    event.released_energy});
+    }
+  const double unbalanced_ratio = trial.unbalanced_ratio;
+  const NetworkState<dim> before = body.state();
+  body.accept(std::move(trial));
+  add_sample(before, unbalanced_ratio);
+
+  position += increment;
+  if (cuts > 0 && position % (2 * increment) == 0)
+    --cuts;
+  if (position == length)
+    {
+      ++leg;
+      begin_leg();
+    }
+}
+
+template <int dim>
+void PathRun<dim>::add_sample(const NetworkState<dim>& before, const double unbalanced_ratio)
+{
+  const NetworkState<dim>& state = body.state();
+  const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
+  auto forces_now = equilibrium.link_forces();
+
+  PathSample<dim> sample;
+  sample.strain = as_array<dim>(state.strain);
+  sample.stress = as_array<dim>(state.stress);
+  sample.n_tension_cracks = state.n_tension_breaks;
+  sample.n_shear_cracks = state.n_shear_breaks;
+  sample.work = state.work;
+  sample.stored_energy = equilibrium.stored_energy();
+  sample.unbalanced_ratio = unbalanced_ratio;
+  sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, forces_now);
+  const Tensor<dim> stress = branch_stress(body.network(), forces_now);
+  if (const double size = stress.norm(); size > 0.0)
+    sample.boundary_stress_error = (boundary_stress(body.network(), forces_now) - stress).norm() / size;
+  sample.crack_density = crack_measures(body.network(), state).density;
+  path_record.samples.push_back(sample);
+  forces = std::move(forces_now);
+}
+
+template <int dim>
+double PathRun<dim>::progress() const
+{
+  return (double(leg) + double(position) / double(length)) / double(legs.size());
+}
+
+template <int dim>
+template <typename Archive>
+void PathRun<dim>::transfer(Archive& archive)
+{
+  auto state_group = archive.subgroup("state");
+  NetworkState<dim> state = body.state();
+  feldspar::transfer(state_group, state);
+  archive.value("leg", leg);
+  if (leg > legs.size())
+    throw InputError("a path of another length");
+  auto start_group = archive.subgroup("start");
+  feldspar::transfer(start_group, start);
+  if constexpr (Archive::reads)
+    {
+      body.restore(start);
+      begin_leg(); // the target and the length of the leg
+      body.restore(state);
+    }
+  archive.value("position", position);
+  archive.value("cuts", cuts);
+  archive.bytes("samples", path_record.samples);
+  archive.bytes("cracks", path_record.cracks);
+  archive.text("failure", path_record.failure);
+  if constexpr (Archive::reads)
+    forces = link_forces(body.network(), body.state());
+}
+
+template <int dim>
+void PathRun<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity) const
+{
+  write_hdf5(file, [&](Hdf5Writer& root) {
+    std::string of_run = identity;
+    root.text("identity", of_run);
+    PathRun copy = *this; // one description serves writing and reading, and reading changes
+    copy.transfer(root);
+  });
+}
+
+template <int dim>
+void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_hdf5(file, "a checkpoint of `feldspar rve`", [&](Hdf5Reader& root) {
+    std::string of_run;
+    root.text("identity", of_run);
+    if (of_run != identity)
+      throw InputError("of another input or program");
+    transfer(root);
+  });
+}
+
+template struct PathSample<2>;
+template class PathRun<2>;
+} // namespace feldspar

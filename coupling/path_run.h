@@ -1,0 +1,110 @@
+#pragma once
+
+#include "coupling/representative_volume.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// A representative volume led along a path of strains and stresses.
+namespace feldspar
+{
+/// A straight stretch of a path: what is given moves in proportion from where it stands to the target.
+template <int dim>
+struct PathLeg
+{
+  Control<dim> target;
+  bool counts_from_here = false; ///< given strains are added to those at which the leg begins
+};
+
+struct PathParameters
+{
+  double largest_step = 1e-5; ///< of any component of the strain, per increment
+  unsigned int most_cuts = 8; ///< halvings of an increment that finds no equilibrium
+  EquilibriumParameters equilibrium{};
+};
+
+/// The end of an increment. Tension positive, Voigt components with engineering shear.
+template <int dim>
+struct PathSample
+{
+  std::array<double, n_voigt<dim>> strain{};
+  std::array<double, n_voigt<dim>> stress{}; ///< [Pa]
+  std::uint64_t n_tension_cracks = 0;
+  std::uint64_t n_shear_cracks = 0;
+  NetworkWork work;
+  double stored_energy = 0.0;         ///< [J]
+  double unbalanced_ratio = 0.0;      ///< largest unbalanced over mean contact force
+  double hill_mandel_residual = 0.0;  ///< of the increment
+  double boundary_stress_error = 0.0; ///< |boundary stress - stress| over |stress|
+  double crack_density = 0.0;         ///< [1/m]
+
+  /// Boundary work less all it went into [J].
+  double unaccounted() const { return work.boundary - stored_energy - work.slip - work.released - work.settled; }
+  /// |unaccounted| over the sum of all terms.
+  double energy_imbalance() const;
+};
+
+/// A broken segment.
+template <int dim>
+struct PathCrack
+{
+  std::uint64_t increment; ///< number of the sample in which it shows
+  std::uint32_t joint;
+  std::uint32_t segment; ///< of the joint
+  bool in_tension;
+  double released_energy; ///< [J]
+};
+
+template <int dim>
+struct PathRecord
+{
+  std::vector<PathSample<dim>> samples; ///< the first at rest
+  std::vector<PathCrack<dim>> cracks;
+  std::string failure; ///< why the path was not gone to its end; empty if it was
+};
+
+/// Goes along a path, increment by increment. An increment that finds no equilibrium is cut in half; one that finds none
+/// however small ends the path there, with the state before it kept.
+template <int dim>
+class PathRun
+{
+public:
+  PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> legs,
+          const PathParameters& parameters);
+
+  bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
+  /// One increment, or one more cut of it.
+  void advance();
+  /// Share of the path that is behind, 0 … 1.
+  double progress() const;
+
+  const PathRecord<dim>& record() const { return path_record; }
+  const PathParameters& settings() const { return parameters; }
+  const RepresentativeVolume<dim>& volume() const { return body; }
+
+  /// A state from which read_checkpoint() of the same run goes on to the same bits.
+  void write_checkpoint(const std::filesystem::path& file, const std::string& identity) const;
+  /// Throws InputError where the file is damaged or another run's.
+  void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
+
+private:
+  void begin_leg();
+  void add_sample(const NetworkState<dim>& before, double unbalanced_ratio);
+  template <typename Archive>
+  void transfer(Archive& archive);
+
+  std::vector<PathLeg<dim>> legs;
+  PathParameters parameters;
+  RepresentativeVolume<dim> body;
+  PathRecord<dim> path_record;
+  std::vector<Motion<dim>> forces; ///< of the links, at the last sample
+
+  std::uint64_t leg = 0;
+  NetworkState<dim> start;    ///< strain and stress at which the leg began
+  Control<dim> target;        ///< of the leg
+  std::uint64_t position = 0; ///< on the leg, in the smallest increments
+  std::uint64_t length = 1;   ///< of the leg, in the same
+  std::uint32_t cuts = 0;     ///< of the increment
+};
+} // namespace feldspar
