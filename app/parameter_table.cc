@@ -445,9 +445,10 @@ std::vector<Parameter> make_parameter_table()
     tests.number("Stop strain over peak strain", &T::stop_strain_over_peak_strain, {'(', 1.0, infinity, ')'},
                  "a test stops at this many times its strain at peak"),
     tests.optional_number("Stop strain", &T::stop_strain, above_zero,
-                          "a test stops at this axial strain, whatever its curve"),
+                          "a test stops at this axial strain, instead of the rule above"),
     tests.optional_number("Stop stress over peak", &T::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},
-                          "a test stops when its stress has fallen to this share of the peak"),
+                          "a test stops when its deviator has fallen to this share of the peak's, instead of at a "
+                          "multiple of the strain there; with Stop strain too, whichever comes first"),
 
     {"Tests", "Steps between checkpoints", "", "integer > 0", "after which `lab --resume` can take up a test",
      [](Input& input, const std::string_view text) {

@@ -169,17 +169,17 @@ bool LabTest<dim>::stop_rule_met()
   const double deviator = sign * row.axial_stress - record.confining_pressure;
   if (peak.is_highest(deviator))
     strain_at_peak = strain;
-  if (wanted.stop_strain)
-    return strain >= *wanted.stop_strain;
   // Nothing that is rock is left at such a strain, whether the curve has peaked or not.
   constexpr double largest_strain = 0.2;
-  if (strain >= largest_strain)
+  if (strain >= wanted.stop_strain.value_or(largest_strain))
     return true;
   // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
   if (row.n_tension_cracks + row.n_shear_cracks == 0 && deviator > 0.9 * peak.highest)
     return false;
   if (wanted.stop_stress_over_peak)
     return deviator <= *wanted.stop_stress_over_peak * peak.highest;
+  if (wanted.stop_strain)
+    return false;
   return strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
 }
 

@@ -80,7 +80,7 @@ struct TestParameters
   double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
   double grip_ratio = 0.1;        ///< height of each grip over the specimen's
   double stop_strain_over_peak_strain = 1.6;
-  std::optional<double> stop_strain;           ///< stop at this axial strain, whatever else
-  std::optional<double> stop_stress_over_peak; ///< stop when the stress has fallen to this share of its peak
+  std::optional<double> stop_strain;           ///< stop at this axial strain instead
+  std::optional<double> stop_stress_over_peak; ///< or when the deviator has fallen to this share of its peak
 };
 } // namespace feldspar

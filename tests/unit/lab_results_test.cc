@@ -124,6 +124,12 @@ TEST(StopRules, AreKept)
   const auto fallen = run(at_stress);
   const auto usual = run({});
   EXPECT_LT(fallen.axial_strain, usual.axial_strain); // brittle: falls long before 1.6 times the strain at peak
+  // Of both, whichever comes first.
+  TestParameters either = at_stress;
+  either.stop_strain = at_strain.stop_strain;
+  EXPECT_EQ(run(either).axial_strain, run(at_strain).axial_strain);
+  either.stop_strain = 2.0 * fallen.axial_strain;
+  EXPECT_EQ(run(either).axial_strain, fallen.axial_strain);
   // Longer grips leave less free length: at one strain rate over that length the grips move slower.
   TestParameters long_grips = at_strain;
   long_grips.grip_ratio = 0.3;
