@@ -18,6 +18,7 @@ namespace
 {
 constexpr std::uint64_t most_steps_between_looks = 10; // for grains that have come near each other
 constexpr double skin_over_smallest_radius = 0.3;
+constexpr double wall_reach_over_skin = 0.25; // as near as a wall may come to a grain that is not in its list
 
 double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
 
@@ -108,6 +109,7 @@ std::size_t Dynamics<dim>::add_wall(const Wall& wall)
   wall_list.push_back(wall);
   wall_touches.emplace_back();
   wall_forces.push_back(0.0);
+  wall_position_at_search.push_back(wall.position);
   return wall_list.size() - 1;
 }
 
@@ -362,8 +364,24 @@ void Dynamics<dim>::find_contacts()
       for (; known != before.end(); ++known)
         slip_energy_of_lost_contacts += known->slip_energy;
       wall_touches[w] = std::move(near);
+      wall_position_at_search[w] = wall.position;
     }
   position_at_search = grains.position;
+}
+
+/// Of the gaps between a wall and the grains that were not near it at the last search, the smallest [m].
+template <int dim>
+double Dynamics<dim>::smallest_gap_not_listed(const std::size_t w) const
+{
+  const Wall& wall = wall_list[w];
+  double smallest = std::numeric_limits<double>::max();
+  auto listed = wall_touches[w].begin(); // in the order of the grains
+  for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+    if (listed != wall_touches[w].end() && listed->grain == i)
+      ++listed;
+    else
+      smallest = std::min(smallest, (wall_coordinate(wall, i) - wall.position) * wall.side - body.grains.radius[i]);
+  return smallest;
 }
 
 /// Whether a pair that was not near at the last search could touch before the next look; sets when that is.
@@ -380,8 +398,18 @@ bool Dynamics<dim>::contacts_may_be_missed()
   // Twice the way of the fastest, for what accelerates meanwhile; half the skin, for both grains move.
   const double way_of_a_step = 2.0 * dt * std::sqrt(fastest);
   const double way_left = 0.5 * skin - std::sqrt(farthest);
-  const bool missed = way_left <= double(most_steps_between_looks) * way_of_a_step;
-  const double steps_allowed = 0.5 * skin / std::max(way_of_a_step, std::numeric_limits<double>::min());
+  bool missed = way_left <= double(most_steps_between_looks) * way_of_a_step;
+  double steps_allowed = 0.5 * skin / std::max(way_of_a_step, std::numeric_limits<double>::min());
+  // Grains keep to half the skin, so that a wall must have gone the rest of it to be near one that is not listed. One
+  // that pushes grains before it finds none: the grains' own way has brought on a search before.
+  const double reach = wall_reach_over_skin * skin;
+  for (std::size_t w = 0; w < wall_list.size(); ++w)
+    if (const Wall& wall = wall_list[w]; wall.velocity != 0.0)
+      {
+        steps_allowed = std::min(steps_allowed, reach / (way_of_a_step + 2.0 * dt * std::abs(wall.velocity)));
+        if (std::abs(wall.position - wall_position_at_search[w]) > 0.5 * skin - reach)
+          missed = missed || smallest_gap_not_listed(w) < reach;
+      }
   next_look = steps + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_looks)));
   return missed;
 }
@@ -855,6 +883,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.bytes("touches", touches);
   archive.bytes("walls", wall_list);
   archive.array("wall_forces", wall_forces);
+  archive.array("wall_position_at_search", wall_position_at_search);
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     archive.bytes("wall_touches_" + std::to_string(w), wall_touches[w]);
 

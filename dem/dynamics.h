@@ -168,6 +168,7 @@ private:
   void rebuild_incidence();
   void sum_forces();
   void add_boundary_work(double dt, double share);
+  double smallest_gap_not_listed(std::size_t wall) const;
   bool contacts_may_be_missed();
   double touch_stiffness(double radius_1, double radius_2) const;
   double wall_stiffness(double radius) const;
@@ -190,6 +191,7 @@ private:
   std::vector<double> wall_forces;
   Incidence joint_incidence, touch_incidence;
   Components<dim> position_at_search;
+  std::vector<double> wall_position_at_search; ///< of each wall [m]
   Components<dim> position_at_start;
   double skin = 0.0; ///< gap up to which contacts are kept in mind [m]
 

@@ -183,6 +183,29 @@ TEST(Dynamics, ADiscThrownOnARoughWallEndsRolling)
   EXPECT_NEAR(energies.slip, grains.mass[0] * speed * speed / 6.0, 0.02 * grains.mass[0] * speed * speed / 6.0);
 }
 
+TEST(Dynamics, AWallThatComesFromFarDoesNotPassThroughAGrain)
+{
+  // Ten radii away, far beyond what the search of the start keeps in mind, from each of the four sides. An elastic blow
+  // by a wall of speed v sends a grain at rest off at 2v; the grain behind it stays at rest.
+  const double radius = 1e-3;
+  const double speed = 30.0;
+  for (const int axis : {0, 1})
+    for (const double side : {1.0, -1.0})
+      {
+        SCOPED_TRACE(axis);
+        Dynamics<2> dynamics(placed_specimen({radius, radius, radius}, {{{0.3, 0.5, 0.7}, {0.3, 0.5, 0.7}}}),
+                             {0.0, 0.05}, ZeroForce::at_touch);
+        const double first = side > 0.0 ? 0.3 : 0.7;
+        dynamics.add_wall({axis, side, first - 11.0 * radius * side, speed * side, 0.0});
+        while (dynamics.wall(0).position * side < (first + 10.0 * radius * side) * side)
+          dynamics.step();
+        const auto& velocity = dynamics.specimen().grains.velocity[std::size_t(axis)];
+        const std::size_t struck = side > 0.0 ? 0 : 2;
+        EXPECT_NEAR(velocity[struck], 2.0 * speed * side, 1e-3 * 2.0 * speed); // (ωΔt)², Δt = 0.05/ω
+        EXPECT_EQ(velocity[1], 0.0);
+      }
+}
+
 TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
 {
   // Pulled apart by more than the face's length and pushed back: the second touch is the linear law's, at R1 + R2.
