@@ -126,6 +126,25 @@ std::size_t Dynamics<dim>::add_grip(std::vector<std::uint32_t> members, const Ve
 }
 
 template <int dim>
+void Dynamics<dim>::push(const std::uint32_t grain, const Vector<dim>& more)
+{
+  const double before = kinetic_energy(grain);
+  set<dim>(body.grains.velocity, grain, at<dim>(body.grains.velocity, grain) + more);
+  if (started)
+    kinetic_energy_at_start += kinetic_energy(grain) - before;
+}
+
+/// Of a free grain at the last half step [J].
+template <int dim>
+double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
+{
+  const auto& grains = body.grains;
+  return held[i] ? 0.0
+                 : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
+                     0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
+}
+
+template <int dim>
 std::vector<Break> Dynamics<dim>::step()
 {
   if (!started)
@@ -181,7 +200,7 @@ void Dynamics<dim>::start()
   next_look = steps + 1;
   started = true;
   const Energies initial = energies();
-  kinetic_energy_at_start += initial.kinetic;
+  kinetic_energy_at_start = initial.kinetic;
   strain_energy_at_start += initial.strain;
 }
 
@@ -732,11 +751,16 @@ Energies Dynamics<dim>::energies() const
   const auto& joints = body.joints;
   Energies sum;
   if (steps == 0 && !started)
-    return sum;
+    {
+      for (std::uint32_t i = 0; i < n_own; ++i)
+        sum.kinetic += kinetic_energy(i);
+      sum.kinetic_at_start = sum.kinetic;
+      return sum;
+    }
   sum.boundary_work = boundary_work;
   sum.released = released_energy;
   sum.slip = slip_energy_of_lost_contacts;
-  sum.kinetic = -kinetic_energy_at_start;
+  sum.kinetic_at_start = kinetic_energy_at_start;
   sum.strain = -strain_energy_at_start;
 
   for (std::size_t j = 0; j < joints.size(); ++j)

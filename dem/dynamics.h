@@ -59,6 +59,9 @@ public:
   /// counts as boundary work.
   void deform_cell(const Tensor<dim>& rate) { cell_rate = rate; }
 
+  /// Adds to the velocity of a grain from outside [m/s]; the energy this gives counts as there from the start.
+  void push(std::uint32_t grain, const Vector<dim>& velocity);
+
   /// Advances by one step and returns what broke in it.
   std::vector<Break> step();
 
@@ -152,6 +155,7 @@ private:
   void start();
   Touch new_touch(std::uint32_t grain_1, std::uint32_t grain_2) const;
   auto find_touch(const GrainPair& pair);
+  double kinetic_energy(std::uint32_t grain) const;
   double joint_energy(std::size_t joint) const;
   void remove_torn_faces();
   void find_contacts();

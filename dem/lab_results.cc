@@ -38,7 +38,10 @@ bool PeakWatch::is_highest(const double stress)
 
 double laboratory_sign(const TestKind kind) { return kind == TestKind::direct_tension ? 1.0 : -1.0; }
 
-double Energies::unaccounted() const { return boundary_work - kinetic - strain - slip - released - damping; }
+double Energies::unaccounted() const
+{
+  return boundary_work + kinetic_at_start - kinetic - strain - slip - released - damping;
+}
 
 double Energies::imbalance_over_work() const
 {
@@ -48,7 +51,7 @@ double Energies::imbalance_over_work() const
 double Energies::imbalance() const
 {
   const double terms = std::abs(boundary_work) + std::abs(kinetic) + std::abs(strain) + std::abs(slip) +
-                       std::abs(released) + std::abs(damping);
+                       std::abs(released) + std::abs(damping) + std::abs(kinetic_at_start);
   return terms > 0.0 ? std::abs(unaccounted()) / terms : 0.0;
 }
 

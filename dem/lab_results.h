@@ -46,7 +46,8 @@ struct PeakWatch
   bool fallen = false;
 };
 
-/// Energies since the start of the test [J], each integrated on its own; none is the remainder of the others.
+/// Energies since the start of the test, kinetic energy as it is [J]; each integrated on its own, none is the remainder
+/// of the others.
 struct Energies
 {
   double boundary_work = 0.0;
@@ -55,8 +56,9 @@ struct Energies
   double slip = 0.0;
   double released = 0.0; ///< by breaking segments
   double damping = 0.0;
+  double kinetic_at_start = 0.0; ///< of the motion that the grains were set off with
 
-  /// Boundary work less all it went into [J].
+  /// Boundary work and the energy at the start less all they went into [J].
   double unaccounted() const;
   /// |unaccounted| over the sum of all terms.
   double imbalance() const;

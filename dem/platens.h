@@ -33,8 +33,9 @@ template <int dim>
 void start_steadily(Dynamics<dim>& dynamics, const double strain_rate)
 {
   constexpr int axis = dim - 1;
-  auto& grains = dynamics.specimen().grains;
-  for (std::size_t i = 0; i < grains.size(); ++i)
-    grains.velocity[axis][i] += strain_rate * (grains.position[axis][i] - 0.5 * dynamics.specimen().size[axis]);
+  const auto& grains = dynamics.specimen().grains;
+  for (std::uint32_t i = 0; i < grains.size(); ++i)
+    dynamics.push(i, strain_rate * (grains.position[axis][i] - 0.5 * dynamics.specimen().size[axis]) *
+                       Vector<dim>::Unit(axis));
 }
 } // namespace feldspar

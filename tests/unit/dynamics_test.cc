@@ -91,7 +91,7 @@ Drift drift(const double time_step_safety)
     {
       dynamics.step();
       const auto energies = dynamics.energies();
-      worst.energy = std::max(worst.energy, std::abs(energies.kinetic + energies.strain) / kinetic);
+      worst.energy = std::max(worst.energy, std::abs(energies.unaccounted()) / kinetic);
     }
   // Momentum lives at half steps, as velocity does; internal forces cannot change it.
   Vector<2> momentum = Vector<2>::Zero();

@@ -107,7 +107,7 @@ Drift drift(const double time_step_safety)
     {
       dynamics.step();
       const auto energies = dynamics.energies();
-      worst.energy = std::max(worst.energy, std::abs(energies.kinetic + energies.strain) / kinetic);
+      worst.energy = std::max(worst.energy, std::abs(energies.unaccounted()) / kinetic);
     }
   worst.momentum = (momentum() - momentum_before).norm() / scale;
   worst.angular_momentum = (angular_momentum(0.5 * dynamics.time_step()) - angular_before).norm() / (scale * 4e-3);
