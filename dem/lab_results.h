@@ -94,7 +94,7 @@ struct CurveSample
   double axial_strain = 0.0;          ///< platen or grip travel over the length between them
   double axial_stress = 0.0;          ///< mean of both ends over the area; Brazilian: -2P/(πDt) [Pa]
   double end_stress_difference = 0.0; ///< between both ends [Pa]
-  double lateral_stress = 0.0;        ///< mean of the side walls; 0 without [Pa]
+  double lateral_stress = 0.0;        ///< of the side walls, mean since the row before; 0 without [Pa]
   double mid_stress = 0.0;            ///< carried across the middle of the specimen [Pa]
   double gauge_axial_strain = 0.0;    ///< of the grains in the middle
   double gauge_lateral_strain = 0.0;

@@ -114,11 +114,14 @@ bool LabTest<dim>::advance()
     }
 
   const double next_strain = double(record.curve.size()) * protocol.sampling_strain;
+  const double time_of_last_row = dynamics.time();
+  double lateral_stress_over_time = 0.0;
   for (double strain = 0.0; std::abs(strain) < next_strain;)
     {
       if (protocol.drive)
         protocol.drive(dynamics);
       const auto breaks = dynamics.step();
+      lateral_stress_over_time += dynamics.time_step() * protocol.stress(dynamics).lateral;
       strain = protocol.strain_rate * (dynamics.time() - time_at_start);
       for (const auto& event : breaks)
         {
@@ -127,6 +130,7 @@ bool LabTest<dim>::advance()
         }
     }
   record.curve.push_back(sample());
+  record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   ended = stop_rule_met();
   return !ended;

@@ -8,7 +8,7 @@ template <int dim>
 void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double area, const double target,
                    const double largest_speed)
 {
-  constexpr double integral_share = 0.005;
+  constexpr double integral_share = 0.05;
   const auto within = [=](const double speed) { return std::clamp(speed, -largest_speed, largest_speed); };
   // Half of the speed that would mend the error in one step.
   const double stiffness = dynamics.wall_stiffness_in_touch(wall);

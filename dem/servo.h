@@ -4,7 +4,7 @@
 
 namespace feldspar
 {
-/// Moves a wall so that its pressure comes to a target: v = e + I with e = G (P - P_0), I += 0.005 e, both within
+/// Moves a wall so that its pressure comes to a target: v = e + I with e = G (P_0 - P), I += 0.05 e, both within
 /// ±largest_speed; docs/theory.md §4.3. The proportional part alone lags behind a specimen that widens steadily.
 template <int dim>
 void hold_pressure(Dynamics<dim>& dynamics, std::size_t wall, double area, double target, double largest_speed);

@@ -135,6 +135,32 @@ TEST(Energies, KineticEnergyIsThatOfTheMotionAndTheSteadyStartIsCounted)
     }
 }
 
+TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
+{
+  // A row stands for all steps since the one before: rows twice as far apart hold the means of two, weighted by time.
+  const auto specimen = small_specimen();
+  const auto curve = [&](const double sampling_strain) {
+    TestParameters wanted;
+    wanted.compression_sampling_strain = sampling_strain;
+    wanted.stop_strain = 4e-4;
+    LabTest<2> test({TestKind::triaxial_compression, 10e6}, specimen, wanted, {});
+    while (test.advance())
+      ;
+    return test.finish(false).curve;
+  };
+  const auto fine = curve(1e-5);
+  const auto coarse = curve(2e-5);
+  for (std::size_t k = 1; k < coarse.size(); ++k)
+    {
+      const double first = fine[2 * k - 1].time - fine[2 * k - 2].time;
+      const double second = fine[2 * k].time - fine[2 * k - 1].time;
+      ASSERT_EQ(coarse[k].step, fine[2 * k].step);
+      EXPECT_NEAR(coarse[k].lateral_stress,
+                  (first * fine[2 * k - 1].lateral_stress + second * fine[2 * k].lateral_stress) / (first + second),
+                  1e-9 * 10e6);
+    }
+}
+
 TEST(StopRules, AreKept)
 {
   const auto specimen = small_specimen();
