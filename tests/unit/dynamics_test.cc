@@ -183,6 +183,38 @@ TEST(Dynamics, ADiscThrownOnARoughWallEndsRolling)
   EXPECT_NEAR(energies.slip, grains.mass[0] * speed * speed / 6.0, 0.02 * grains.mass[0] * speed * speed / 6.0);
 }
 
+TEST(Dynamics, FrictionOfEachWallOpposesTheSlidingAndTurnsTheGrainAsStaticsSays)
+{
+  // A disc pressed on a wall by N and sliding along it: the wall's friction is μN against the motion, at an arm from the
+  // centre to the contact point. Lower, upper, left and right wall, both ways.
+  const double radius = 1e-3;
+  const double friction = 0.3;
+  for (const int axis : {0, 1})
+    for (const double side : {1.0, -1.0})
+      for (const double way : {1.0, -1.0})
+        {
+          SCOPED_TRACE(testing::Message() << "axis " << axis << ", side " << side << ", way " << way);
+          const int along = 1 - axis;
+          auto specimen = placed_specimen({radius}, {{{0.5}, {0.5}}});
+          specimen.grains.velocity[std::size_t(along)] = {way};
+          // The wall presses with 2 E t per overlap.
+          const double overlap = 1e-6 * radius;
+          const double pressed = 2.0 * specimen.particle_contact.modulus * specimen.thickness * overlap;
+          Dynamics<2> dynamics(std::move(specimen), undamped, ZeroForce::at_touch);
+          dynamics.add_wall({axis, side, 0.5 - side * (radius - overlap), 0.0, friction});
+          dynamics.set_gravity(-side * pressed / dynamics.specimen().grains.mass[0] * Vector<2>::Unit(axis));
+          for (int n = 0; n < 5; ++n)
+            dynamics.step();
+          const auto& grains = dynamics.specimen().grains;
+          const Vector<2> force = at<2>(grains.force, 0);
+          // Positions near 0.5 m are good to 1e-16 m, the overlap of 1e-9 m so to 1e-7.
+          EXPECT_NEAR(force[axis], side * pressed, 1e-6 * pressed);
+          EXPECT_NEAR(force[along], -way * friction * pressed, 1e-6 * pressed);
+          const Vector<2> arm = -side * (radius - overlap) * Vector<2>::Unit(axis);
+          EXPECT_NEAR(grains.couple[0][0], arm[0] * force[1] - arm[1] * force[0], 1e-9 * pressed * radius);
+        }
+}
+
 TEST(Dynamics, AWallThatComesFromFarDoesNotPassThroughAGrain)
 {
   // Ten radii away, far beyond what the search of the start keeps in mind, from each of the four sides. An elastic blow

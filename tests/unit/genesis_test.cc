@@ -38,6 +38,25 @@ TEST(Genesis, MeetsWhatItPromises)
   EXPECT_NEAR(mass, 2700.0 * specimen.volume(), 1e-9 * mass);
 }
 
+TEST(Genesis, PacksToTheStressAskedForWithTheOverlapsThatCarryIt)
+{
+  // The mean stress of N discs with z contacts each, of force E t δ and branch 2R, in an area NπR²/φ is
+  // zφEδ/(2πR): with z = 4 and φ = 0.84 overlaps are δ/R = 1.87 P/E. Uneven grains have contacts softer by
+  // min(R1, R2)/R, and those that press little count among the overlaps too.
+  for (const double ratio : {1e-4, 4e-4, 1e-3})
+    {
+      SpecimenParameters wanted;
+      wanted.width = 0.02;
+      wanted.height = 0.03;
+      wanted.packing_stress_ratio = ratio;
+      FlatJointParameters flat_joint;
+      flat_joint.coordination_number = 4.2;
+      const auto report = make_specimen<2>(wanted, flat_joint, {}, 1, silent).report;
+      EXPECT_NEAR(report.packing_stress, ratio * 80e9, 0.01 * ratio * 80e9);
+      EXPECT_NEAR(report.mean_overlap_ratio / ratio, 1.87, 0.25 * 1.87) << ratio;
+    }
+}
+
 TEST(Genesis, SameSeedSameBitsOtherSeedOtherRock)
 {
   const auto one = small_specimen(5);

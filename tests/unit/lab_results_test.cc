@@ -161,6 +161,30 @@ TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
     }
 }
 
+TEST(Seating, TakesTheTransitsAskedForAndWastesLessTheLongerItTakes)
+{
+  // The pressure rises over n transits of a wave, n H / √(E_c/ρ), and is held for half as long. Raised at once it would
+  // lose as much in damping as it stores; raised slowly, less and less.
+  const auto specimen = small_specimen();
+  const double transit = specimen.size[1] / std::sqrt(specimen.particle_contact.modulus / specimen.bulk_density);
+  double lost_before = 1.0;
+  for (const double n_transits : {2.0, 10.0, 50.0})
+    {
+      TestParameters wanted;
+      wanted.seating_transits = n_transits;
+      const auto seated = set_up_triaxial_compression(specimen, 30e6, wanted, {});
+      auto dynamics = seated.dynamics;
+      seated.protocol.seat(dynamics);
+      EXPECT_GE(dynamics.time(), 1.5 * n_transits * transit);
+      // Raised too fast, the pressure takes longer to come to rest.
+      EXPECT_LT(dynamics.time(), (n_transits < 10.0 ? 4.0 : 1.51) * n_transits * transit);
+      const Energies energies = dynamics.energies();
+      const double lost = energies.damping / energies.boundary_work;
+      EXPECT_LT(lost, 0.5 * lost_before);
+      lost_before = lost;
+    }
+}
+
 TEST(StopRules, AreKept)
 {
   const auto specimen = small_specimen();
