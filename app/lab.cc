@@ -139,6 +139,11 @@ int run_lab(const CommonOptions& options)
         say_how_to_resume(folder);
         return exit_code::interrupted;
       }
+    catch (const OutputError& error)
+      {
+        throw OutputError(
+          fmt::format("{}; once it can, go on with: feldspar lab --resume {}", error.what(), folder.string()));
+      }
   };
   if (options.resume)
     {
@@ -164,7 +169,15 @@ int run_lab(const CommonOptions& options)
   compare({}, reference_of(input)); // a bad reference file is said before the work, not after it
   const OutputFolder folder(options.output, options.input, options.force);
   remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
-  write_run_record("lab", options.input, folder.path());
+  try
+    {
+      write_run_record("lab", options.input, folder.path());
+    }
+  catch (const OutputError&)
+    {
+      remove_run(folder.path());
+      throw;
+    }
   try
     {
       return run_or_say_how_to_resume(folder.path(), input, options.input);

@@ -2,6 +2,7 @@
 #include "app/nearest_name.h"
 #include "app/specimen_source.h"
 #include "dem/input_error.h"
+#include "dem/whole_file.h"
 #include "feldspar_version.h"
 
 #include <CLI/CLI.hpp>
@@ -9,12 +10,14 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace
@@ -122,33 +125,47 @@ private:
   std::function<int()> chosen;
 };
 
-std::string one_line(std::string text)
+/// Without an exception, should standard error lie on the disk that is full.
+void say(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  std::fputs(fmt::format("feldspar: {}\n", text).c_str(), stderr);
 }
 } // namespace
 
 int main(const int argc, const char* const* argv)
 {
+  std::signal(SIGXFSZ, SIG_IGN); // a limit on the size of files comes as an error of the write, which can be said
   try
     {
       return CommandLine().run(argc, argv);
     }
   catch (const Interrupted&)
     {
-      fmt::print(stderr, "feldspar: interrupted before there was a result; nothing was kept\n");
+      say("interrupted before there was a result; nothing was kept");
       return exit_code::interrupted;
     }
   catch (const InputError& error)
     {
-      fmt::print(stderr, "feldspar: {}\n", one_line(error.what()));
+      say(error.what());
       return exit_code::user_error;
+    }
+  catch (const OutputError& error)
+    {
+      say(error.what());
+      return exit_code::output_error;
+    }
+  catch (const std::system_error& error) // a folder that cannot be made, a file that cannot be moved
+    {
+      say(error.what());
+      return exit_code::output_error;
     }
   catch (const std::exception& error)
     {
-      fmt::print(stderr, "feldspar: this should not have happened: {}\nTo reproduce it, with feldspar {}: {}\n",
-                 one_line(error.what()), version, fmt::join(argv, argv + argc, " "));
+      say(fmt::format("this should not have happened: {}", error.what()));
+      std::fputs(
+        fmt::format("To reproduce it, with feldspar {}: {}\n", version, fmt::join(argv, argv + argc, " ")).c_str(),
+        stderr);
       return exit_code::internal_error;
     }
 }

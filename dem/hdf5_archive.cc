@@ -1,34 +1,46 @@
 #include "dem/hdf5_archive.h"
 
+#include "dem/whole_file.h"
+
 #include <stdexcept>
-#include <system_error>
 
 namespace feldspar
 {
-void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
+namespace
+{
+/// The bytes of a file that `write` fills. In memory, because the library hides why a disk refused them, and does not
+/// get over it.
+std::string image_of(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
 {
   const std::lock_guard lock(hdf5_mutex());
   H5::Exception::dontPrint();
-  std::filesystem::path unfinished = file;
-  unfinished += ".unfinished";
   try
     {
-      H5::H5File out(unfinished.string(), H5F_ACC_TRUNC);
+      constexpr std::size_t growth = std::size_t(1) << 20;
+      H5::FileAccPropList in_memory;
+      in_memory.setCore(growth, false);
+      const H5::H5File out(file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
       {
         Hdf5Writer writer(out.openGroup("/"));
         write(writer);
       }
-      // The destructor would keep a failure to itself, and much is written only now.
       out.flush(H5F_SCOPE_GLOBAL);
-      out.close();
+      const ssize_t size = H5Fget_file_image(out.getId(), nullptr, 0);
+      std::string image(std::size_t(std::max(ssize_t(0), size)), '\0');
+      if (size <= 0 || H5Fget_file_image(out.getId(), image.data(), image.size()) != size)
+        throw std::runtime_error(fmt::format("{}: HDF5 gives no image of the file", file.string()));
+      return image;
     }
-  catch (...)
+  catch (const H5::Exception& error) // which is no std::exception
     {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
-      throw std::runtime_error(fmt::format("{} cannot be written: is the disk full?", file.string()));
+      throw std::runtime_error(fmt::format("{}: {}", file.string(), error.getDetailMsg()));
     }
-  std::filesystem::rename(unfinished, file);
+}
+} // namespace
+
+void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
+{
+  write_whole_file(file, image_of(file, write));
 }
 
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,

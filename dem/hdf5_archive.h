@@ -145,7 +145,7 @@ inline std::mutex& hdf5_mutex()
   return mutex;
 }
 
-/// Writes a file whole or not at all, by way of a temporary one. Throws std::runtime_error.
+/// Writes a file whole or not at all, made in memory first. Throws OutputError, which names file and cause.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write);
 
 /// Reads a file. Whatever is wrong with it is an InputError, which says so and that `expected` was expected.

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <filesystem>
-#include <string_view>
+#include "dem/whole_file.h"
 
 namespace feldspar
 {
-/// Writes a file whole or not at all, by way of a temporary one. Throws std::runtime_error.
-void write_text_file(const std::filesystem::path& file, std::string_view text);
+/// Writes a file whole or not at all, by way of a temporary one. Throws OutputError, which names file and cause.
+inline void write_text_file(const std::filesystem::path& file, const std::string_view text)
+{
+  write_whole_file(file, text);
+}
 } // namespace feldspar

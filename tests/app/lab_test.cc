@@ -232,6 +232,34 @@ TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
 }
 
+TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
+{
+  // A limit on the size of files stands for the full disk. Checkpoints grow with the curve: the first are within it.
+  const TemporaryFolder folder;
+  folder.write("rock.prm", tiny_rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output full --quiet", "prlimit --fsize=260000");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_NE(outcome.error.find(".h5: cannot be written: File too large"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("feldspar lab --resume full"), std::string::npos) << outcome.error;
+  std::size_t n_checkpoints = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "full/checkpoints"))
+    {
+      EXPECT_EQ(entry.path().extension(), ".h5") << entry.path(); // nothing half written
+      ++n_checkpoints;
+    }
+  EXPECT_GT(n_checkpoints, 0u);
+  const auto resumed = run_feldspar(folder.path(), "lab --resume full --quiet");
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(resumed.error, "");
+  EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "full")));
+  // Where not even the beginning can be kept, nothing is left.
+  const auto none = run_feldspar(folder.path(), "lab rock.prm --output none --quiet", "prlimit --fsize=10");
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_FALSE(fs::exists(folder.path() / "none"));
+}
+
 TEST(Lab, RunsVariantsOfOneEntry)
 {
   const TemporaryFolder folder;

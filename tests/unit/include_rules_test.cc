@@ -28,7 +28,9 @@ const std::vector<Rule> rules = {
   {"dem", {"fem/", "coupling/", "report/", "app/", "deal.II/"}},
   {"fem", {"dem/", "coupling/", "report/", "app/"}},
   {"coupling", {"report/", "app/"}},
-  {"report", {"app/", "dem/"}, {"dem/lab_results.h", "dem/parameters.h", "dem/input_error.h"}}, // plain data only
+  {"report",
+   {"app/", "dem/"},
+   {"dem/lab_results.h", "dem/parameters.h", "dem/input_error.h", "dem/whole_file.h"}}, // plain data and files only
   {"app", {}},
   {"benchmarks", {"app/"}},
   {"tests", {}},

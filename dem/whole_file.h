@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace feldspar
+{
+/// What was computed cannot be kept: the disk is full, a quota is reached, the folder is gone. One line.
+struct OutputError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes a file whole or not at all, by way of a temporary one. Throws OutputError, which names file and cause.
+void write_whole_file(const std::filesystem::path& file, std::string_view content);
+} // namespace feldspar
