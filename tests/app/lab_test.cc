@@ -351,6 +351,25 @@ TEST(Lab, RefusesAResumeOfWhatIsNoRun)
     }
 }
 
+TEST(Lab, EndsCleanlyOnInterruptDuringGenesis)
+{
+  const TemporaryFolder folder;
+  // Genesis of two thousand grains takes seconds; the test is over at once.
+  folder.write("rock.prm", "subsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");
+  folder.write("interrupt", "\"$@\" &\n"
+                            "until [ -e out/run.json ]; do sleep 0.02; done\n"
+                            "sleep 0.3\nkill -INT $!\nwait $!\n");
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet", "sh ./interrupt");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar lab --resume out\n");
+  EXPECT_FALSE(fs::exists(folder.path() / "out/specimen.h5"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out/summary.json"));
+  const auto resumed = run_feldspar(folder.path(), "lab --resume out --quiet");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "out")));
+}
+
 TEST(Lab, EndsCleanlyOnInterrupt)
 {
   const TemporaryFolder folder;
