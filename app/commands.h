@@ -11,7 +11,7 @@ namespace exit_code
 {
 inline constexpr int internal_error = 1;
 inline constexpr int user_error = 2;
-inline constexpr int output_error = 3; // a full disk
+inline constexpr int output_error = 3;  // a full disk
 inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 } // namespace exit_code
 

@@ -33,22 +33,24 @@ std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::v
                               const std::vector<Specimen<2>>& specimens)
 {
   std::vector<PlannedTest> planned;
-  for (std::size_t s = 0; s < orders.size(); ++s)
-    {
-      const Variant& variant = variants[orders[s].variant];
-      const auto add = [&](const TestCase& test, const std::string& test_name) {
-        const std::string group =
-          variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, orders[s].variant + 1) : test_name;
-        const std::string full_name = fmt::format("{}_seed_{}", group, specimens[s].seed);
-        planned.push_back({test, &variant, &specimens[s], group, full_name, run_identity(variant.input, full_name)});
-      };
-      for (const TestKind kind : variant.input.test_list)
-        if (kind == TestKind::triaxial_compression)
-          for (const double pressure : variant.input.confinements)
-            add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
-        else
-          add({kind}, name(kind));
-    }
+  const auto add_tests = [&](const std::size_t v, const Specimen<2>& specimen) {
+    const Variant& variant = variants[v];
+    const auto add = [&](const TestCase& test, const std::string& test_name) {
+      const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, v + 1) : test_name;
+      const std::string full_name = fmt::format("{}_seed_{}", group, specimen.seed);
+      planned.push_back({test, &variant, &specimen, group, full_name, run_identity(variant.input, full_name)});
+    };
+    for (const TestKind kind : variant.input.test_list)
+      if (kind == TestKind::triaxial_compression)
+        for (const double pressure : variant.input.confinements)
+          add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
+      else
+        add({kind}, name(kind));
+  };
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+        add_tests(v, specimens[s]);
   return planned;
 }
 

@@ -129,12 +129,25 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
 
   // Strain it.
   std::filesystem::create_directories(folder / "checkpoints");
-  std::vector<FinishedVolume<dim>> volumes(orders.size());
-  Board board(progress, orders.size());
-  for_each_job(orders.size(), [&](const std::size_t k) {
-    const std::string name = "rve" + orders[k].name.substr(std::string("specimen").size());
+  struct Run
+  {
+    std::size_t variant;
+    std::size_t specimen;
+    std::string name;
+  };
+  std::vector<Run> runs;
+  for (std::size_t v = 0; v < all_variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+        runs.push_back({v, s,
+                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
+                          (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
+  std::vector<FinishedVolume<dim>> volumes(runs.size());
+  Board board(progress, runs.size());
+  for_each_job(runs.size(), [&](const std::size_t k) {
+    const auto& [variant, specimen, name] = runs[k];
     volumes[k] =
-      run_volume<dim>(all_variants[orders[k].variant], name, specimens[k], folder, [&](const PathRun<dim>& run) {
+      run_volume<dim>(all_variants[variant], name, specimens[specimen], folder, [&](const PathRun<dim>& run) {
         board.update(k, run.progress(), describe(name, run.record().samples.back()));
       });
   });

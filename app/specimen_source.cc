@@ -2,28 +2,58 @@
 
 #include "app/interrupt.h"
 #include "app/jobs.h"
+#include "app/parameter_table.h"
 #include "dem/genesis.h"
 #include "dem/input_error.h"
 #include "dem/specimen_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <mutex>
 
 namespace feldspar
 {
+namespace
+{
+/// The entries that genesis reads, and what they say.
+std::string rock(const Input& input)
+{
+  std::string text;
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.section == "Specimen" || parameter.section == "Flat joint" || parameter.section == "Particle contact")
+      text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+  return text;
+}
+} // namespace
+
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
 {
-  std::vector<SpecimenOrder> orders;
+  std::vector<std::string> rocks;
+  std::vector<std::vector<std::size_t>> of_rock;
   for (std::size_t v = 0; v < variants.size(); ++v)
-    for (const std::uint64_t seed : variants[v].input.seeds)
+    {
+      const std::string wanted = rock(variants[v].input);
+      const auto known = std::find(rocks.begin(), rocks.end(), wanted);
+      if (known != rocks.end())
+        of_rock[std::size_t(known - rocks.begin())].push_back(v);
+      else
+        {
+          rocks.push_back(wanted);
+          of_rock.push_back({v});
+        }
+    }
+
+  std::vector<SpecimenOrder> orders;
+  for (const auto& users : of_rock)
+    for (const std::uint64_t seed : variants[users.front()].input.seeds)
       {
         std::string name = "specimen";
-        if (variants.size() > 1)
-          name += fmt::format("_variant_{}", v + 1);
-        if (variants[v].input.seeds.size() > 1)
+        if (of_rock.size() > 1)
+          name += fmt::format("_variant_{}", users.front() + 1);
+        if (variants[users.front()].input.seeds.size() > 1)
           name += fmt::format("_seed_{}", seed);
-        orders.push_back({v, seed, name});
+        orders.push_back({users, seed, name});
       }
   return orders;
 }
@@ -48,7 +78,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
         sum += share / double(done.size());
       progress.update(sum, fmt::format("{} specimen(s)", done.size()));
     };
-    const Input& input = variants[orders[k].variant].input;
+    const Input& input = variants[orders[k].variants.front()].input;
     const auto file = folder / (orders[k].name + ".h5");
     if (std::filesystem::exists(file))
       {

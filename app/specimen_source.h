@@ -20,12 +20,12 @@ struct Interrupted : std::exception
 /// A specimen of a run.
 struct SpecimenOrder
 {
-  std::size_t variant; ///< number among the run's variants
+  std::vector<std::size_t> variants; ///< numbers of those that test it, among the run's
   std::uint64_t seed;
   std::string name; ///< of its file without ending: specimen, specimen_seed_3, specimen_variant_2_seed_3
 };
 
-/// One for each variant and seed.
+/// One for each rock and seed: variants that differ in the tests alone share theirs.
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants);
 
 /// Provides the specimens, several at a time, and writes each into the folder; one that is there already, from a run

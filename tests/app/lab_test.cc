@@ -286,6 +286,42 @@ end
   EXPECT_TRUE(json["ensemble"].contains("direct_tension_variant_2"));
 }
 
+TEST(Lab, VariantsOfTheTestsShareTheirSpecimens)
+{
+  // What differs is the rate: each seed is packed once, and is the specimen of a run without variants.
+  const TemporaryFolder folder;
+  const std::string rock = R"(subsection Specimen
+  set Width = 12 mm
+  set Height = 24 mm
+end
+subsection Tests
+  set List = direct_tension
+end
+subsection Seeds
+  set Seeds = 3, 4
+end
+)";
+  folder.write("one.prm", rock);
+  folder.write("rates.prm", rock + "subsection Variants\n  set Entry = Tests/Tension strain rate\n"
+                                   "  set Values = 0.164 1/s; 0.328 1/s\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab one.prm --output one --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rates.prm --output rates --quiet").exit_code, 0);
+  std::vector<std::string> specimens;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "rates"))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("specimen"))
+      specimens.push_back(name);
+  std::sort(specimens.begin(), specimens.end());
+  EXPECT_EQ(specimens, (std::vector<std::string>{"specimen_seed_3.h5", "specimen_seed_4.h5"}));
+  const auto one = summary(folder.path() / "one");
+  const auto rates = summary(folder.path() / "rates");
+  ASSERT_EQ(rates["tests"].size(), 4u);
+  for (const std::size_t seed : {0, 1})
+    {
+      EXPECT_EQ(rates["tests"][seed]["peak_stress_Pa"], one["tests"][seed]["peak_stress_Pa"]);
+      EXPECT_EQ(rates["tests"][seed + 2]["strain_rate_per_s"], 0.328);
+    }
+}
+
 TEST(Lab, SaysWhenAConfinementCannotBeReached)
 {
   const TemporaryFolder folder;
