@@ -516,28 +516,41 @@ template <int dim>
 void Dynamics<dim>::integrate()
 {
   auto& grains = body.grains;
-  const double kick = 0.5 * (previous_dt + dt);
+  // Component by component, without branches and with copies of the members: so the compiler can make packs of it.
+  const double step = dt;
+  const double step_before = previous_dt;
+  const double kick = 0.5 * (step_before + step);
   const double alpha = parameters.damping;
-  const auto advance = [&](const double force, const double inverse_inertia, double& velocity, double& dissipated) {
-    const double damping_force = -alpha * std::abs(force) * sign(velocity);
-    const double old_velocity = velocity;
-    velocity += kick * (force + damping_force) * inverse_inertia;
-    dissipated -= 0.5 * damping_force * (previous_dt * old_velocity + dt * velocity);
-  };
-  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  const auto advance = [=, this](const std::size_t begin, const std::size_t end, const auto& force_on,
+                                 const std::vector<double>& inertia, std::vector<double>& velocities) {
+    const double* const inertia_of = inertia.data();
+    const std::uint8_t* const is_held = held.data();
+    double* const velocity = velocities.data();
+    double* const dissipated = damping_work.data();
     for (std::size_t i = begin; i < end; ++i)
       {
-        if (!held[i])
-          {
-            for (int c = 0; c < dim; ++c)
-              advance(grains.force[c][i] + grains.mass[i] * gravity[c], 1.0 / grains.mass[i], grains.velocity[c][i],
-                      damping_work[i]);
-            for (int c = 0; c < n_rotations<dim>; ++c)
-              advance(grains.couple[c][i], 1.0 / grains.moment_of_inertia[i], grains.spin[c][i], damping_work[i]);
-          }
-        for (int c = 0; c < dim; ++c)
-          grains.position[c][i] += dt * grains.velocity[c][i];
+        const double force = force_on(i);
+        const double old_velocity = velocity[i];
+        const double damping_force = -alpha * std::abs(force) * sign(old_velocity);
+        const double free_velocity = old_velocity + kick * (force + damping_force) * (1.0 / inertia_of[i]);
+        const double work = 0.5 * damping_force * (step_before * old_velocity + step * free_velocity);
+        velocity[i] = is_held[i] ? old_velocity : free_velocity;
+        dissipated[i] -= is_held[i] ? 0.0 : work;
       }
+  };
+  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (int c = 0; c < dim; ++c)
+      {
+        const auto force_on = [force = grains.force[c].data(), mass = grains.mass.data(),
+                               pull = gravity[c]](const std::size_t i) { return force[i] + mass[i] * pull; };
+        advance(begin, end, force_on, grains.mass, grains.velocity[c]);
+        for (std::size_t i = begin; i < end; ++i)
+          grains.position[c][i] += step * grains.velocity[c][i];
+      }
+    for (int c = 0; c < n_rotations<dim>; ++c)
+      advance(
+        begin, end, [couple = grains.couple[c].data()](const std::size_t i) { return couple[i]; },
+        grains.moment_of_inertia, grains.spin[c]);
   });
 }
 
