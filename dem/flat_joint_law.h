@@ -200,6 +200,8 @@ Real closed_share(const Real& gap_before, const Real& gap)
 {
   const auto was_closed = gap_before < 0.0;
   const auto is_closed = gap < 0.0;
+  if (!simd::any(was_closed != is_closed)) // spares the divisions
+    return select(is_closed, Real(1.0), Real(0.0));
   const Real change = select(was_closed == is_closed, Real(1.0), gap - gap_before);
   return select(was_closed, select(is_closed, Real(1.0), -gap_before / change),
                 select(is_closed, gap / change, Real(0.0)));
@@ -255,7 +257,9 @@ SegmentUpdate<dim, Real> update(const Segment<dim, Real>& segment, const Bond<Re
       const Real limit = segment.friction * larger(Real(0.0), -mean_stress(segment, result.normal));
       const Real size = magnitude(tau);
       const auto slides = unbonded && size > limit;
-      const Real kept = select(slides, limit / select(slides, size, Real(1.0)), Real(1.0));
+      Real kept(1.0);
+      if (simd::any(slides))
+        kept = select(slides, limit / select(slides, size, Real(1.0)), kept);
       // Slip under the mean of the stresses before and after: the trapezoid by which the contact does its work.
       Real slip_work(0.0);
       for (int c = 0; c < dim - 1; ++c)
