@@ -90,6 +90,6 @@ template <int dim>
 struct Material
 {
   std::function<std::unique_ptr<MaterialPoint<dim>>(const PointPlace&)> make_point;
-  std::vector<std::string> field_names; ///< of MaterialPoint::fields(), with unit, as in "dissipation [J/m3]"
+  std::vector<std::string> field_names; ///< of MaterialPoint::fields(), with unit, as in "dissipation_J_per_m3"
 };
 } // namespace feldspar::fem
