@@ -15,11 +15,12 @@ enum class LinearSolver
   mumps                ///< direct
 };
 
-/// Solves matrix · solution = right_side to a relative residual. Returns the number of iterations (1 if direct), or
+/// Solves matrix · solution = right_side to a relative residual. n_components: of the displacement, those of a node
+/// numbered one after another. Returns the number of iterations (1 if direct), or
 /// nothing where the matrix is singular or the iteration does not converge.
 std::optional<unsigned int> solve_linear(LinearSolver solver, bool symmetric,
                                          const dealii::PETScWrappers::MPI::SparseMatrix& matrix,
                                          dealii::PETScWrappers::MPI::Vector& solution,
-                                         const dealii::PETScWrappers::MPI::Vector& right_side,
+                                         const dealii::PETScWrappers::MPI::Vector& right_side, int n_components,
                                          double relative_tolerance);
 } // namespace feldspar::fem

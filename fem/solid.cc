@@ -449,7 +449,7 @@ NewtonReport Solid<dim, material_dim>::iterate()
       const auto& asked = boundary_moves ? first_constraints : constraints;
       assemble_system(tried, asked);
       Vector correction = owned_vector();
-      if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(tried), matrix, correction, right_side,
+      if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(tried), matrix, correction, right_side, dim,
                         parameters.linear_tolerance))
         return failed("the tangent is singular or the linear solver did not converge");
       asked.distribute(correction);
