@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace feldspar::fem
@@ -38,10 +37,11 @@ struct Load
     unsigned int component;
   };
 
-  /// A node that does not move along one coordinate; takes out the rigid motion that smooth platens leave.
+  /// The node next to a position does not move along one coordinate; takes out the rigid motion that smooth platens
+  /// leave.
   struct Pin
   {
-    dealii::Point<dim> node;
+    dealii::Point<dim> position;
     unsigned int component;
   };
 
@@ -50,25 +50,4 @@ struct Load
   std::vector<FreePlate> free_plates;
   std::vector<Pin> pins;
 };
-
-enum class Platens
-{
-  smooth, ///< nothing holds the ends sideways
-  rough   ///< the ends do not move sideways
-};
-
-/// The bottom stands still and the top moves along the axis, the last coordinate, by a displacement [m] (upwards
-/// positive). sideways: the coordinates held at the ends when the platens are rough (r alone in r-z).
-template <int dim>
-Load<dim> platen_load(const Platens platens, const double top_displacement)
-{
-  const auto constant = [](const double value) { return [value](const dealii::Point<dim>&) { return value; }; };
-  Load<dim> load;
-  load.displacements = {{"bottom", dim - 1, constant(0.0)}, {"top", dim - 1, constant(top_displacement)}};
-  if (platens == Platens::rough)
-    for (const char* const boundary : {"bottom", "top"})
-      for (unsigned int component = 0; component < dim - 1; ++component)
-        load.displacements.push_back({boundary, component, constant(0.0)});
-  return load;
-}
 } // namespace feldspar::fem

@@ -12,7 +12,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace feldspar::fem
 {
@@ -132,7 +136,7 @@ void Solid<dim, material_dim>::set_up_constraints(const Load<dim>& load, const d
     {
       now_constrained += fmt::format("pin {}", pin.component);
       for (unsigned int c = 0; c < dim; ++c)
-        now_constrained += fmt::format(" {}", pin.node[c]);
+        now_constrained += fmt::format(" {}", pin.position[c]);
       now_constrained += '\n';
     }
   for (const auto& plate : load.free_plates)
@@ -176,27 +180,55 @@ void Solid<dim, material_dim>::constrain_displacements(const Load<dim>& load, co
     }
 }
 
+namespace
+{
+/// The vertex of any rank that is next to a position; of several the first by its coordinates.
+template <int dim>
+Point<dim> nearest_vertex(const DoFHandler<dim>& dof_handler, const Point<dim>& position)
+{
+  using Candidate = std::array<double, dim + 1>; // distance, then coordinates
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Candidate nearest;
+  nearest.fill(infinity);
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          Candidate candidate{cell->vertex(v).distance(position)};
+          for (unsigned int c = 0; c < dim; ++c)
+            candidate[c + 1] = cell->vertex(v)[c];
+          nearest = std::min(nearest, candidate);
+        }
+  // The first of all ranks' candidates, entry by entry among those that are equal so far.
+  bool in_the_race = true;
+  Candidate first;
+  for (unsigned int entry = 0; entry <= dim; ++entry)
+    {
+      first[entry] = Utilities::MPI::min(in_the_race ? nearest[entry] : infinity, dof_handler.get_communicator());
+      in_the_race = in_the_race && nearest[entry] == first[entry];
+    }
+  Point<dim> vertex;
+  for (unsigned int c = 0; c < dim; ++c)
+    vertex[c] = first[c + 1];
+  return vertex;
+}
+} // namespace
+
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::constrain_pins(const Load<dim>& load, const double fraction)
 {
   for (const auto& pin : load.pins)
     {
-      bool found = false;
+      const Point<dim> vertex = nearest_vertex(dof_handler, pin.position);
       for (const auto& cell : dof_handler.active_cell_iterators())
         if (!cell->is_artificial())
           for (const unsigned int v : cell->vertex_indices())
-            if (cell->vertex(v).distance(pin.node) < 1e-6 * cell->diameter())
-              {
-                found = true;
-                const auto dof = cell->vertex_dof_index(v, pin.component);
-                if (!first_constraints.is_constrained(dof))
-                  {
-                    first_constraints.add_line(dof);
-                    first_constraints.set_inhomogeneity(dof, -fraction * accepted.displacement(dof));
-                  }
-              }
-      if (Utilities::MPI::max(int(found), communicator()) == 0)
-        throw MeshError("the mesh has no node where one is to be pinned");
+            if (cell->vertex(v).distance(vertex) < 1e-9 * cell->diameter())
+              if (const auto dof = cell->vertex_dof_index(v, pin.component); !first_constraints.is_constrained(dof))
+                {
+                  first_constraints.add_line(dof);
+                  first_constraints.set_inhomogeneity(dof, -fraction * accepted.displacement(dof));
+                }
     }
 }
 

@@ -62,7 +62,7 @@ public:
   Solid(const SampleMesh<dim>& mesh, const SolidParameters& parameters, const Material<material_dim>& material);
 
   /// Goes this fraction of the way from the accepted state to the load. Collective, as everything below but const
-  /// access to points. Throws MeshError for a boundary or node that is not there.
+  /// access to points. Throws MeshError for a boundary that is not there.
   NewtonReport solve(const Load<dim>& load, double fraction = 1.0);
   void accept();
   void reject();

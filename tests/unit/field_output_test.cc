@@ -1,5 +1,6 @@
 #include "fem/linear_elasticity.h"
 #include "fem/output.h"
+#include "fem/platen_test.h"
 #include "tests/temporary_folder.h"
 
 #include <H5Cpp.h>
@@ -53,7 +54,7 @@ TEST(FieldOutput, IsATimeSeriesOfWhatTheSolidHolds)
   FieldOutput output(folder.path(), "fields");
   for (const double strain : {-1e-4, -2e-4})
     {
-      ASSERT_TRUE(solid.solve(platen_load<2>(Platens::rough, strain * 0.1)).converged);
+      ASSERT_TRUE(solid.solve(PlatenTest<2>{.platens = Platens::rough}.pressing(strain * 0.1)).converged);
       solid.accept();
       output.write(solid, -strain);
     }

@@ -1,6 +1,7 @@
 // The solid in linear elasticity, against closed forms.
 
 #include "fem/linear_elasticity.h"
+#include "fem/platen_test.h"
 #include "fem/solid.h"
 #include "tests/fem_samples.h"
 
@@ -82,9 +83,7 @@ TEST(ElasticSample, BetweenSmoothPlatensIsHomogeneous)
   for (const unsigned int order : {1u, 2u})
     {
       Solid<2> solid(mesh, {.order = order}, plane_strain);
-      auto load = platen_load<2>(Platens::smooth, -1e-4);
-      load.pins = {{Point<2>(0.0, 0.0), 0}};
-      solve(solid, load);
+      solve(solid, PlatenTest<2>().pressing(-1e-4));
       const double stress = plane_modulus * -1e-3;
       for (const auto& answer : solid.answers())
         {
@@ -101,7 +100,7 @@ TEST(ElasticSample, BetweenSmoothPlatensIsHomogeneous)
 TEST(ElasticSample, GivesTheSameInThePlaneWithAMaterialOfTheSpace)
 {
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 4}, 1);
-  const auto load = platen_load<2>(Platens::rough, -1e-4);
+  const auto load = PlatenTest<2>{.platens = Platens::rough}.pressing(-1e-4);
   Solid<2, 2> plane(mesh, {}, plane_strain);
   Solid<2, 3> space(mesh, {}, in_space);
   solve(plane, load);
@@ -123,9 +122,7 @@ TEST(ElasticSample, IsStifferBetweenRoughPlatensUnlessNothingWidens)
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {4, 8}, 2);
   const auto force = [&](const double poissons_ratio, const Platens platens, const unsigned int order) {
     Solid<2> solid(mesh, {.order = order}, linear_elasticity<2>(isotropic_stiffness<2>(E, poissons_ratio)));
-    auto load = platen_load<2>(platens, -1e-4);
-    load.pins = {{Point<2>(0.0, 0.0), 0}};
-    solve(solid, load);
+    solve(solid, PlatenTest<2>{.platens = platens}.pressing(-1e-4));
     return solid.reaction("top", 1);
   };
   const double smooth = force(nu, Platens::smooth, 1);
@@ -144,21 +141,14 @@ TEST(ElasticSample, IsSeatedUnderPressureThenLoadedByPlatens)
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 4}, 1);
   Solid<2> solid(mesh, {}, plane_strain);
   const double p = 20e6;
-  Load<2> seating;
-  seating.displacements = {{"bottom", 1, constant<2>(0.0)}};
-  seating.pins = {{Point<2>(0.0, 0.0), 0}};
-  seating.pressures = {{"left", p}, {"right", p}, {"top", p}};
-  seating.free_plates = {{"top", 1}};
-  solve(solid, seating);
+  const PlatenTest<2> test{.confining_pressure = p};
+  solve(solid, test.seating());
   for (const auto& answer : solid.answers())
     EXPECT_LT((answer.stress - StressVector<2>(-p, -p, 0.0)).norm(), 1e-9 * p);
   EXPECT_NEAR(solid.reaction("bottom", 1), p * 0.05, 1e-9 * p * 0.05);
 
   const double seated = solid.mean_displacement("top", 1);
-  auto load = platen_load<2>(Platens::smooth, seated - 1e-4);
-  load.pins = seating.pins;
-  load.pressures = {{"left", p}, {"right", p}};
-  solve(solid, load);
+  solve(solid, test.pressing(seated - 1e-4));
   const double axial = -p + plane_modulus * -1e-3;
   for (const auto& answer : solid.answers())
     EXPECT_LT((answer.stress - StressVector<2>(-p, axial, 0.0)).norm(), 1e-9 * std::abs(axial));
@@ -178,11 +168,8 @@ TEST(ElasticSample, HasItsPlaneUnderAFreePlateWhereItsStiffnessVaries)
                            },
                            {}};
   Solid<2> solid(mesh, {}, halves);
-  Load<2> load;
-  load.displacements = {{"bottom", 1, constant<2>(0.0)}};
-  load.pins = {{Point<2>(0.0, 0.0), 0}};
+  Load<2> load = PlatenTest<2>().seating();
   load.pressures = {{"top", 10e6}};
-  load.free_plates = {{"top", 1}};
   solve(solid, load);
   // Force p W = (3 E + E) W/2 ε.
   for (const auto& strain : solid.strains())
@@ -192,7 +179,7 @@ TEST(ElasticSample, HasItsPlaneUnderAFreePlateWhereItsStiffnessVaries)
 TEST(ElasticSample, IsTheSameByEveryLinearSolver)
 {
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {4, 8}, 2);
-  const auto load = platen_load<2>(Platens::rough, -1e-4);
+  const auto load = PlatenTest<2>{.platens = Platens::rough}.pressing(-1e-4);
   const auto force = [&](const LinearSolver linear_solver) {
     Solid<2> solid(mesh, {.order = 2, .linear_solver = linear_solver}, plane_strain);
     solve(solid, load);
@@ -207,9 +194,7 @@ TEST(ElasticCylinder, BetweenSmoothPlatensHasYoungsModulus)
 {
   const auto mesh = axisymmetric_sample(MPI_COMM_WORLD, 0.025, 0.1, {2, 4}, 1);
   Solid<2, 3> solid(mesh, {.kinematics = Kinematics::axisymmetric}, in_space);
-  auto load = platen_load<2>(Platens::smooth, -1e-4);
-  load.displacements.push_back({"axis", 0, constant<2>(0.0)});
-  solve(solid, load);
+  solve(solid, PlatenTest<2>{.kinematics = Kinematics::axisymmetric}.pressing(-1e-4));
   const double area = std::numbers::pi * 0.025 * 0.025;
   EXPECT_NEAR(solid.reaction("top", 1), -E * 1e-3 * area, 1e-9 * E * 1e-3 * area);
   EXPECT_NEAR(solid.mean_displacement("side", 0), nu * 1e-3 * 0.025, 1e-9 * 0.025e-3);

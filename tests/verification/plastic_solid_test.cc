@@ -3,6 +3,7 @@
 #include "fem/advance.h"
 #include "fem/linear_elasticity.h"
 #include "fem/mohr_coulomb.h"
+#include "fem/platen_test.h"
 #include "tests/brittle_point.h"
 #include "tests/fem_samples.h"
 
@@ -14,8 +15,6 @@ namespace feldspar::fem
 {
 namespace
 {
-using dealii::Point;
-
 constexpr double E = 50e9;
 constexpr double nu = 0.2;
 const MohrCoulombParameters rock{E, nu, 20e6, 0.7, 0.3};
@@ -29,14 +28,11 @@ TEST(MohrCoulombElement, InUniaxialCompressionOfThePlane)
 {
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {1, 1}, 0);
   Solid<2, 3> solid(mesh, {}, mohr_coulomb(rock));
-  auto load = platen_load<2>(Platens::smooth, 0.0);
-  load.pins = {{Point<2>(0.0, 0.0), 0}};
   const double yield_strain = -q_u * (1.0 - nu * nu) / E;
   const double elastic_lateral = -nu / (1.0 - nu) * yield_strain;
   for (const double multiple : {0.5, 1.5, 2.0, 4.0})
     {
-      load.displacements[1].value = constant<2>(multiple * yield_strain * 0.1);
-      ASSERT_TRUE(solid.solve(load).converged);
+      ASSERT_TRUE(solid.solve(PlatenTest<2>().pressing(multiple * yield_strain * 0.1)).converged);
       solid.accept();
       // σ_y ends at -q_u. Beyond, strain is flow on the plane of σ_x and σ_y: dε_x = -m dε_y, nothing out of the plane,
       // where the stress stays the elastic ν σ_y.
@@ -58,18 +54,13 @@ TEST(MohrCoulombElement, InTriaxialCompressionOfACylinder)
   for (const double p : {0.0, 10e6, 60e6})
     {
       Solid<2, 3> solid(mesh, {.kinematics = Kinematics::axisymmetric}, mohr_coulomb(rock));
-      Load<2> load;
-      load.displacements = {{"bottom", 1, constant<2>(0.0)}, {"axis", 0, constant<2>(0.0)}};
-      load.pressures = {{"side", p}, {"top", p}};
-      ASSERT_TRUE(solid.solve(load).converged);
+      const PlatenTest<2> test{.kinematics = Kinematics::axisymmetric, .confining_pressure = p};
+      ASSERT_TRUE(solid.solve(test.seating()).converged);
       solid.accept();
-      load.pressures = {{"side", p}};
       std::vector<double> axial_strain, radial_strain;
       for (const double strain : {-0.02, -0.03})
         {
-          load.displacements.resize(2);
-          load.displacements.push_back({"top", 1, constant<2>(strain * 0.1)});
-          advance<2, 3>(solid, load, StepControl(1.0, 1e-3, 1.0));
+          advance<2, 3>(solid, test.pressing(strain * 0.1), StepControl(1.0, 1e-3, 1.0));
           const double area = std::numbers::pi * 0.025 * 0.025;
           EXPECT_NEAR(solid.reaction("top", 1) / area, -(q_u + k * p), 1e-8 * q_u); // σ_1 = q_u + k σ_3
           axial_strain.push_back(solid.mean_displacement("top", 1) / 0.1);
@@ -96,7 +87,7 @@ TEST(Newton, ConvergesQuadraticallyWithTheConsistentTangent)
 {
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 4}, 2);
   // Rough platens, so that part of the sample yields; from nothing in one step.
-  const auto load = platen_load<2>(Platens::rough, -1.15 * 0.1 * q_u / E);
+  const auto load = PlatenTest<2>{.platens = Platens::rough}.pressing(-1.15 * 0.1 * q_u / E);
   Solid<2, 3> solid(mesh, {.order = 2, .newton_tolerance = 1e-12}, mohr_coulomb(rock));
   const auto report = solid.solve(load);
   ASSERT_TRUE(report.converged) << report.failure;
@@ -124,12 +115,7 @@ const Material<2> brittle{[](const PointPlace& place) {
                           },
                           {"broken"}};
 
-Load<2> pull(const double strain)
-{
-  auto load = platen_load<2>(Platens::smooth, strain * 0.1);
-  load.pins = {{Point<2>(0.0, 0.0), 0}};
-  return load;
-}
+Load<2> pull(const double strain) { return PlatenTest<2>().pressing(strain * 0.1); }
 
 std::size_t n_broken(const Solid<2>& solid)
 {

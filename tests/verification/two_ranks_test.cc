@@ -3,6 +3,7 @@
 #include "fem/advance.h"
 #include "fem/linear_elasticity.h"
 #include "fem/mohr_coulomb.h"
+#include "fem/platen_test.h"
 #include "tests/brittle_point.h"
 #include "tests/fem_samples.h"
 
@@ -18,8 +19,6 @@ namespace feldspar::fem
 {
 namespace
 {
-using dealii::Point;
-
 constexpr double E = 50e9;
 constexpr double nu = 0.2;
 
@@ -50,7 +49,7 @@ void expect_same_fields(const Solid<dim, material_dim>& together, const Solid<di
 TEST(TwoRanks, PlasticSampleBetweenRoughPlatens)
 {
   const double q_u = 86e6; // about, of the rock below
-  const auto load = platen_load<2>(Platens::rough, -1.15 * 0.1 * q_u / E);
+  const auto load = PlatenTest<2>{.platens = Platens::rough}.pressing(-1.15 * 0.1 * q_u / E);
   const auto solved = [&](const SampleMesh<2>& mesh, const LinearSolver linear_solver) {
     auto solid = std::make_unique<Solid<2, 3>>(
       mesh, SolidParameters{.order = 2, .linear_solver = linear_solver, .newton_tolerance = 1e-12},
@@ -110,9 +109,7 @@ TEST(TwoRanks, SampleThatBreaks)
     std::vector<std::uint64_t> n_events;
     for (int step = 1; step <= 10; ++step)
       {
-        auto load = platen_load<2>(Platens::smooth, step * 0.23e-4 * 0.1);
-        load.pins = {{Point<2>(0.0, 0.0), 0}};
-        const auto report = solid.solve(load);
+        const auto report = solid.solve(PlatenTest<2>().pressing(step * 0.23e-4 * 0.1));
         EXPECT_TRUE(report.converged) << report.failure;
         n_events.push_back(report.n_events);
         solid.accept();
@@ -151,7 +148,7 @@ TEST(TwoRanks, FailureOfAPointOfOneRankIsKnownToBoth)
                              {}};
   const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 4}, 2);
   Solid<2> solid(mesh, {}, material);
-  const auto report = solid.solve(platen_load<2>(Platens::rough, -1e-5));
+  const auto report = solid.solve(PlatenTest<2>{.platens = Platens::rough}.pressing(-1e-5));
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.failure, "a material point has no answer to its strain");
 }
