@@ -58,8 +58,8 @@ class MaterialPoint
 public:
   virtual ~MaterialPoint() = default;
 
-  /// The answer to a strain from the accepted state, with the structure at work frozen. It remembers nothing (a
-  /// starting point for the next iteration apart). May throw PointFailure.
+  /// The answer to a strain from the accepted state, with the structure at work frozen. Whatever was tried before makes
+  /// no difference; an answer may be kept for the accept() that follows. May throw PointFailure.
   virtual MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const = 0;
 
   /// Lets the structure at work change (break) at this strain until it is stable. Returns the number of events.
