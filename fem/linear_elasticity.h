@@ -1,0 +1,53 @@
+#pragma once
+
+#include "fem/material.h"
+
+#include <memory>
+
+namespace feldspar::fem
+{
+/// Isotropic stiffness; in 2D that of plane strain.
+template <int dim>
+StiffnessMatrix<dim> isotropic_stiffness(const double youngs_modulus, const double poissons_ratio)
+{
+  const double E = youngs_modulus;
+  const double nu = poissons_ratio;
+  const double lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  const double G = E / (2.0 * (1.0 + nu));
+  StiffnessMatrix<dim> stiffness = StiffnessMatrix<dim>::Zero();
+  stiffness.template topLeftCorner<dim, dim>().setConstant(lambda);
+  for (int i = 0; i < n_components<dim>; ++i)
+    stiffness(i, i) += i < dim ? 2.0 * G : G;
+  return stiffness;
+}
+
+/// Isotropic stiffness of a thin plate, free of stress across it.
+inline StiffnessMatrix<2> plane_stress_stiffness(const double youngs_modulus, const double poissons_ratio)
+{
+  // Plane strain with E (1 + 2ν)/(1 + ν)² and ν/(1 + ν) is plane stress with E and ν.
+  const double nu = poissons_ratio;
+  return isotropic_stiffness<2>(youngs_modulus * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu));
+}
+
+/// σ = C ε.
+template <int dim>
+class LinearElasticPoint : public MaterialPoint<dim>
+{
+public:
+  explicit LinearElasticPoint(const StiffnessMatrix<dim>& its_stiffness)
+    : stiffness(its_stiffness)
+  {
+  }
+
+  MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override { return {stiffness * strain, stiffness}; }
+
+private:
+  StiffnessMatrix<dim> stiffness;
+};
+
+template <int dim>
+Material<dim> linear_elasticity(const StiffnessMatrix<dim>& stiffness)
+{
+  return {[stiffness](const PointPlace&) { return std::make_unique<LinearElasticPoint<dim>>(stiffness); }, {}};
+}
+} // namespace feldspar::fem

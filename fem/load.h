@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace feldspar::fem
+{
+/// What is done to the boundaries of a sample. Between two loads displacements and pressures go in proportion.
+///
+/// Where two displacements are asked of one node the first holds.
+template <int dim>
+struct Load
+{
+  /// One component of the displacement along a boundary [m], by position.
+  struct Displacement
+  {
+    std::string boundary;
+    unsigned int component;
+    std::function<double(const dealii::Point<dim>&)> value;
+  };
+
+  /// Against the normal of the boundary, inwards positive [Pa].
+  struct Pressure
+  {
+    std::string boundary;
+    double value;
+  };
+
+  /// A rigid smooth plate: one component of the displacement is the same all along the boundary, and free. With a
+  /// pressure on the same boundary the plate is held by that force.
+  struct FreePlate
+  {
+    std::string boundary;
+    unsigned int component;
+  };
+
+  /// The node next to a position does not move along one coordinate; takes out the rigid motion that smooth platens
+  /// leave.
+  struct Pin
+  {
+    dealii::Point<dim> position;
+    unsigned int component;
+  };
+
+  std::vector<Displacement> displacements;
+  std::vector<Pressure> pressures;
+  std::vector<FreePlate> free_plates;
+  std::vector<Pin> pins;
+};
+} // namespace feldspar::fem

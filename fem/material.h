@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// The constitutive seam: what the finite elements ask of a material, and all they know of it.
+///
+/// Small strain, SI, tension positive. Voigt order xx, yy, xy in 2D and xx, yy, zz, yz, xz, xy in 3D; strain vectors
+/// hold engineering shear (2 ε_xy), so that stress · strain is work and a stiffness is the usual Voigt matrix.
+namespace feldspar::fem
+{
+/// Independent components of a symmetric tensor: 3 in the plane, 6 in space.
+template <int dim>
+inline constexpr int n_components = dim*(dim + 1) / 2;
+
+template <int dim>
+using StrainVector = Eigen::Matrix<double, n_components<dim>, 1>;
+
+template <int dim>
+using StressVector = Eigen::Matrix<double, n_components<dim>, 1>; ///< [Pa]
+
+template <int dim>
+using StiffnessMatrix = Eigen::Matrix<double, n_components<dim>, n_components<dim>>; ///< [Pa]
+
+/// Stress and its derivative by strain.
+template <int dim>
+struct MaterialAnswer
+{
+  StressVector<dim> stress;
+  StiffnessMatrix<dim> tangent;
+};
+
+/// A point has no answer to the strain asked: the step is cut, not the run ended.
+struct PointFailure : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// One material point. It keeps two states: the accepted one, which only accept() changes, and the structure at work
+/// (bonds, for a grain specimen), which relax() may change and reject() puts back.
+///
+/// One step asks, in this order and any number of times where … stands:
+///
+///     trial(strain) …    Newton's method, structure frozen
+///     relax(strain)      events at the strain found; none: the step stands, else Newton's method again
+///     accept(strain)     or reject()
+///
+/// Points are worked on by several threads at once, each by one: they share nothing that changes.
+template <int dim>
+class MaterialPoint
+{
+public:
+  virtual ~MaterialPoint() = default;
+
+  /// The answer to a strain from the accepted state, with the structure at work frozen. Whatever was tried before makes
+  /// no difference; an answer may be kept for the accept() that follows. May throw PointFailure.
+  virtual MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const = 0;
+
+  /// Lets the structure at work change (break) at this strain until it is stable. Returns the number of events.
+  /// May throw PointFailure.
+  virtual std::size_t relax(const StrainVector<dim>& /*strain*/) { return 0; }
+
+  /// Makes the answer to this strain, the last one tried, and the structure at work history. Must not throw.
+  virtual void accept(const StrainVector<dim>& /*strain*/) {}
+
+  /// Puts the structure at work back to the accepted one. Must not throw.
+  virtual void reject() {}
+
+  /// Values of the accepted state for output, in the order of Material::field_names.
+  virtual std::vector<double> fields() const { return {}; }
+};
+
+/// Where a point sits; the same for any number of ranks.
+struct PointPlace
+{
+  std::string cell;              ///< deal.II's CellId, as in 0_3:201
+  unsigned int quadrature_point; ///< within the cell, from 0
+  std::vector<double> position;  ///< [m], in the coordinates of the sample
+  double element_size;           ///< (volume, in the plane and in r-z area, of the cell)^(1/dim) / order [m]
+};
+
+/// What a sample is made of.
+template <int dim>
+struct Material
+{
+  std::function<std::unique_ptr<MaterialPoint<dim>>(const PointPlace&)> make_point;
+  std::vector<std::string> field_names; ///< of MaterialPoint::fields(), with unit, as in "dissipation_J_per_m3"
+};
+} // namespace feldspar::fem

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "fem/material.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace feldspar::fem
+{
+/// The material points of one rank, worked on by all its cores. Vectors run over the points in the order of add().
+template <int dim>
+class MaterialPoints
+{
+public:
+  using Strains = std::vector<StrainVector<dim>>;
+  using Answers = std::vector<MaterialAnswer<dim>>;
+
+  void add(std::unique_ptr<MaterialPoint<dim>> point) { points.push_back(std::move(point)); }
+
+  std::size_t size() const { return points.size(); }
+  const MaterialPoint<dim>& operator[](const std::size_t i) const { return *points[i]; }
+
+  Answers trial(const Strains& strains) const
+  {
+    Answers answers(points.size());
+    for_each([&](const std::size_t i) { answers[i] = points[i]->trial(strains[i]); });
+    return answers;
+  }
+
+  /// Returns the number of events of all points.
+  std::size_t relax(const Strains& strains)
+  {
+    return oneapi::tbb::parallel_reduce(
+      range(), std::size_t(0),
+      [&](const Range& part, std::size_t n_events) {
+        for (std::size_t i = part.begin(); i != part.end(); ++i)
+          n_events += points[i]->relax(strains[i]);
+        return n_events;
+      },
+      std::plus<>());
+  }
+
+  void accept(const Strains& strains)
+  {
+    for_each([&](const std::size_t i) { points[i]->accept(strains[i]); });
+  }
+
+  void reject()
+  {
+    for_each([&](const std::size_t i) { points[i]->reject(); });
+  }
+
+private:
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+  /// Points differ in cost by orders of magnitude: ranges are split down to one point where threads are idle.
+  Range range() const { return {0, points.size()}; }
+
+  template <typename Work>
+  void for_each(const Work& work) const
+  {
+    oneapi::tbb::parallel_for(range(), [&](const Range& part) {
+      for (std::size_t i = part.begin(); i != part.end(); ++i)
+        work(i);
+    });
+  }
+
+  std::vector<std::unique_ptr<MaterialPoint<dim>>> points;
+};
+} // namespace feldspar::fem

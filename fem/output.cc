@@ -1,0 +1,93 @@
+#include "fem/output.h"
+
+#include <deal.II/numerics/data_out.h>
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace feldspar::fem
+{
+namespace
+{
+struct CellField
+{
+  std::string name;
+  dealii::Vector<double> values;
+};
+
+template <int dim, int material_dim>
+std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
+{
+  std::vector<CellField> fields;
+  const auto add = [&](const std::string& name, const auto& value_at_point) {
+    CellField field{name, dealii::Vector<double>(solid.dofs().get_triangulation().n_active_cells())};
+    std::size_t point = 0;
+    for (const auto& cell : solid.dofs().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          double sum = 0.0;
+          double volume = 0.0;
+          for (unsigned int q = 0; q < solid.n_points_per_cell(); ++q, ++point)
+            {
+              sum += solid.volumes()[point] * value_at_point(point);
+              volume += solid.volumes()[point];
+            }
+          field.values[cell->active_cell_index()] = sum / volume;
+        }
+    fields.push_back(std::move(field));
+  };
+
+  const auto components = component_names<dim, material_dim>(solid.kinematics());
+  for (std::size_t c = 0; c < components.size(); ++c)
+    if (!components[c].empty())
+      {
+        const double to_tensor = c < material_dim ? 1.0 : 0.5; // from engineering shear
+        add("stress_" + components[c] + "_Pa", [&](const std::size_t i) { return solid.answers()[i].stress[c]; });
+        add("strain_" + components[c], [&](const std::size_t i) { return to_tensor * solid.strains()[i][c]; });
+      }
+
+  std::vector<std::vector<double>> material_fields;
+  for (std::size_t i = 0; i < solid.material_points().size(); ++i)
+    material_fields.push_back(solid.material_points()[i].fields());
+  for (std::size_t f = 0; f < solid.field_names().size(); ++f)
+    add(solid.field_names()[f], [&](const std::size_t i) { return material_fields[i].at(f); });
+  return fields;
+}
+} // namespace
+
+FieldOutput::FieldOutput(const std::filesystem::path& its_folder, const std::string& its_name)
+  : folder(its_folder)
+  , name(its_name)
+{
+}
+
+template <int dim, int material_dim>
+void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time)
+{
+  dealii::DataOut<dim> out;
+  out.attach_dof_handler(solid.dofs());
+  out.add_data_vector(solid.displacement(), std::vector<std::string>(dim, "displacement"),
+                      dealii::DataOut<dim>::type_dof_data,
+                      std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+                        dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
+  const auto fields = cell_fields(solid);
+  for (const CellField& field : fields)
+    out.add_data_vector(field.values, field.name, dealii::DataOut<dim>::type_cell_data);
+  out.build_patches(solid.geometry());
+
+  // Nodes are not merged: fields of cells jump between them.
+  dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
+  out.write_filtered_data(filter);
+  const std::string mesh_file = name + ".h5";
+  const std::string fields_file = fmt::format("{}-{:04}.h5", name, entries.size());
+  out.write_hdf5_parallel(filter, entries.empty(), (folder / mesh_file).string(), (folder / fields_file).string(),
+                          solid.communicator());
+  entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
+  out.write_xdmf_file(entries, (folder / (name + ".xdmf")).string(), solid.communicator());
+}
+
+template void FieldOutput::write(const Solid<2, 2>&, double);
+template void FieldOutput::write(const Solid<2, 3>&, double);
+template void FieldOutput::write(const Solid<3, 3>&, double);
+} // namespace feldspar::fem

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fem/solid.h"
+
+#include <deal.II/base/data_out_base.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar::fem
+{
+/// Fields of a solid as a time series for ParaView: displacement at the nodes; stress, strain and what the material
+/// names, each the mean over its cell.
+///
+/// FOLDER/NAME.xdmf   open this one
+/// FOLDER/NAME.h5     the mesh
+/// FOLDER/NAME-0000.h5, NAME-0001.h5, …   the fields, one file a time
+class FieldOutput
+{
+public:
+  FieldOutput(const std::filesystem::path& folder, const std::string& name);
+
+  /// Adds the accepted state. Collective. The index file is whole after every call.
+  template <int dim, int material_dim>
+  void write(const Solid<dim, material_dim>& solid, double time);
+
+private:
+  std::filesystem::path folder;
+  std::string name;
+  std::vector<dealii::XDMFEntry> entries;
+};
+} // namespace feldspar::fem

@@ -1,0 +1,155 @@
+#include "fem/sample_mesh.h"
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace feldspar::fem
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+std::unique_ptr<parallel::distributed::Triangulation<dim>> empty_triangulation(const MPI_Comm communicator)
+{
+  return std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
+}
+
+SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const double height,
+                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  if (!(width > 0.0 && height > 0.0) || divisions[0] == 0 || divisions[1] == 0)
+    throw MeshError(fmt::format("a sample of {:g} m by {:g} m in {} by {} cells: all must be positive", width, height,
+                                divisions[0], divisions[1]));
+  SampleMesh<2> mesh{empty_triangulation<2>(communicator), {}};
+  GridGenerator::subdivided_hyper_rectangle(*mesh.triangulation, {divisions[0], divisions[1]}, Point<2>(),
+                                            Point<2>(width, height), true);
+  mesh.triangulation->refine_global(n_refinements);
+  return mesh;
+}
+} // namespace
+
+template <int dim>
+types::boundary_id SampleMesh<dim>::boundary(const std::string& name) const
+{
+  const auto found = boundaries.find(name);
+  if (found != boundaries.end())
+    return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, id] : boundaries)
+    names.push_back(known);
+  throw MeshError(fmt::format("no boundary is named {}; the mesh has {}", name,
+                              names.empty() ? "none with a name" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+SampleMesh<2> plane_sample(const MPI_Comm communicator, const double width, const double height,
+                           const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  SampleMesh<2> mesh = rectangle(communicator, width, height, divisions, n_refinements);
+  mesh.boundaries = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // the order of GridGenerator
+  return mesh;
+}
+
+SampleMesh<2> axisymmetric_sample(const MPI_Comm communicator, const double radius, const double height,
+                                  const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  SampleMesh<2> mesh = rectangle(communicator, radius, height, divisions, n_refinements);
+  mesh.boundaries = {{"axis", 0}, {"side", 1}, {"bottom", 2}, {"top", 3}};
+  return mesh;
+}
+
+namespace
+{
+/// Names of the physical groups of one dimension, from the section $PhysicalNames.
+std::map<std::string, types::boundary_id> physical_names(std::istream& file, const int dimension,
+                                                         const std::string& file_name)
+{
+  std::map<std::string, types::boundary_id> names;
+  std::string line;
+  while (std::getline(file, line))
+    if (line.starts_with("$PhysicalNames"))
+      break;
+  std::size_t n = 0;
+  file >> n;
+  for (std::size_t i = 0; i < n; ++i)
+    {
+      int its_dimension = 0;
+      types::boundary_id id = 0;
+      file >> its_dimension >> id;
+      std::getline(file, line);
+      const std::size_t first = line.find('"');
+      const std::size_t last = line.rfind('"');
+      if (!file || first == last)
+        throw MeshError(fmt::format("{}: its section $PhysicalNames cannot be read", file_name));
+      if (its_dimension == dimension)
+        names[line.substr(first + 1, last - first - 1)] = id;
+    }
+  return names;
+}
+} // namespace
+
+template <int dim>
+SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
+                          const unsigned int n_refinements)
+{
+  const std::string name = file.string();
+  std::ifstream stream(file);
+  if (!stream)
+    throw MeshError(fmt::format("{}: cannot be opened", name));
+  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), physical_names(stream, dim - 1, name)};
+
+  // Into a serial triangulation first, which also takes what the distributed one does not.
+  stream.clear();
+  stream.seekg(0);
+  Triangulation<dim> coarse;
+  GridIn<dim> reader(coarse);
+  try
+    {
+      reader.read_msh(stream);
+    }
+  catch (const typename Triangulation<dim>::DistortedCellList& list)
+    {
+      throw MeshError(fmt::format("{}: {} of its cells are inverted or flat", name, list.distorted_cells.size()));
+    }
+  catch (const std::exception&)
+    {
+      // deal.II's own text runs over many lines with a stack trace.
+      throw MeshError(fmt::format("{}: is not a Gmsh text mesh of {} whose cells all have positive {}", name,
+                                  dim == 2 ? "quadrilaterals" : "hexahedra", dim == 2 ? "area" : "volume"));
+    }
+  if (!coarse.all_reference_cells_are_hyper_cube())
+    throw MeshError(fmt::format("{}: has cells that are not {}; in Gmsh recombine the mesh", name,
+                                dim == 2 ? "quadrilaterals" : "hexahedra"));
+  for (const auto& cell : coarse.active_cell_iterators())
+    {
+      // The Jacobian at each corner; a corner that turns the wrong way inverts part of the cell.
+      Point<dim> corners[GeometryInfo<dim>::vertices_per_cell];
+      Tensor<0, dim> jacobians[GeometryInfo<dim>::vertices_per_cell];
+      for (const unsigned int v : cell->vertex_indices())
+        corners[v] = cell->vertex(v);
+      GeometryInfo<dim>::alternating_form_at_vertices(corners, jacobians);
+      for (const unsigned int v : cell->vertex_indices())
+        if (!(jacobians[v] > 0.0))
+          throw MeshError(
+            fmt::format("{}: the cell at ({:g}{}) m is inverted or flat at a corner", name, cell->center()[0],
+                        dim == 2 ? fmt::format(", {:g}", cell->center()[1])
+                                 : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
+    }
+  mesh.triangulation->copy_triangulation(coarse);
+  mesh.triangulation->refine_global(n_refinements);
+  return mesh;
+}
+
+template struct SampleMesh<2>;
+template struct SampleMesh<3>;
+template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int);
+template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int);
+} // namespace feldspar::fem

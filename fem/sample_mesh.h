@@ -1,0 +1,55 @@
+#pragma once
+
+#include <deal.II/distributed/tria.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+/// Meshes of samples, and the names of their boundaries.
+///
+///     plane_sample: x, y                axisymmetric_sample: r, z
+///
+///              top                               top
+///          +---------+                      +---------+
+///          |         |                      :         |
+///     left |         | right           axis :         | side
+///          |         |                      :         |
+///        y +---------+                    z +---------+
+///        ^    bottom                      ^    bottom
+///        +--> x                           +--> r
+namespace feldspar::fem
+{
+/// A mesh or boundary that cannot be used, told in one line.
+struct MeshError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+template <int dim>
+struct SampleMesh
+{
+  std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> triangulation;
+  std::map<std::string, dealii::types::boundary_id> boundaries;
+
+  /// Throws MeshError, which says what names there are.
+  dealii::types::boundary_id boundary(const std::string& name) const;
+};
+
+/// A rectangle with its lower left corner at the origin. divisions: cells along x and y before refinement, each of
+/// which halves them.
+SampleMesh<2> plane_sample(MPI_Comm communicator, double width, double height, std::array<unsigned int, 2> divisions,
+                           unsigned int n_refinements);
+
+/// Half of the section of a cylinder standing at the origin, its axis the line r = 0.
+SampleMesh<2> axisymmetric_sample(MPI_Comm communicator, double radius, double height,
+                                  std::array<unsigned int, 2> divisions, unsigned int n_refinements);
+
+/// A Gmsh file (.msh, format 2 or 4, text) of quadrilaterals or hexahedra. Boundaries are its named physical groups of
+/// lines or surfaces. Throws MeshError.
+template <int dim>
+SampleMesh<dim> read_gmsh(MPI_Comm communicator, const std::filesystem::path& file, unsigned int n_refinements);
+} // namespace feldspar::fem

@@ -1,0 +1,585 @@
+#include "fem/solid.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/numerics/vector_tools_boundary.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace feldspar::fem
+{
+using namespace dealii;
+
+namespace
+{
+unsigned int n_quadrature_points(const SolidParameters& parameters)
+{
+  if (parameters.order != 1 && parameters.order != 2)
+    throw std::invalid_argument("shape functions have order 1 or 2");
+  if (parameters.reduced_quadrature && parameters.order == 1)
+    throw std::invalid_argument("order 1 with reduced quadrature lets cells deform without strain");
+  return parameters.reduced_quadrature ? parameters.order : parameters.order + 1;
+}
+
+/// A function of position as one component of a displacement.
+template <int dim>
+class OneComponent : public Function<dim>
+{
+public:
+  OneComponent(const unsigned int its_component, const std::function<double(const Point<dim>&)>& its_function)
+    : Function<dim>(dim)
+    , component(its_component)
+    , function(its_function)
+  {
+  }
+
+  double value(const Point<dim>& position, const unsigned int wanted) const override
+  {
+    return wanted == component ? function(position) : 0.0;
+  }
+
+private:
+  unsigned int component;
+  const std::function<double(const Point<dim>&)>& function;
+};
+
+template <int dim>
+ComponentMask only(const unsigned int component)
+{
+  ComponentMask mask(dim, false);
+  mask.set(component, true);
+  return mask;
+}
+} // namespace
+
+template <int dim, int material_dim>
+Solid<dim, material_dim>::Solid(const SampleMesh<dim>& its_mesh, const SolidParameters& its_parameters,
+                                const Material<material_dim>& material)
+  : mesh(its_mesh)
+  , parameters(its_parameters)
+  , mapping(parameters.order)
+  , fe(FE_Q<dim>(parameters.order), dim)
+  , quadrature(n_quadrature_points(parameters))
+  , face_quadrature(parameters.order + 1)
+  , dof_handler(*mesh.triangulation)
+  , names_of_fields(material.field_names)
+{
+  set_up_dofs();
+  set_up_points(material);
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up_dofs()
+{
+  dof_handler.distribute_dofs(fe);
+  owned = dof_handler.locally_owned_dofs();
+  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+  accepted.displacement.reinit(owned, relevant, communicator());
+  accepted.internal_force = owned_vector();
+  accepted.external_force = owned_vector();
+  right_side = owned_vector();
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up_points(const Material<material_dim>& material)
+{
+  FEValues<dim> values(mapping, fe, quadrature, update_quadrature_points | update_JxW_values);
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        values.reinit(cell);
+        const double measure = std::accumulate(values.get_JxW_values().begin(), values.get_JxW_values().end(), 0.0);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const Point<dim>& position = values.quadrature_point(q);
+            PointPlace place{cell->id().to_string(), q, {}, std::pow(measure, 1.0 / dim) / parameters.order};
+            for (unsigned int component = 0; component < dim; ++component)
+              place.position.push_back(position[component]);
+            points.add(material.make_point(place));
+            point_places.push_back(std::move(place));
+            point_volumes.push_back(values.JxW(q) * weight(parameters.kinematics, position[0]));
+          }
+      }
+  accepted.strains.assign(points.size(), StrainVector<material_dim>::Zero());
+  accepted.answers = points.trial(accepted.strains);
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up_constraints(const Load<dim>& load, const double fraction)
+{
+  first_constraints.clear();
+  first_constraints.reinit(relevant);
+  constrain_displacements(load, fraction);
+  constrain_pins(load, fraction);
+  constrain_free_plates(load);
+  first_constraints.close();
+  constraints.copy_from(first_constraints);
+  for (const auto& line : first_constraints.get_lines())
+    constraints.set_inhomogeneity(line.index, 0.0);
+
+  std::string now_constrained;
+  for (const auto& displacement : load.displacements)
+    now_constrained += fmt::format("displacement {} {}\n", displacement.boundary, displacement.component);
+  for (const auto& pin : load.pins)
+    {
+      now_constrained += fmt::format("pin {}", pin.component);
+      for (unsigned int c = 0; c < dim; ++c)
+        now_constrained += fmt::format(" {}", pin.position[c]);
+      now_constrained += '\n';
+    }
+  for (const auto& plate : load.free_plates)
+    now_constrained += fmt::format("plate {} {}\n", plate.boundary, plate.component);
+  if (now_constrained != constrained || matrix.m() == 0)
+    {
+      set_up_matrix();
+      constrained = now_constrained;
+    }
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up_matrix()
+{
+  // A free plate ties nodes to one that may be of another rank.
+  IndexSet rows = relevant;
+  for (const auto& line : constraints.get_lines())
+    for (const auto& entry : line.entries)
+      rows.add_index(entry.first);
+  DynamicSparsityPattern pattern(dof_handler.n_dofs(), dof_handler.n_dofs(), rows);
+  DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
+  SparsityTools::distribute_sparsity_pattern(pattern, owned, communicator(), rows);
+  matrix.reinit(owned, owned, pattern, communicator());
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::constrain_displacements(const Load<dim>& load, const double fraction)
+{
+  for (const auto& displacement : load.displacements)
+    {
+      const OneComponent<dim> function(displacement.component, displacement.value);
+      std::map<types::global_dof_index, double> values;
+      VectorTools::interpolate_boundary_values(mapping, dof_handler, mesh.boundary(displacement.boundary), function,
+                                               values, only<dim>(displacement.component));
+      for (const auto& [dof, value] : values)
+        if (relevant.is_element(dof) && !first_constraints.is_constrained(dof))
+          {
+            first_constraints.add_line(dof);
+            first_constraints.set_inhomogeneity(dof, fraction * (value - accepted.displacement(dof)));
+          }
+    }
+}
+
+namespace
+{
+/// The vertex of any rank that is next to a position; of several the first by its coordinates.
+template <int dim>
+Point<dim> nearest_vertex(const DoFHandler<dim>& dof_handler, const Point<dim>& position)
+{
+  using Candidate = std::array<double, dim + 1>; // distance, then coordinates
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Candidate nearest;
+  nearest.fill(infinity);
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          Candidate candidate{cell->vertex(v).distance(position)};
+          for (unsigned int c = 0; c < dim; ++c)
+            candidate[c + 1] = cell->vertex(v)[c];
+          nearest = std::min(nearest, candidate);
+        }
+  // The first of all ranks' candidates, entry by entry among those that are equal so far.
+  bool in_the_race = true;
+  Candidate first;
+  for (unsigned int entry = 0; entry <= dim; ++entry)
+    {
+      first[entry] = Utilities::MPI::min(in_the_race ? nearest[entry] : infinity, dof_handler.get_communicator());
+      in_the_race = in_the_race && nearest[entry] == first[entry];
+    }
+  Point<dim> vertex;
+  for (unsigned int c = 0; c < dim; ++c)
+    vertex[c] = first[c + 1];
+  return vertex;
+}
+} // namespace
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::constrain_pins(const Load<dim>& load, const double fraction)
+{
+  for (const auto& pin : load.pins)
+    {
+      const Point<dim> vertex = nearest_vertex(dof_handler, pin.position);
+      for (const auto& cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          for (const unsigned int v : cell->vertex_indices())
+            if (cell->vertex(v).distance(vertex) < 1e-9 * cell->diameter())
+              if (const auto dof = cell->vertex_dof_index(v, pin.component); !first_constraints.is_constrained(dof))
+                {
+                  first_constraints.add_line(dof);
+                  first_constraints.set_inhomogeneity(dof, -fraction * accepted.displacement(dof));
+                }
+    }
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::constrain_free_plates(const Load<dim>& load)
+{
+  for (const auto& plate : load.free_plates)
+    {
+      const IndexSet on_plate =
+        DoFTools::extract_boundary_dofs(dof_handler, only<dim>(plate.component), {mesh.boundary(plate.boundary)});
+      types::global_dof_index leader = numbers::invalid_dof_index;
+      for (const auto dof : on_plate)
+        if (!first_constraints.is_constrained(dof))
+          leader = std::min(leader, dof);
+      leader = Utilities::MPI::min(leader, communicator());
+      for (const auto dof : on_plate)
+        if (dof != leader && relevant.is_element(dof) && !first_constraints.is_constrained(dof))
+          {
+            first_constraints.add_line(dof);
+            first_constraints.add_entry(dof, leader, 1.0);
+          }
+    }
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::pressure_of(const State& state, const types::boundary_id boundary) const
+{
+  double pressure = 0.0;
+  for (const auto& [name, value] : state.pressures)
+    if (mesh.boundary(name) == boundary)
+      pressure += value;
+  return pressure;
+}
+
+/// Internal and external force on every node, and in right_side the unbalanced force on what is free to move.
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::assemble_forces(State& state)
+{
+  FEValues<dim> values(mapping, fe, quadrature, update_values | update_gradients | update_quadrature_points);
+  FEFaceValues<dim> face_values(mapping, fe, face_quadrature,
+                                update_values | update_normal_vectors | update_quadrature_points | update_JxW_values);
+  const unsigned int n_dofs = fe.n_dofs_per_cell();
+  dealii::Vector<double> internal(n_dofs);
+  dealii::Vector<double> external(n_dofs);
+  std::vector<types::global_dof_index> dofs(n_dofs);
+  state.internal_force = 0.0;
+  state.external_force = 0.0;
+  right_side = 0.0;
+  std::size_t point = 0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        values.reinit(cell);
+        internal = 0.0;
+        external = 0.0;
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const double radius = values.quadrature_point(q)[0];
+            for (const unsigned int i : values.dof_indices())
+              internal[i] += strain_of<dim, material_dim>(parameters.kinematics, fe.system_to_component_index(i).first,
+                                                          values.shape_value(i, q), values.shape_grad(i, q), radius)
+                               .dot(state.answers[point].stress) *
+                             point_volumes[point];
+            ++point;
+          }
+        for (const auto& face : cell->face_iterators())
+          if (face->at_boundary())
+            if (const double pressure = pressure_of(state, face->boundary_id()); pressure != 0.0)
+              {
+                face_values.reinit(cell, face);
+                for (const unsigned int q : face_values.quadrature_point_indices())
+                  for (const unsigned int i : face_values.dof_indices())
+                    external[i] -= pressure * face_values.normal_vector(q)[fe.system_to_component_index(i).first] *
+                                   face_values.shape_value(i, q) * face_values.JxW(q) *
+                                   weight(parameters.kinematics, face_values.quadrature_point(q)[0]);
+              }
+        cell->get_dof_indices(dofs);
+        state.internal_force.add(dofs, internal);
+        state.external_force.add(dofs, external);
+        external -= internal;
+        constraints.distribute_local_to_global(external, dofs, right_side);
+      }
+  state.internal_force.compress(VectorOperation::add);
+  state.external_force.compress(VectorOperation::add);
+  right_side.compress(VectorOperation::add);
+}
+
+/// The tangent and the unbalanced force, with the motion of the boundary that the constraints ask for.
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::assemble_system(const State& state, const AffineConstraints<double>& asked)
+{
+  FEValues<dim> values(mapping, fe, quadrature, update_values | update_gradients | update_quadrature_points);
+  const unsigned int n_dofs = fe.n_dofs_per_cell();
+  FullMatrix<double> cell_matrix(n_dofs, n_dofs);
+  dealii::Vector<double> no_force(n_dofs);
+  Eigen::Matrix<double, n_components<material_dim>, Eigen::Dynamic> B(n_components<material_dim>, n_dofs);
+  Eigen::MatrixXd stiffness(n_dofs, n_dofs);
+  std::vector<types::global_dof_index> dofs(n_dofs);
+  matrix = 0.0;
+  std::size_t point = 0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        values.reinit(cell);
+        stiffness.setZero();
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const double radius = values.quadrature_point(q)[0];
+            for (const unsigned int i : values.dof_indices())
+              B.col(i) = strain_of<dim, material_dim>(parameters.kinematics, fe.system_to_component_index(i).first,
+                                                      values.shape_value(i, q), values.shape_grad(i, q), radius);
+            stiffness.noalias() += B.transpose() * (state.answers[point].tangent * B) * point_volumes[point];
+            ++point;
+          }
+        for (const unsigned int i : values.dof_indices())
+          for (const unsigned int j : values.dof_indices())
+            cell_matrix(i, j) = stiffness(i, j);
+        cell->get_dof_indices(dofs);
+        asked.distribute_local_to_global(cell_matrix, no_force, dofs, matrix, right_side);
+      }
+  matrix.compress(VectorOperation::add);
+  right_side.compress(VectorOperation::add);
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::update_strains(State& state) const
+{
+  FEValues<dim> values(mapping, fe, quadrature, update_values | update_gradients | update_quadrature_points);
+  const FEValuesExtractors::Vector displacements(0);
+  std::vector<Tensor<1, dim>> u(quadrature.size());
+  std::vector<Tensor<2, dim>> gradients(quadrature.size());
+  std::size_t point = 0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        values.reinit(cell);
+        values[displacements].get_function_values(state.displacement, u);
+        values[displacements].get_function_gradients(state.displacement, gradients);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            StrainVector<material_dim> strain = StrainVector<material_dim>::Zero();
+            for (unsigned int component = 0; component < dim; ++component)
+              strain += strain_of<dim, material_dim>(parameters.kinematics, component, u[q][component],
+                                                     gradients[q][component], values.quadrature_point(q)[0]);
+            state.strains[point++] = strain;
+          }
+      }
+}
+
+/// False where a point of any rank has no answer.
+template <int dim, int material_dim>
+bool Solid<dim, material_dim>::update_points(State& state)
+{
+  bool failed = false;
+  try
+    {
+      state.answers = points.trial(state.strains);
+    }
+  catch (const PointFailure&)
+    {
+      failed = true;
+    }
+  return Utilities::MPI::max(int(failed), communicator()) == 0;
+}
+
+template <int dim, int material_dim>
+bool Solid<dim, material_dim>::tangents_are_symmetric(const State& state) const
+{
+  const bool symmetric = std::all_of(state.answers.begin(), state.answers.end(), [](const auto& answer) {
+    constexpr double round_off = 1e-10;
+    const auto& C = answer.tangent;
+    return (C - C.transpose()).cwiseAbs().maxCoeff() <= round_off * C.cwiseAbs().maxCoeff();
+  });
+  return Utilities::MPI::min(int(symmetric), communicator()) == 1;
+}
+
+template <int dim, int material_dim>
+NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double fraction)
+{
+  reject();
+  set_up_constraints(load, fraction);
+  tried = accepted;
+  // What the new load does not name goes to zero.
+  for (auto& [boundary, pressure] : tried.pressures)
+    pressure *= 1.0 - fraction;
+  for (const auto& pressure : load.pressures)
+    {
+      mesh.boundary(pressure.boundary);
+      tried.pressures[pressure.boundary] += fraction * pressure.value;
+    }
+  return iterate();
+}
+
+template <int dim, int material_dim>
+NewtonReport Solid<dim, material_dim>::iterate()
+{
+  NewtonReport report;
+  const auto failed = [&](const std::string& why) {
+    report.failure = why;
+    return report;
+  };
+  bool boundary_moves = true;
+  unsigned int n_iterations_left = parameters.most_iterations;
+  double force_scale = accepted.internal_force.l2_norm();
+  for (;;)
+    {
+      assemble_forces(tried);
+      const double unbalanced = right_side.l2_norm();
+      force_scale = std::max({force_scale, tried.internal_force.l2_norm(), tried.external_force.l2_norm()});
+      report.residuals.push_back(force_scale > 0.0 ? unbalanced / force_scale : 0.0);
+      if (!std::isfinite(unbalanced))
+        return failed("the unbalanced force is not finite");
+
+      if (!boundary_moves && unbalanced <= parameters.newton_tolerance * force_scale)
+        {
+          // Equilibrium with the structure of every point frozen. Does it hold?
+          std::uint64_t n_events = 0;
+          bool point_failed = false;
+          try
+            {
+              n_events = points.relax(tried.strains);
+            }
+          catch (const PointFailure&)
+            {
+              point_failed = true;
+            }
+          if (Utilities::MPI::max(int(point_failed), communicator()) == 1)
+            return failed("a material point found no stable structure");
+          n_events = Utilities::MPI::sum(n_events, communicator());
+          report.n_events += n_events;
+          if (n_events == 0)
+            {
+              report.converged = true;
+              return report;
+            }
+          ++report.n_cascades;
+          if (report.n_events > parameters.most_events)
+            return failed(fmt::format("more than {} events", parameters.most_events));
+          if (report.n_cascades >= parameters.most_cascades)
+            return failed(fmt::format("still unstable after {} cascades", report.n_cascades));
+          if (!update_points(tried))
+            return failed("a material point has no answer to its strain");
+          n_iterations_left = parameters.most_iterations;
+          parameters.watch(report);
+          continue;
+        }
+
+      if (n_iterations_left-- == 0)
+        return failed(fmt::format("no equilibrium after {} iterations", parameters.most_iterations));
+      const auto& asked = boundary_moves ? first_constraints : constraints;
+      assemble_system(tried, asked);
+      Vector correction = owned_vector();
+      if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(tried), matrix, correction, right_side, dim,
+                        parameters.linear_tolerance))
+        return failed("the tangent is singular or the linear solver did not converge");
+      asked.distribute(correction);
+      Vector displacement = owned_vector();
+      displacement = tried.displacement;
+      displacement += correction;
+      tried.displacement = displacement;
+      boundary_moves = false;
+      ++report.n_iterations;
+      update_strains(tried);
+      if (!update_points(tried))
+        return failed("a material point has no answer to its strain");
+      parameters.watch(report);
+    }
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::accept()
+{
+  points.accept(tried.strains);
+  accepted = tried;
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::reject()
+{
+  points.reject();
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::reaction(const std::string& boundary, const unsigned int component) const
+{
+  double force = 0.0;
+  for (const auto dof : DoFTools::extract_boundary_dofs(dof_handler, only<dim>(component), {mesh.boundary(boundary)}))
+    if (owned.is_element(dof))
+      force += accepted.internal_force(dof) - accepted.external_force(dof);
+  return Utilities::MPI::sum(force, communicator());
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::mean_displacement(const std::string& boundary, const unsigned int component) const
+{
+  const types::boundary_id wanted = mesh.boundary(boundary);
+  FEFaceValues<dim> values(mapping, fe, face_quadrature, update_values | update_quadrature_points | update_JxW_values);
+  std::vector<dealii::Vector<double>> u(face_quadrature.size(), dealii::Vector<double>(dim));
+  double integral = 0.0;
+  double area = 0.0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const auto& face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() == wanted)
+          {
+            values.reinit(cell, face);
+            values.get_function_values(accepted.displacement, u);
+            for (const unsigned int q : values.quadrature_point_indices())
+              {
+                const double part = values.JxW(q) * weight(parameters.kinematics, values.quadrature_point(q)[0]);
+                integral += u[q][component] * part;
+                area += part;
+              }
+          }
+  return Utilities::MPI::sum(integral, communicator()) / Utilities::MPI::sum(area, communicator());
+}
+
+namespace
+{
+template <int dim, typename Value>
+Eigen::Matrix<double, n_components<dim>, 1> mean(const std::vector<double>& volumes, const Value& value,
+                                                 const MPI_Comm communicator)
+{
+  Eigen::Matrix<double, n_components<dim>, 1> sum = Eigen::Matrix<double, n_components<dim>, 1>::Zero();
+  double volume = 0.0;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    {
+      sum += volumes[i] * value(i);
+      volume += volumes[i];
+    }
+  for (double& entry : sum)
+    entry = Utilities::MPI::sum(entry, communicator);
+  return sum / Utilities::MPI::sum(volume, communicator);
+}
+} // namespace
+
+template <int dim, int material_dim>
+StressVector<material_dim> Solid<dim, material_dim>::mean_stress() const
+{
+  return mean<material_dim>(
+    point_volumes, [&](const std::size_t i) { return accepted.answers[i].stress; }, communicator());
+}
+
+template <int dim, int material_dim>
+StrainVector<material_dim> Solid<dim, material_dim>::mean_strain() const
+{
+  return mean<material_dim>(
+    point_volumes, [&](const std::size_t i) { return accepted.strains[i]; }, communicator());
+}
+
+template class Solid<2, 2>;
+template class Solid<2, 3>;
+template class Solid<3, 3>;
+} // namespace feldspar::fem

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "fem/kinematics.h"
+#include "fem/linear_solver.h"
+#include "fem/load.h"
+#include "fem/material_points.h"
+#include "fem/sample_mesh.h"
+
+#include <deal.II/base/quadrature.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/petsc_vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace feldspar::fem
+{
+/// How a solve went.
+struct NewtonReport
+{
+  bool converged = false;
+  std::string failure;           ///< why not; empty if it converged
+  unsigned int n_iterations = 0; ///< linear systems solved
+  unsigned int n_cascades = 0;   ///< times that points changed their structure and equilibrium was sought anew
+  std::uint64_t n_events = 0;    ///< of all points and cascades
+  std::vector<double> residuals; ///< unbalanced over internal force, before each iteration and at the end
+};
+
+struct SolidParameters
+{
+  Kinematics kinematics = Kinematics::plane;
+  unsigned int order = 1;          ///< of the shape functions, 1 or 2
+  bool reduced_quadrature = false; ///< order instead of order + 1 points a direction; order 2 only
+  LinearSolver linear_solver = LinearSolver::automatic;
+  double linear_tolerance = 1e-12;   ///< residual over right side; that of a moved boundary is large beside the forces
+  double newton_tolerance = 1e-9;    ///< unbalanced over internal force, both as Euclidean norms
+  unsigned int most_iterations = 15; ///< between two cascades
+  unsigned int most_cascades = 1000;
+  std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max(); ///< in one solve
+  /// Called after each iteration and cascade, on every rank. What it throws ends the solve; the accepted state stays.
+  std::function<void(const NewtonReport&)> watch = [](const NewtonReport&) {};
+};
+
+/// A body in quasi-static equilibrium, at small strain; docs/theory.md §9.
+///
+/// solve() looks for equilibrium under a load, from the accepted state; accept() makes it the accepted state. Every
+/// query is about the accepted state.
+template <int dim, int material_dim = dim>
+class Solid
+{
+public:
+  /// The mesh must outlive the solid.
+  Solid(const SampleMesh<dim>& mesh, const SolidParameters& parameters, const Material<material_dim>& material);
+
+  /// Goes this fraction of the way from the accepted state to the load. Collective, as everything below but const
+  /// access to points. Throws MeshError for a boundary that is not there.
+  NewtonReport solve(const Load<dim>& load, double fraction = 1.0);
+  void accept();
+  void reject();
+
+  /// Force on the body along a coordinate by what holds a boundary's displacement [N], without its own pressure. In
+  /// the plane per metre of thickness; in r-z around the whole circle.
+  double reaction(const std::string& boundary, unsigned int component) const;
+
+  /// Mean over the boundary [m].
+  double mean_displacement(const std::string& boundary, unsigned int component) const;
+
+  /// Mean over the volume.
+  StressVector<material_dim> mean_stress() const;
+  StrainVector<material_dim> mean_strain() const;
+
+  const dealii::PETScWrappers::MPI::Vector& displacement() const { return accepted.displacement; } ///< with ghosts
+  const dealii::DoFHandler<dim>& dofs() const { return dof_handler; }
+  const dealii::Mapping<dim>& geometry() const { return mapping; }
+  Kinematics kinematics() const { return parameters.kinematics; }
+  const std::vector<std::string>& field_names() const { return names_of_fields; }
+  MPI_Comm communicator() const { return dof_handler.get_communicator(); }
+
+  // The points of this rank, in the order of its cells, n_points_per_cell() each.
+  unsigned int n_points_per_cell() const { return quadrature.size(); }
+  const MaterialPoints<material_dim>& material_points() const { return points; }
+  const std::vector<PointPlace>& places() const { return point_places; }
+  const std::vector<double>& volumes() const { return point_volumes; } ///< [m³]
+  const std::vector<StrainVector<material_dim>>& strains() const { return accepted.strains; }
+  const std::vector<MaterialAnswer<material_dim>>& answers() const { return accepted.answers; }
+
+private:
+  using Vector = dealii::PETScWrappers::MPI::Vector;
+
+  struct State
+  {
+    Vector displacement;
+    Vector internal_force; ///< on all nodes, as if nothing were held
+    Vector external_force;
+    std::vector<StrainVector<material_dim>> strains;
+    std::vector<MaterialAnswer<material_dim>> answers;
+    std::map<std::string, double> pressures;
+  };
+
+  void set_up_dofs();
+  void set_up_points(const Material<material_dim>& material);
+  void set_up_constraints(const Load<dim>& load, double fraction);
+  void set_up_matrix();
+  void constrain_displacements(const Load<dim>& load, double fraction);
+  void constrain_pins(const Load<dim>& load, double fraction);
+  void constrain_free_plates(const Load<dim>& load);
+  void assemble_forces(State& state);
+  void assemble_system(const State& state, const dealii::AffineConstraints<double>& constraints);
+  bool update_points(State& state);
+  void update_strains(State& state) const;
+  NewtonReport iterate();
+  bool tangents_are_symmetric(const State& state) const;
+  double pressure_of(const State& state, dealii::types::boundary_id boundary) const;
+  Vector owned_vector() const { return Vector(owned, communicator()); }
+
+  const SampleMesh<dim>& mesh;
+  SolidParameters parameters;
+  dealii::MappingQ<dim> mapping;
+  dealii::FESystem<dim> fe;
+  dealii::QGauss<dim> quadrature;
+  dealii::QGauss<dim - 1> face_quadrature;
+  dealii::DoFHandler<dim> dof_handler;
+  dealii::IndexSet owned;
+  dealii::IndexSet relevant;
+
+  std::vector<std::string> names_of_fields;
+  MaterialPoints<material_dim> points;
+  std::vector<PointPlace> point_places;
+  std::vector<double> point_volumes;
+
+  State accepted;
+  State tried;
+
+  dealii::AffineConstraints<double> first_constraints; ///< of the first correction, which moves the boundary
+  dealii::AffineConstraints<double> constraints;       ///< of the others
+  std::string constrained;                             ///< what the matrix was set up for
+  dealii::PETScWrappers::MPI::SparseMatrix matrix;
+  Vector right_side;
+};
+} // namespace feldspar::fem

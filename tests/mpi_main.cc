@@ -1,0 +1,17 @@
+// main of the tests that need MPI. As a program of ours it sets no limit of threads: the tutorials' 1 would leave oneTBB
+// a single worker.
+
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
+  // One voice is enough, unless another rank fails.
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+    delete testing::UnitTest::GetInstance()->listeners().Release(
+      testing::UnitTest::GetInstance()->listeners().default_result_printer());
+  return RUN_ALL_TESTS();
+}
