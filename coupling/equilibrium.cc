@@ -26,14 +26,7 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   , active_number(of.links().size(), none)
   , last(state)
 {
-  if (state.motions.empty())
-    position_at_event = network.intact_unknowns(state.strain);
-  else
-    {
-      position_at_event.resize(network.n_unknowns());
-      position_at_event << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())),
-        state.strain;
-    }
+  position_at_event = unknowns_of(state);
   for (const auto& unbonded : state.unbonded)
     {
       const std::uint32_t link = network.link_of_segment(unbonded.segment);
@@ -51,12 +44,29 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   present = at_event;
 }
 
+template <int dim>
+Unknowns Equilibrium<dim>::unknowns_of(const NetworkState<dim>& state) const
+{
+  if (state.motions.empty())
+    return network.intact_unknowns(state.strain);
+  Unknowns unknowns(network.n_unknowns());
+  unknowns << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())), state.strain;
+  return unknowns;
+}
+
+template <int dim>
+void Equilibrium<dim>::begin_at(const NetworkState<dim>& nearby)
+{
+  position = unknowns_of(nearby);
+  present = balance(position);
+}
+
 /// As it stands at the last event, all bonded; a pair without a face never is.
 template <int dim>
 ActiveLink<dim> Equilibrium<dim>::activate(const std::uint32_t link) const
 {
   const Link<dim>& of = network.links()[link];
-  ActiveLink<dim> result{link, network.link_motion(of, position_at_event), {}};
+  ActiveLink<dim> result{link, link_motion(of, position_at_event), {}};
   result.segments.resize(of.n_segments);
   result.segments.front().bonded = of.has_face;
   return result;
@@ -72,7 +82,7 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
   double carried = 0.0;
   std::size_t n_carrying = 0;
   const auto add = [&](const Link<dim>& link, const Motion<dim>& forces) {
-    network.add_forces(link, forces, result.forces);
+    add_forces(link, forces, result.forces);
     carried += forces.template head<dim>().norm();
     ++n_carrying;
   };
@@ -82,7 +92,7 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
   };
   for (std::uint32_t k = 0; k < links.size(); ++k)
     {
-      const Motion<dim> motion = network.link_motion(links[k], at);
+      const Motion<dim> motion = link_motion(links[k], at);
       if (active_number[k] != none)
         {
           auto& of_link = result.active[active_number[k]];
@@ -148,14 +158,40 @@ Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unkn
     {
       const auto& stiffness =
         active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].tangent;
-      network.add_forces(links[k], stiffness * network.link_motion(links[k], unknowns), result);
+      add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
     }
   for (std::size_t a = 0; a < active.size(); ++a)
     if (const auto& link = links[active[a].link]; !link.has_face)
-      network.add_forces(link, at.active[a].tangent * network.link_motion(link, unknowns), result);
+      add_forces(link, at.active[a].tangent * link_motion(link, unknowns), result);
   for (const auto& [k, touch] : at.touches)
-    network.add_forces(links[k], touch.tangent * network.link_motion(links[k], unknowns), result);
+    add_forces(links[k], touch.tangent * link_motion(links[k], unknowns), result);
   return result;
+}
+
+/// Conjugate gradients with what was factorised last; where that takes longer than factorising anew, with the present.
+template <int dim>
+template <typename Apply>
+Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const Unknowns& right,
+                                        const std::array<bool, n_voigt<dim>>& strain_is_free, const double tolerance)
+{
+  const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+    return conjugate_gradients(
+      apply, [&](const Unknowns& r) { return with.solve(r, strain_is_free); }, right, tolerance, most_iterations);
+  };
+  const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
+  if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
+    return solution.x;
+  std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    stiffnesses[k] = &network.bonded_stiffness(k);
+  for (std::size_t a = 0; a < active.size(); ++a)
+    stiffnesses[active[a].link] = &present.active[a].tangent;
+  for (const auto& [k, touch] : present.touches)
+    stiffnesses[k] = &touch.tangent;
+  factorised = std::make_unique<FactorisedNetwork<dim>>(
+    network.factorise([&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness));
+  constexpr unsigned int most_iterations = 400;
+  return solve(*factorised, most_iterations).x;
 }
 
 template <int dim>
@@ -176,7 +212,6 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       present = balance(position);
     }
 
-  const auto precondition = [&](const Unknowns& r) { return network.precondition(r, control.stress_given); };
   double error = measure(present, control);
   double step_share = 1.0;
   for (unsigned int k = 0; !(error <= tolerance); ++k)
@@ -192,11 +227,9 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
             y[n_own + c] = 0.0;
         return y;
       };
-      Unknowns step = step_share > 0.1
-                        ? conjugate_gradients(apply, precondition, right,
-                                              std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error)), 400)
-                            .x
-                        : precondition(right);
+      const double linear_tolerance = std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error));
+      Unknowns step = step_share > 0.1 ? solve_linear(apply, right, control.stress_given, linear_tolerance)
+                                       : network.factorised_intact().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)
@@ -241,7 +274,7 @@ std::vector<Overload> Equilibrium<dim>::overloads() const
     {
       const Link<dim>& link = network.links()[k];
       const bool is_active = active_number[k] != none;
-      const Motion<dim> motion = is_active ? Motion<dim>::Zero() : network.link_motion(link, position);
+      const Motion<dim> motion = is_active ? Motion<dim>::Zero() : link_motion(link, position);
       for (std::uint32_t i = 0; i < link.n_segments; ++i)
         {
           if (is_active)
@@ -326,7 +359,7 @@ void Equilibrium<dim>::commit()
 
   for (std::size_t a = 0; a < active.size(); ++a)
     {
-      active[a].motion = network.link_motion(network.links()[active[a].link], position);
+      active[a].motion = link_motion(network.links()[active[a].link], position);
       for (std::size_t i = 0; i < active[a].segments.size(); ++i)
         if (!active[a].segments[i].bonded)
           active[a].segments[i].shear_stress = present.active[a].segments[i].shear_stress;
@@ -368,6 +401,17 @@ void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, st
 }
 
 template <int dim>
+NetworkState<dim> Equilibrium<dim>::provisional_state() const
+{
+  NetworkState<dim> result;
+  result.strain = position.template tail<n_voigt<dim>>();
+  result.stress = present.stress;
+  result.intact = false;
+  result.motions.assign(position.data(), position.data() + network.n_unknowns() - n_voigt<dim>);
+  return result;
+}
+
+template <int dim>
 NetworkState<dim> Equilibrium<dim>::state()
 {
   commit();
@@ -406,7 +450,7 @@ std::vector<Motion<dim>> Equilibrium<dim>::link_forces() const
     if (active_number[k] != none)
       forces[k] = present.active[active_number[k]].forces;
     else if (links[k].has_face)
-      forces[k] = network.bonded_stiffness(k) * network.link_motion(links[k], position);
+      forces[k] = network.bonded_stiffness(k) * link_motion(links[k], position);
   for (const auto& [k, touch] : present.touches)
     forces[k] = touch.forces;
   return forces;
@@ -439,7 +483,7 @@ Stiffness<dim> Equilibrium<dim>::affine_tangent() const
 }
 
 template <int dim>
-Stiffness<dim> Equilibrium<dim>::tangent() const
+Stiffness<dim> Equilibrium<dim>::tangent()
 {
   if (active.empty() && present.touches.empty())
     return network.intact_stiffness();
@@ -449,7 +493,6 @@ Stiffness<dim> Equilibrium<dim>::tangent() const
     y.template tail<n_voigt<dim>>().setZero();
     return y;
   };
-  const auto precondition = [&](const Unknowns& r) { return network.precondition(r, {}); };
   Stiffness<dim> result;
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
@@ -457,7 +500,7 @@ Stiffness<dim> Equilibrium<dim>::tangent() const
       Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
       Unknowns right = -apply_tangent(present, unit);
       right.template tail<n_voigt<dim>>().setZero();
-      unit.head(n_own) += conjugate_gradients(apply, precondition, right, 1e-10, 2000).x.head(n_own);
+      unit.head(n_own) += solve_linear(apply, right, {}, 1e-10).head(n_own);
       result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
     }
   return 0.5 * (result + result.transpose());

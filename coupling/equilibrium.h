@@ -5,6 +5,7 @@
 #include "coupling/parameters.h"
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,9 @@ class Equilibrium
 public:
   Equilibrium(const Network<dim>& network, const NetworkState<dim>& state, const EquilibriumParameters& parameters);
 
+  /// Where the search begins, instead of at the last event: the position of a state found from it.
+  void begin_at(const NetworkState<dim>& nearby);
+
   /// Bonds frozen: unknowns at which the forces balance to `tolerance`. False if there is no equilibrium to be found;
   /// then it stands where the search ended.
   bool relax(const Control<dim>& control, double tolerance);
@@ -65,6 +69,9 @@ public:
   /// The state at the present position; the next event begins from it.
   NetworkState<dim> state();
 
+  /// Strain, stress and motions at the present position, without history.
+  NetworkState<dim> provisional_state() const;
+
   Voigt<dim> stress() const { return present.stress; }
   double unbalanced_ratio() const { return present.unbalanced_ratio; }
   double stored_energy() const { return present.stored_energy; }
@@ -76,7 +83,7 @@ public:
   unsigned int n_iterations() const { return iterations; }
 
   /// With bonds and open, stick and slip states frozen as they are [Pa].
-  Stiffness<dim> tangent() const;
+  Stiffness<dim> tangent();
   /// The same without the grains' rearrangement [Pa].
   Stiffness<dim> affine_tangent() const;
 
@@ -92,10 +99,14 @@ private:
     std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
   };
 
+  Unknowns unknowns_of(const NetworkState<dim>& state) const;
   Balance balance(const Unknowns& at) const;
   Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
   double measure(const Balance& of, const Control<dim>& control) const;
   Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
+  template <typename Apply>
+  Unknowns solve_linear(const Apply& apply, const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
+                        double tolerance);
   ActiveLink<dim> activate(std::uint32_t link) const;
   double slip_energy(const Balance& from, const Balance& to) const;
   void commit();
@@ -109,6 +120,7 @@ private:
   Balance at_event;
   Unknowns position;
   Balance present;
+  std::unique_ptr<FactorisedNetwork<dim>> factorised; ///< with some stiffnesses there were; empty: the intact ones
   unsigned int iterations = 0;
 };
 } // namespace feldspar

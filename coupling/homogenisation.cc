@@ -74,8 +74,7 @@ double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>
   for (std::size_t k = 0; k < forces_after.size(); ++k)
     {
       const Link<dim>& link = network.links()[k];
-      of_links +=
-        0.5 * (forces_before[k] + forces_after[k]).dot(network.link_motion(link, to) - network.link_motion(link, from));
+      of_links += 0.5 * (forces_before[k] + forces_after[k]).dot(link_motion(link, to) - link_motion(link, from));
     }
   const double of_body = 0.5 * network.volume() * (before.stress + after.stress).dot(after.strain - before.strain);
   const double size = std::abs(of_links) + std::abs(of_body);

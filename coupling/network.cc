@@ -4,8 +4,6 @@
 #include "dem/input_error.h"
 #include "dem/neighbours.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,38 +26,6 @@ Tensor<dim> contact_axes(const Vector<dim>& normal) requires(dim == 2)
   return axes;
 }
 } // namespace
-
-template <int dim>
-ElementRows<dim> element_rows(const FaceElement<dim>& element, const double half_length)
-{
-  ElementRows<dim> rows = ElementRows<dim>::Zero();
-  rows.template leftCols<dim>().setIdentity();
-  if constexpr (dim == 2)
-    rows(0, 2) = -half_length * element.offset[0]; // g = g_0 + U_n - θρ (6)
-  else
-    {
-      const double r_1 = half_length * element.offset[0];
-      const double r_2 = half_length * element.offset[1];
-      rows(0, 4) = r_2; // g = g_0 + U_n + n·(θ × r)
-      rows(0, 5) = -r_1;
-      rows(1, 3) = -r_2;
-      rows(2, 3) = r_1;
-    }
-  return rows;
-}
-
-template <int dim>
-JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, const double area,
-                                             const double second_moment)
-{
-  JointStiffness<dim> stiffness = link.normal_stiffness * area * rows.row(0).transpose() * rows.row(0);
-  stiffness += link.shear_stiffness * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
-  if constexpr (dim == 2)
-    stiffness(2, 2) += link.normal_stiffness * second_moment;
-  else
-    static_cast<void>(second_moment); // elements of a disk are lumped
-  return stiffness;
-}
 
 template <int dim>
 Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation)
@@ -144,7 +110,13 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       link.branch = rotation * link.branch;
     }
 
-  factorise();
+  for (Link<dim>& link : all_links)
+    {
+      link.by_grains = link_gradient(link);
+      link.by_strain = link_strain_gradient(link);
+    }
+
+  factorise_intact();
   solve_unit_strains();
   bound_segments();
 }
@@ -159,55 +131,6 @@ double Network<dim>::segment_area(const Link<dim>& link, const std::uint32_t i) 
 }
 
 template <int dim>
-Motion<dim> Network<dim>::link_motion(const Link<dim>& link, const Unknowns& unknowns) const
-{
-  const auto q_1 = unknowns.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(link.grain_1));
-  const auto q_2 = unknowns.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(link.grain_2));
-  const Voigt<dim> strain = unknowns.tail<n_voigt<dim>>();
-  Motion<dim> motion;
-  const Vector<dim> jump =
-    q_2.template head<dim>() - q_1.template head<dim>() + strain_tensor<dim>(strain) * link.branch;
-  motion.template head<dim>() = link.axes * jump;
-  if constexpr (dim == 2)
-    {
-      motion[1] -= link.arm_1 * q_1[2] + link.arm_2 * q_2[2];
-      motion[2] = q_2[2] - q_1[2];
-    }
-  else
-    {
-      const Vector<3> turn_1 = link.axes * q_1.template tail<3>();
-      const Vector<3> turn_2 = link.axes * q_2.template tail<3>();
-      motion[1] -= link.arm_1 * turn_1[2] + link.arm_2 * turn_2[2];
-      motion[2] += link.arm_1 * turn_1[1] + link.arm_2 * turn_2[1];
-      motion.template tail<3>() = turn_2 - turn_1;
-    }
-  return motion;
-}
-
-template <int dim>
-void Network<dim>::add_forces(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum) const
-{
-  auto f_1 = sum.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(link.grain_1));
-  auto f_2 = sum.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(link.grain_2));
-  const Vector<dim> force = link.axes.transpose() * forces.template head<dim>();
-  f_1.template head<dim>() -= force;
-  f_2.template head<dim>() += force;
-  if constexpr (dim == 2)
-    {
-      f_1[2] -= link.arm_1 * forces[1] + forces[2];
-      f_2[2] -= link.arm_2 * forces[1] - forces[2];
-    }
-  else
-    {
-      const Vector<3> lever(0.0, forces[2], -forces[1]);
-      const Vector<3> couple = forces.template tail<3>();
-      f_1.template tail<3>() += link.axes.transpose() * (link.arm_1 * lever - couple);
-      f_2.template tail<3>() += link.axes.transpose() * (link.arm_2 * lever + couple);
-    }
-  sum.tail<n_voigt<dim>>() += stress_voigt<dim>(force * link.branch.transpose());
-}
-
-template <int dim>
 Unknowns Network<dim>::apply_bonded(const Unknowns& unknowns) const
 {
   Unknowns result = Unknowns::Zero(n_unknowns());
@@ -217,53 +140,23 @@ Unknowns Network<dim>::apply_bonded(const Unknowns& unknowns) const
 }
 
 template <int dim>
-void Network<dim>::factorise()
+void Network<dim>::factorise_intact()
 {
-  constexpr int n = n_motions<dim>;
-  std::vector<Eigen::Triplet<double>> entries;
-  Unknowns unit = Unknowns::Zero(n_unknowns());
-  Unknowns answer = Unknowns::Zero(n_unknowns());
-  for (std::size_t j = 0; j < number_of_joints; ++j)
-    {
-      // Column by column, so that the kinematics stay written once.
-      const Link<dim>& link = all_links[j];
-      std::array<Eigen::Index, 2> first{n * Eigen::Index(link.grain_1), n * Eigen::Index(link.grain_2)};
-      for (const Eigen::Index column_of : first)
-        {
-          for (int c = 0; c < n; ++c)
-            {
-              unit[column_of + c] = 1.0;
-              add_forces(link, bonded_stiffnesses[j] * link_motion(link, unit), answer);
-              unit[column_of + c] = 0.0;
-              for (const Eigen::Index row_of : first)
-                {
-                  for (int r = 0; r < n; ++r)
-                    {
-                      entries.emplace_back(row_of + r, column_of + c, answer[row_of + r]);
-                      answer[row_of + r] = 0.0;
-                    }
-                  if (first[0] == first[1])
-                    break;
-                }
-            }
-          if (first[0] == first[1])
-            break;
-        }
-    }
-  const Eigen::Index size = n * Eigen::Index(number_of_grains);
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::VectorXd diagonal = matrix.diagonal();
+  pattern = std::make_unique<StiffnessPattern<dim>>(all_links, number_of_grains);
   // Displacements and turns have their own scale each.
   stiffness_scale.setZero();
-  for (Eigen::Index i = 0; i < size; ++i)
-    stiffness_scale[i % n] += diagonal[i] / double(number_of_grains);
-  Eigen::SparseMatrix<double> regular(size, size);
-  std::vector<Eigen::Triplet<double>> shift;
-  for (Eigen::Index i = 0; i < size; ++i)
-    shift.emplace_back(i, i, (diagonal[i] > 0.0 ? regularity : 1.0) * stiffness_scale[i % n]);
-  regular.setFromTriplets(shift.begin(), shift.end());
-  factor.compute(matrix + regular);
+  for (std::size_t j = 0; j < number_of_joints; ++j)
+    {
+      const auto& gradient = all_links[j].by_grains;
+      const Eigen::Matrix<double, 2 * n_motions<dim>, 1> diagonal =
+        (gradient.transpose() * bonded_stiffnesses[j] * gradient).diagonal();
+      stiffness_scale += (diagonal.template head<n_motions<dim>>() + diagonal.template tail<n_motions<dim>>()) /
+                         double(number_of_grains);
+    }
+  const auto bonded = [&](const std::uint32_t link) {
+    return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
+  };
+  factorised = std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, bonded, regularity * stiffness_scale);
 }
 
 template <int dim>
@@ -284,7 +177,7 @@ void Network<dim>::solve_unit_strains()
         return y;
       };
       const auto solution = conjugate_gradients(
-        apply, [&](const Unknowns& r) { return precondition(r, no_strain_free); }, right, 1e-13, 500);
+        apply, [&](const Unknowns& r) { return factorised->solve(r, no_strain_free); }, right, 1e-13, 500);
       if (!solution.converged)
         throw std::runtime_error("the intact network has no solution");
       unit_motion.col(k) = solution.x.head(n_own);
@@ -340,47 +233,6 @@ void Network<dim>::bound_segments()
 }
 
 template <int dim>
-Unknowns Network<dim>::precondition(const Unknowns& residual,
-                                    const std::array<bool, n_voigt<dim>>& strain_is_free) const
-{
-  const Eigen::Index n_own = n_unknowns() - n_voigt<dim>;
-  Unknowns result = Unknowns::Zero(n_unknowns());
-  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far.
-  Motion<dim> mean = Motion<dim>::Zero();
-  for (std::size_t i = 0; i < number_of_grains; ++i)
-    mean += residual.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(i)) / double(number_of_grains);
-  mean.template tail<n_rotations<dim>>().setZero();
-  Eigen::VectorXd balanced = residual.head(n_own);
-  for (std::size_t i = 0; i < number_of_grains; ++i)
-    balanced.segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(i)) -= mean;
-  result.head(n_own) = factor.solve(balanced);
-  // Block elimination of the free strains; their Schur complement is V C_0.
-  int n_free = 0;
-  std::array<int, n_voigt<dim>> free{};
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    if (strain_is_free[k])
-      free[n_free++] = k;
-  if (n_free == 0)
-    return result;
-  const Voigt<dim> right = residual.tail<n_voigt<dim>>() + unit_motion.transpose() * residual.head(n_own);
-  Eigen::MatrixXd schur(n_free, n_free);
-  Eigen::VectorXd right_free(n_free);
-  for (int a = 0; a < n_free; ++a)
-    {
-      right_free[a] = right[free[a]];
-      for (int b = 0; b < n_free; ++b)
-        schur(a, b) = cell_volume * c_0(free[a], free[b]);
-    }
-  const Eigen::VectorXd strain = schur.ldlt().solve(right_free);
-  for (int a = 0; a < n_free; ++a)
-    {
-      result[n_own + free[a]] = strain[a];
-      result.head(n_own) += strain[a] * unit_motion.col(free[a]);
-    }
-  return result;
-}
-
-template <int dim>
 Unknowns Network<dim>::lent(const Unknowns& unknowns) const
 {
   Unknowns result = Unknowns::Zero(n_unknowns());
@@ -403,9 +255,9 @@ Unknowns Network<dim>::intact_unknowns(const Voigt<dim>& strain) const
 template <int dim>
 bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
 {
-  const double size = strain.norm();
-  if (!(size < touching_strain)) // nor is one that is not finite
+  if (!stays_linear(strain)) // nor is one that is not finite
     return false;
+  const double size = strain.norm();
   for (const Bound& bound : bounds)
     {
       if (bound.overload * size < 1.0)
@@ -436,6 +288,4 @@ FirstBreak Network<dim>::first_break(const Voigt<dim>& direction) const
 }
 
 template class Network<2>;
-template ElementRows<2> element_rows<2>(const FaceElement<2>&, double);
-template JointStiffness<2> bonded_element_stiffness<2>(const Link<2>&, const ElementRows<2>&, double, double);
 } // namespace feldspar

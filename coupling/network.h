@@ -1,10 +1,8 @@
 #pragma once
 
-#include "coupling/voigt.h"
-#include "dem/face_elements.h"
+#include "coupling/factorised_network.h"
+#include "coupling/link.h"
 #include "dem/specimen.h"
-
-#include <Eigen/SparseCholesky>
 
 #include <cstdint>
 #include <vector>
@@ -13,54 +11,6 @@
 /// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §6.
 namespace feldspar
 {
-/// Degrees of freedom of a grain, and as many measures of a joint's strain: displacement and turn.
-template <int dim>
-inline constexpr int n_motions = dim + n_rotations<dim>;
-
-/// Displacement and turn [m, rad], or force and couple [N, N m]. Of a joint in its own axes: n, t (n, t_1, t_2), then
-/// the turn about the axis out of the plane (about n, t_1, t_2).
-template <int dim>
-using Motion = Eigen::Matrix<double, n_motions<dim>, 1>;
-
-/// Of a joint: forces per motion.
-template <int dim>
-using JointStiffness = Eigen::Matrix<double, n_motions<dim>, n_motions<dim>>;
-
-/// Motions of all grains, [n_motions * n_grains], then the macroscopic strain, [n_voigt].
-using Unknowns = Eigen::VectorXd;
-
-/// Two grains joined by a face, or, without a face, near enough that they may come to touch: then a single element in
-/// the middle that carries no tension and no moment.
-template <int dim>
-struct Link
-{
-  std::uint32_t grain_1, grain_2;
-  std::uint32_t first_segment; ///< among all segments of the network
-  std::uint32_t n_segments;
-  bool has_face;
-  Tensor<dim> axes;        ///< rows n, t (n, t_1, t_2)
-  Vector<dim> branch;      ///< from centre 1 to centre 2, through the periodic image [m]
-  double arm_1, arm_2;     ///< from the centres to the contact point [m]
-  double normal_stiffness; ///< k_n [Pa/m]
-  double shear_stiffness;  ///< k_s [Pa/m]
-  double half_length;      ///< R̄ [m]
-  double opening;          ///< g_0 at rest [m]
-  double friction;
-};
-
-/// Rows that give the gap and the shear of an element from its joint's motion.
-template <int dim>
-using ElementRows = Eigen::Matrix<double, dim, n_motions<dim>>;
-
-template <int dim>
-ElementRows<dim> element_rows(const FaceElement<dim>& element, double half_length);
-
-/// Of a bonded, or wholly closed and sticking, element: its share of the joint's stiffness. area in m², second_moment in
-/// m⁴.
-template <int dim>
-JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, double area,
-                                             double second_moment);
-
 /// Bond of one segment.
 struct Strength
 {
@@ -119,16 +69,15 @@ public:
   /// Of a link whose segments are all bonded.
   const JointStiffness<dim>& bonded_stiffness(const std::size_t joint) const { return bonded_stiffnesses[joint]; }
 
-  /// Strain of a link, from the motions of its grains and the macroscopic strain.
-  Motion<dim> link_motion(const Link<dim>& link, const Unknowns& unknowns) const;
-  /// Adds what a link's forces s do to its grains and to volume × stress: the transpose of link_motion().
-  void add_forces(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum) const;
-
   /// The network with all bonds intact, K x.
   Unknowns apply_bonded(const Unknowns& unknowns) const;
-  /// Nearly its inverse, on grains and those strains that are free; the others stay.
-  Unknowns precondition(const Unknowns& residual, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
-
+  /// Nearly its inverse.
+  const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
+  /// With other stiffnesses of its links, and a little lent to what floats.
+  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share) const
+  {
+    return FactorisedNetwork<dim>(all_links, *pattern, stiffness_of, lent_share * stiffness_scale);
+  }
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
   Unknowns lent(const Unknowns& unknowns) const;
 
@@ -140,13 +89,15 @@ public:
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
+  /// Whether no pair without a face can come to touch at this strain: with all bonds kept the network is linear.
+  bool stays_linear(const Voigt<dim>& strain) const { return strain.norm() < touching_strain; }
   /// Whether no segment is overloaded and no pair touches at this strain.
   bool stays_intact(const Voigt<dim>& strain) const;
   /// Along the ray `factor * direction`, in closed form.
   FirstBreak first_break(const Voigt<dim>& direction) const;
 
 private:
-  void factorise();
+  void factorise_intact();
   void solve_unit_strains();
   void bound_segments();
 
@@ -166,8 +117,9 @@ private:
   std::vector<std::uint32_t> unbonded_at_rest;
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor; ///< of the grains' part, made regular
-  Motion<dim> stiffness_scale;                               ///< mean of the diagonal, of each motion of a grain
+  std::unique_ptr<StiffnessPattern<dim>> pattern; ///< on the heap: what is factorised refers to it
+  std::unique_ptr<FactorisedNetwork<dim>> factorised;
+  Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
   Stiffness<dim> c_0;
   Eigen::MatrixXd unit_motion;
   std::vector<UnitResponse<dim>> unit_responses;

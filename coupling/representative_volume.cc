@@ -44,34 +44,36 @@ Trial<dim> RepresentativeVolume<dim>::intact_trial(const Voigt<dim>& strain, con
 }
 
 template <int dim>
-Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const Bonds bonds,
-                                            const bool with_tangent) const
+Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const TrialOptions<dim>& options) const
 {
+  const bool may_break = options.bonds == Bonds::may_break;
   if (current.intact)
-    if (const Voigt<dim> strain = intact_strain(control); reference->stays_intact(strain))
-      return intact_trial(strain, with_tangent);
+    if (const Voigt<dim> strain = intact_strain(control);
+        may_break ? reference->stays_intact(strain) : reference->stays_linear(strain))
+      return intact_trial(strain, options.with_tangent);
 
   Trial<dim> trial;
   Equilibrium<dim> equilibrium(*reference, current, parameters);
+  if (options.nearby)
+    equilibrium.begin_at(*options.nearby);
   for (;;)
     {
       trial.in_equilibrium = equilibrium.relax(control, parameters.event_tolerance);
-      auto overloads =
-        bonds == Bonds::frozen || !trial.in_equilibrium ? std::vector<Overload>() : equilibrium.overloads();
+      auto overloads = may_break && trial.in_equilibrium ? equilibrium.overloads() : std::vector<Overload>();
       if (overloads.empty() && trial.in_equilibrium)
         {
           trial.in_equilibrium = equilibrium.relax(control, parameters.final_tolerance);
-          if (bonds == Bonds::may_break && trial.in_equilibrium)
+          if (may_break && trial.in_equilibrium)
             overloads = equilibrium.overloads();
         }
       if (overloads.empty())
         break;
       equilibrium.break_segments(overloads, trial.breaks);
     }
-  if (with_tangent)
+  if (options.with_tangent)
     trial.tangent = equilibrium.tangent();
   trial.unbalanced_ratio = equilibrium.unbalanced_ratio();
-  trial.state = equilibrium.state();
+  trial.state = options.provisional ? equilibrium.provisional_state() : equilibrium.state();
   return trial;
 }
 

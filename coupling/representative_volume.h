@@ -25,6 +25,19 @@ enum class Bonds
   frozen
 };
 
+/// How a trial is made.
+template <int dim>
+struct TrialOptions
+{
+  Bonds bonds = Bonds::may_break;
+  bool with_tangent = false;
+  /// Where to begin the search: what an earlier trial from the same state found. Not kept.
+  const NetworkState<dim>* nearby = nullptr;
+  /// Only strain, stress and motions of the state are wanted, as between the iterations of a solver: it cannot be
+  /// accepted.
+  bool provisional = false;
+};
+
 /// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §6. Copies share the reference
 /// network and hold their own state only. Trying is not doing: history changes on accept().
 template <int dim>
@@ -33,7 +46,12 @@ class RepresentativeVolume
 public:
   RepresentativeVolume(std::shared_ptr<const Network<dim>> network, const EquilibriumParameters& parameters = {});
 
-  Trial<dim> trial(const Control<dim>& control, Bonds bonds = Bonds::may_break, bool with_tangent = false) const;
+  Trial<dim> trial(const Control<dim>& control, const TrialOptions<dim>& options) const;
+  Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
+                   const bool with_tangent = false) const
+  {
+    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false});
+  }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {

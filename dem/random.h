@@ -15,7 +15,8 @@ enum class RandomStream : std::uint32_t
   radii = 1,
   positions = 2,
   bonds = 3,
-  strengths = 4
+  strengths = 4,
+  dealing = 5 ///< of volumes to the points of a sample
 };
 
 /// The same numbers from the same seed with every compiler and library: the engine and its seeding are fixed by the

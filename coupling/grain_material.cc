@@ -1,0 +1,189 @@
+#include "coupling/grain_material.h"
+
+#include "dem/random.h"
+
+#include <numbers>
+#include <utility>
+
+namespace feldspar
+{
+template <int dim>
+GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
+                            const EquilibriumParameters& parameters)
+  : turn(orientation)
+  , accepted(network, parameters)
+  , at_work(std::move(network), parameters)
+{
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    strain_to_volume.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
+}
+
+template <int dim>
+Voigt<dim> GrainPoint<dim>::to_volume(const Voigt<dim>& strain) const
+{
+  return strain_to_volume * strain;
+}
+
+template <int dim>
+fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
+{
+  const Voigt<dim> wanted = to_volume(strain);
+  if (!tried_strain || *tried_strain != wanted)
+    {
+      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true};
+      const NetworkState<dim> nearby = std::move(tried.state);
+      if (tried_strain && !nearby.motions.empty())
+        options.nearby = &nearby;
+      tried = at_work.trial(strain_control<dim>(wanted), options);
+      tried_strain = wanted;
+    }
+  if (!tried.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium");
+  // Work is the same in both axes, so stress and stiffness follow from how strain turns.
+  return {strain_to_volume.transpose() * tried.state.stress,
+          strain_to_volume.transpose() * *tried.tangent * strain_to_volume};
+}
+
+/// From what Newton's method found, if that was at this strain.
+template <int dim>
+Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
+{
+  TrialOptions<dim> options{bonds, false, nullptr, false};
+  if (tried_strain && !tried.state.motions.empty())
+    options.nearby = &tried.state;
+  return at_work.trial(strain_control<dim>(to_volume(strain)), options);
+}
+
+template <int dim>
+std::size_t GrainPoint<dim>::relax(const Voigt<dim>& strain)
+{
+  Trial<dim> broken = settle(strain, Bonds::may_break);
+  if (!broken.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium after a break");
+  const std::size_t n_events = broken.breaks.size();
+  if (n_events > 0)
+    {
+      events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
+      at_work.accept(std::move(broken));
+      forget_trial();
+    }
+  return n_events;
+}
+
+template <int dim>
+void GrainPoint<dim>::accept(const Voigt<dim>& strain)
+{
+  at_work.accept(settle(strain, Bonds::frozen));
+  forget_trial();
+  accepted = at_work;
+  events_accepted = std::exchange(events_at_work, {});
+}
+
+template <int dim>
+void GrainPoint<dim>::reject()
+{
+  at_work = accepted;
+  events_at_work.clear();
+  forget_trial();
+}
+
+template <int dim>
+void GrainPoint<dim>::forget_trial()
+{
+  tried_strain.reset();
+  tried = {};
+}
+
+template <int dim>
+std::vector<PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
+{
+  std::vector<PointCrack<dim>> cracks;
+  const Network<dim>& network = accepted.network();
+  for (const BreakEvent<dim>& event : events_accepted)
+    {
+      const Link<dim>& link = network.links()[network.link_of_segment(event.segment)];
+      const double area = network.segment_area(link, event.segment - link.first_segment);
+      cracks.push_back({event.in_tension ? CrackKind::tension : CrackKind::shear, event.segment,
+                        turn * link.axes.row(0).transpose(), dim == 2 ? area / network.thickness() : std::sqrt(area),
+                        event.released_energy});
+    }
+  return cracks;
+}
+
+template <int dim>
+double GrainPoint<dim>::stored_energy_density() const
+{
+  return accepted.stored_energy() / accepted.network().volume();
+}
+
+template <int dim>
+NetworkWork GrainPoint<dim>::work_density() const
+{
+  NetworkWork work = accepted.state().work;
+  for (double* const part : {&work.boundary, &work.slip, &work.released, &work.settled})
+    *part /= accepted.network().volume();
+  return work;
+}
+
+namespace
+{
+const std::vector<std::string> names_of_fields{"broken_segments_share", "broken_in_shear_share",
+                                               "dissipation_J_per_m3"};
+} // namespace
+
+template <int dim>
+std::vector<double> GrainPoint<dim>::fields() const
+{
+  const NetworkState<dim>& state = accepted.state();
+  const auto n = double(accepted.network().n_segments());
+  const NetworkWork work = work_density();
+  return {(state.n_tension_breaks + state.n_shear_breaks) / n, state.n_shear_breaks / n,
+          work.slip + work.released + work.settled};
+}
+
+namespace
+{
+/// A number of its own for each point of each sample (FNV-1a, 64 bits).
+std::uint64_t point_seed(const std::uint64_t seed, const fem::PointPlace& place)
+{
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&](const std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3u; };
+  for (int shift = 0; shift < 64; shift += 8)
+    add(seed >> shift & 0xffu);
+  for (const char c : place.cell)
+    add(std::uint8_t(c));
+  add(place.quadrature_point);
+  return hash;
+}
+
+template <int dim>
+Tensor<dim> random_turn(Random& random) requires(dim == 2)
+{
+  const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+  Tensor<2> turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return turn;
+}
+} // namespace
+
+template <int dim>
+fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                  const GrainMaterialParameters& parameters)
+{
+  fem::Material<dim> material;
+  material.field_names = names_of_fields;
+  material.make_point = [realisations = std::move(realisations),
+                         parameters](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
+    Random random(point_seed(parameters.seed, place), RandomStream::dealing);
+    const auto& network = realisations[std::size_t(random.uniform() * double(realisations.size()))];
+    const Tensor<dim> turn =
+      parameters.random_orientation ? random_turn<dim>(random) : Tensor<dim>(Tensor<dim>::Identity());
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium);
+  };
+  return material;
+}
+
+template class GrainPoint<2>;
+template fem::Material<2> grain_material<2>(std::vector<std::shared_ptr<const Network<2>>>,
+                                            const GrainMaterialParameters&);
+} // namespace feldspar
