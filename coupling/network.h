@@ -78,6 +78,7 @@ struct FirstBreak
   double factor; ///< of the direction; infinity if nothing breaks along it
   std::uint32_t segment;
   bool in_tension;
+  double touch; ///< factor at which a pair without a face comes to touch; no answer is linear beyond it
 };
 
 template <int dim>
@@ -179,6 +180,7 @@ private:
     std::uint32_t segment;
   };
   std::vector<Bound> bounds;
-  double touching_strain; ///< norm below which no pair can come to touch
+  std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
+  double touching_strain;                ///< norm below which no such pair can come to touch
 };
 } // namespace feldspar
