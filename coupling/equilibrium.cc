@@ -496,11 +496,22 @@ Stiffness<dim> Equilibrium<dim>::tangent()
   Stiffness<dim> result;
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
-      // From the intact network's rearrangement on.
+      // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
+      // against what the affine motion would leave.
       Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
-      Unknowns right = -apply_tangent(present, unit);
-      right.template tail<n_voigt<dim>>().setZero();
-      unit.head(n_own) += solve_linear(apply, right, {}, 1e-10).head(n_own);
+      const auto left_by = [&](const Unknowns& motions) {
+        Unknowns right = -apply_tangent(present, motions);
+        right.template tail<n_voigt<dim>>().setZero();
+        return right;
+      };
+      const auto size = [&](const Unknowns& forces) {
+        return std::sqrt(forces.dot(network.factorised_intact().solve(forces, {})));
+      };
+      const Unknowns right = left_by(unit);
+      const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
+      const double tolerance = 1e-10 * size(affine) / std::max(size(right), 1e-300);
+      if (tolerance < 1.0)
+        unit.head(n_own) += solve_linear(apply, right, {}, tolerance).head(n_own);
       result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
     }
   return 0.5 * (result + result.transpose());

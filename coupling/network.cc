@@ -53,6 +53,10 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       const double distance = joints.rest_distance[j] + joints.opening[j];
       const auto second = specimen.second_of(j);
       jointed.insert({joints.grain_1[j], second});
+      PeriodicImage<dim> first{joints.grain_1[j], second.boxes}; // as grain 2 sees it
+      for (int& boxes_away : first.boxes)
+        boxes_away = -boxes_away;
+      jointed.insert({joints.grain_2[j], first});
       boxes.push_back(second.boxes);
       mean_branch_length += distance / double(number_of_joints);
       all_links.push_back({joints.grain_1[j], joints.grain_2[j], std::uint32_t(j * face.size()),
@@ -221,14 +225,15 @@ void Network<dim>::bound_segments()
   });
 
   touching_strain = std::numeric_limits<double>::infinity();
-  if (!unbonded_at_rest.empty())
-    touching_strain = 0.0; // never linear
+  std::vector<Unknowns> unit;
+  for (int c = 0; c < n_voigt<dim>; ++c)
+    unit.push_back(intact_unknowns(Voigt<dim>::Unit(c)));
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
     {
-      Voigt<dim> rate;
+      opening_rates.emplace_back();
       for (int c = 0; c < n_voigt<dim>; ++c)
-        rate[c] = link_motion(all_links[k], intact_unknowns(Voigt<dim>::Unit(c)))[0];
-      touching_strain = std::min(touching_strain, all_links[k].opening / rate.norm());
+        opening_rates.back()[c] = link_motion(all_links[k], unit[c])[0];
+      touching_strain = std::min(touching_strain, all_links[k].opening / opening_rates.back().norm());
     }
 }
 
@@ -253,9 +258,22 @@ Unknowns Network<dim>::intact_unknowns(const Voigt<dim>& strain) const
 }
 
 template <int dim>
+bool Network<dim>::stays_linear(const Voigt<dim>& strain) const
+{
+  const double size = strain.norm();
+  if (!unbonded_at_rest.empty() || !std::isfinite(size))
+    return false;
+  if (size >= touching_strain)
+    for (std::size_t k = 0; k < opening_rates.size(); ++k)
+      if (all_links[number_of_joints + k].opening + opening_rates[k].dot(strain) < 0.0)
+        return false;
+  return true;
+}
+
+template <int dim>
 bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
 {
-  if (!stays_linear(strain)) // nor is one that is not finite
+  if (!stays_linear(strain))
     return false;
   const double size = strain.norm();
   for (const Bound& bound : bounds)
@@ -274,15 +292,18 @@ bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
 template <int dim>
 FirstBreak Network<dim>::first_break(const Voigt<dim>& direction) const
 {
-  FirstBreak first{std::numeric_limits<double>::infinity(), 0, true};
+  FirstBreak first{std::numeric_limits<double>::infinity(), 0, true, std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < opening_rates.size(); ++k)
+    if (const double rate = opening_rates[k].dot(direction); rate < 0.0)
+      first.touch = std::min(first.touch, -all_links[number_of_joints + k].opening / rate);
   for (std::uint32_t k = 0; k < strengths.size(); ++k)
     {
       const Vector<dim> stress = unit_responses[k] * direction;
       if (stress[0] > 0.0 && strengths[k].tensile / stress[0] < first.factor)
-        first = {strengths[k].tensile / stress[0], k, true};
+        first = {strengths[k].tensile / stress[0], k, true, first.touch};
       const double shear = stress.template tail<dim - 1>().norm() + tan_bond_friction * stress[0]; // (15)
       if (shear > 0.0 && strengths[k].cohesion / shear < first.factor)
-        first = {strengths[k].cohesion / shear, k, false};
+        first = {strengths[k].cohesion / shear, k, false, first.touch};
     }
   return first;
 }

@@ -28,6 +28,7 @@ struct FirstBreak
   double factor; ///< of the direction; infinity if nothing breaks along it
   std::uint32_t segment;
   bool in_tension;
+  double touch; ///< factor at which a pair without a face comes to touch; no answer is linear beyond it
 };
 
 template <int dim>
@@ -90,7 +91,7 @@ public:
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
   /// Whether no pair without a face can come to touch at this strain: with all bonds kept the network is linear.
-  bool stays_linear(const Voigt<dim>& strain) const { return strain.norm() < touching_strain; }
+  bool stays_linear(const Voigt<dim>& strain) const;
   /// Whether no segment is overloaded and no pair touches at this strain.
   bool stays_intact(const Voigt<dim>& strain) const;
   /// Along the ray `factor * direction`, in closed form.
@@ -131,6 +132,7 @@ private:
     std::uint32_t segment;
   };
   std::vector<Bound> bounds;
-  double touching_strain; ///< norm below which no pair can come to touch
+  std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
+  double touching_strain;                ///< norm below which no such pair can come to touch
 };
 } // namespace feldspar
