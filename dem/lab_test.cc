@@ -77,7 +77,7 @@ template <int dim>
 LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
                       const DynamicsParameters& dynamics)
   : wanted(parameters)
-  , peak(test.kind)
+  , stop_rule(test.kind)
   , set_up(set_up_test(test, specimen, parameters, dynamics))
 {
   const Specimen<dim>& tested = set_up.dynamics.specimen();
@@ -132,7 +132,7 @@ bool LabTest<dim>::advance()
   record.curve.push_back(sample());
   record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-  ended = stop_rule_met();
+  ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
   return !ended;
 }
 
@@ -161,30 +161,6 @@ CurveSample LabTest<dim>::sample() const
   row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();
   row.energies = dynamics.energies();
   return row;
-}
-
-/// Whether the curve has come to its end; docs/theory.md §4.5.
-template <int dim>
-bool LabTest<dim>::stop_rule_met()
-{
-  const CurveSample& row = record.curve.back();
-  const double sign = laboratory_sign(record.kind);
-  const double strain = sign * row.axial_strain;
-  const double deviator = sign * row.axial_stress - record.confining_pressure;
-  if (peak.is_highest(deviator))
-    strain_at_peak = strain;
-  // Nothing that is rock is left at such a strain, whether the curve has peaked or not.
-  constexpr double largest_strain = 0.2;
-  if (strain >= wanted.stop_strain.value_or(largest_strain))
-    return true;
-  // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
-  if (row.n_tension_cracks + row.n_shear_cracks == 0 && deviator > 0.9 * peak.highest)
-    return false;
-  if (wanted.stop_stress_over_peak)
-    return deviator <= *wanted.stop_stress_over_peak * peak.highest;
-  if (wanted.stop_strain)
-    return false;
-  return strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
 }
 
 template <int dim>
@@ -216,14 +192,14 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("time_at_start", time_at_start);
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
-  archive.value("peak_deviator", peak.highest);
-  std::uint32_t fallen = peak.fallen;
+  archive.value("peak_deviator", stop_rule.peak.highest);
+  std::uint32_t fallen = stop_rule.peak.fallen;
   archive.value("fallen", fallen);
-  peak.fallen = fallen;
+  stop_rule.peak.fallen = fallen;
   std::uint32_t has_ended = ended;
   archive.value("ended", has_ended);
   ended = has_ended;
-  archive.value("strain_at_peak", strain_at_peak);
+  archive.value("strain_at_peak", stop_rule.strain_at_peak);
 }
 
 namespace

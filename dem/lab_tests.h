@@ -3,6 +3,7 @@
 #include "dem/dynamics.h"
 #include "dem/lab_results.h"
 #include "dem/parameters.h"
+#include "dem/stop_rule.h"
 #include "dem/strain_gauge.h"
 
 #include <filesystem>
@@ -86,11 +87,10 @@ private:
   template <typename Archive>
   void transfer(Archive& archive);
   CurveSample sample() const;
-  bool stop_rule_met();
   void start_gauge();
 
   TestParameters wanted;
-  PeakWatch peak; ///< of the deviator
+  StopRule stop_rule;
   SetUpTest<dim> set_up;
   TestRecord record;
   StrainGauge<dim> gauge;
@@ -100,6 +100,5 @@ private:
   double time_at_start = 0.0;      ///< of the loading, after seating [s]
   std::uint64_t n_tension = 0;
   std::uint64_t n_shear = 0;
-  double strain_at_peak = 0.0;
 };
 } // namespace feldspar

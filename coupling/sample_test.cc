@@ -1,0 +1,242 @@
+#include "coupling/sample_test.h"
+
+#include "coupling/grain_material.h"
+#include "dem/input_error.h"
+#include "dem/stop_rule.h"
+#include "fem/advance.h"
+#include "fem/output.h"
+#include "fem/platen_test.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+fem::SolidParameters solid_parameters(const SampleParameters& sample, const std::uint64_t most_events)
+{
+  fem::SolidParameters parameters;
+  parameters.order = sample.order;
+  parameters.newton_tolerance = sample.newton_tolerance;
+  parameters.most_events = most_events;
+  return parameters;
+}
+} // namespace
+
+struct SampleTest::Parts
+{
+  TestCase test;
+  SampleParameters sample;
+  TestParameters wanted;
+  fem::SampleMesh<2> mesh;
+  SampleStanding standing;
+  std::function<void(const SampleStanding&)> watch;
+  fem::Solid<2> solid;
+  std::optional<fem::FieldOutput> fields;
+  StopRule stop_rule;
+  TestRecord record;
+  bool seated = false;
+  bool ended = false;
+  std::string reason;
+  double height_at_seating = 0.0; ///< displacement of the top [m]
+  double width_at_seating = 0.0;  ///< widening [m]
+  std::uint64_t n_tension = 0;
+  std::uint64_t n_shear = 0;
+
+  Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters,
+        const fem::Material<2>& material, const std::uint64_t segments_a_volume)
+    : test(which)
+    , sample(of)
+    , wanted(parameters)
+    , mesh(fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height,
+                             {sample.elements_across, sample.elements_along}, 0))
+    , solid(mesh, set_up(segments_a_volume), material)
+    , stop_rule(test.kind)
+  {
+    standing.n_points = solid.material_points().size();
+    standing.n_segments = standing.n_points * segments_a_volume;
+  }
+
+  fem::SolidParameters set_up(const std::uint64_t segments_a_volume)
+  {
+    const auto n_points =
+      std::uint64_t((sample.order + 1) * (sample.order + 1)) * sample.elements_across * sample.elements_along;
+    auto parameters = solid_parameters(
+      sample,
+      std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(n_points * segments_a_volume))));
+    parameters.watch = [this](const fem::NewtonReport& report) {
+      standing.n_newton_iterations = report.n_iterations;
+      standing.n_cascades = report.n_cascades;
+      if (watch)
+        watch(standing);
+    };
+    return parameters;
+  }
+
+  const GrainPoint<2>& point(const std::size_t i) const
+  {
+    return static_cast<const GrainPoint<2>&>(solid.material_points()[i]);
+  }
+
+  double sign() const { return laboratory_sign(test.kind); }
+  double widening() const { return solid.mean_displacement("right", 0) - solid.mean_displacement("left", 0); }
+
+  /// Pressure all round, the top plate free to follow.
+  void seat()
+  {
+    if (test.confining_pressure > 0.0)
+      go(platens().seating());
+    height_at_seating = solid.mean_displacement("top", 1);
+    width_at_seating = widening();
+    seated = true;
+    record.curve.push_back(sample_row());
+  }
+
+  void go(const fem::Load<2>& load)
+  {
+    fem::advance<2, 2>(solid, load, fem::StepControl(1.0, sample.smallest_step_share, 1.0),
+                       [&](const fem::NewtonReport&) { gather_cracks(); });
+  }
+
+  void load_to(const double strain) { go(platens().pressing(height_at_seating + strain * sample.height)); }
+
+  fem::PlatenTest<2> platens() const
+  {
+    fem::PlatenTest<2> set_up;
+    set_up.platens = sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth;
+    set_up.confining_pressure = test.confining_pressure;
+    return set_up;
+  }
+
+  double axial_strain() const { return (solid.mean_displacement("top", 1) - height_at_seating) / sample.height; }
+
+  /// After each accepted step.
+  void gather_cracks()
+  {
+    ++record.steps;
+    for (std::size_t i = 0; i < standing.n_points; ++i)
+      for (const PointCrack<2>& broken : point(i).cracks_of_last_step())
+        {
+          const auto& place = solid.places()[i].position;
+          record.cracks.push_back({broken.kind,
+                                   i,
+                                   broken.segment,
+                                   record.steps,
+                                   seated ? axial_strain() : 0.0,
+                                   {place[0], place[1], 0.0},
+                                   {broken.normal[0], broken.normal[1], 0.0},
+                                   broken.size,
+                                   broken.released_energy});
+          ++(broken.kind == CrackKind::tension ? n_tension : n_shear);
+        }
+  }
+
+  CurveSample sample_row()
+  {
+    CurveSample row;
+    row.step = record.steps;
+    row.axial_strain = axial_strain();
+    row.axial_stress = record.curve.empty() ? -test.confining_pressure : solid.reaction("top", 1) / sample.width;
+    row.end_stress_difference =
+      record.curve.empty() ? 0.0 : (solid.reaction("top", 1) + solid.reaction("bottom", 1)) / sample.width;
+    row.lateral_stress = -test.confining_pressure;
+    row.mid_stress = solid.mean_stress()[1];
+    row.gauge_axial_strain = row.axial_strain;
+    row.gauge_lateral_strain = (widening() - width_at_seating) / sample.width;
+    row.gauge_volumetric_strain = row.gauge_axial_strain + row.gauge_lateral_strain;
+    row.n_tension_cracks = n_tension;
+    row.n_shear_cracks = n_shear;
+    standing.n_damaged_points = 0;
+    for (std::size_t i = 0; i < standing.n_points; ++i)
+      {
+        const double volume = solid.volumes()[i];
+        const NetworkWork work = point(i).work_density();
+        row.energies.boundary_work += volume * work.boundary;
+        row.energies.strain += volume * point(i).stored_energy_density();
+        row.energies.slip += volume * work.slip;
+        row.energies.released += volume * work.released;
+        row.energies.damping += volume * work.settled;
+        standing.n_damaged_points += !point(i).volume().state().intact;
+      }
+    return row;
+  }
+};
+
+SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
+                       const EquilibriumParameters& equilibrium,
+                       std::vector<std::shared_ptr<const Network<2>>> realisations, const SpecimenReport& of_volumes,
+                       const std::uint64_t seed)
+{
+  if (test.kind == TestKind::brazilian)
+    throw InputError("Tests/List: brazilian: a multiscale sample is a rectangle; it makes direct_tension, "
+                     "uniaxial_compression and triaxial_compression");
+  const std::uint64_t segments_a_volume = realisations.front()->n_segments();
+  GrainMaterialParameters material;
+  material.seed = seed;
+  material.random_orientation = sample.random_orientation;
+  material.equilibrium = equilibrium;
+  parts = std::make_unique<Parts>(test, sample, wanted, grain_material<2>(std::move(realisations), material),
+                                  segments_a_volume);
+  TestRecord& record = parts->record;
+  record.kind = test.kind;
+  record.confining_pressure = test.confining_pressure;
+  record.seed = seed;
+  record.size = {sample.width, sample.height, 0.0};
+  record.specimen = of_volumes;
+}
+
+SampleTest::~SampleTest() = default;
+SampleTest::SampleTest(SampleTest&&) noexcept = default;
+
+bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch)
+{
+  const auto clock = std::chrono::steady_clock::now();
+  parts->watch = watch;
+  TestRecord& record = parts->record;
+  try
+    {
+      if (!parts->seated)
+        parts->seat();
+      const double step =
+        parts->test.kind == TestKind::direct_tension ? parts->sample.tension_step : parts->sample.compression_step;
+      parts->load_to(parts->sign() * step * double(record.curve.size()));
+      record.curve.push_back(parts->sample_row());
+      parts->ended = parts->stop_rule.is_met_by(record.curve.back(), parts->test.confining_pressure, parts->wanted);
+    }
+  catch (const fem::StepFailure& failure)
+    {
+      if (!parts->seated)
+        throw InputError(fmt::format("Tests/Confinements: the sample finds no equilibrium under {:g} MPa: {}",
+                                     parts->test.confining_pressure / 1e6, failure.what()));
+      parts->ended = true;
+      parts->reason = fmt::format("no equilibrium was found beyond an axial strain of {:.4g} %: {}",
+                                  100.0 * std::abs(parts->axial_strain()), failure.what());
+    }
+  parts->watch = nullptr;
+  record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  return !parts->ended;
+}
+
+bool SampleTest::has_ended() const { return parts->ended; }
+const std::string& SampleTest::ended_because() const { return parts->reason; }
+const CurveSample& SampleTest::last_row() const { return parts->record.curve.back(); }
+SampleStanding SampleTest::standing() const { return parts->standing; }
+
+void SampleTest::write_fields(const std::filesystem::path& folder, const std::string& name)
+{
+  if (!parts->fields)
+    parts->fields.emplace(folder, name);
+  parts->fields->write(parts->solid, double(parts->record.curve.size()));
+}
+
+TestRecord SampleTest::finish(const bool interrupted) const
+{
+  TestRecord record = parts->record;
+  record.interrupted = interrupted;
+  return record;
+}
+} // namespace feldspar

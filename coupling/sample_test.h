@@ -1,0 +1,61 @@
+#pragma once
+
+#include "coupling/network.h"
+#include "coupling/parameters.h"
+#include "coupling/sample_parameters.h"
+#include "dem/lab_results.h"
+#include "dem/parameters.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// How a multiscale test stands, for who watches it.
+struct SampleStanding
+{
+  unsigned int n_newton_iterations = 0; ///< of the last row
+  unsigned int n_cascades = 0;          ///< of the last row
+  std::uint64_t n_points = 0;
+  std::uint64_t n_damaged_points = 0;
+  std::uint64_t n_segments = 0; ///< of all points
+};
+
+/// A laboratory test on a plane sample of finite elements with a representative volume at every point; docs/theory.md
+/// §10. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
+/// seating.
+class SampleTest
+{
+public:
+  /// The volumes of `realisations` are dealt to the points by the seed. Throws InputError for a test that such a sample
+  /// cannot make.
+  SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
+             const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<2>>> realisations,
+             const SpecimenReport& of_volumes, std::uint64_t seed);
+  ~SampleTest();
+  SampleTest(SampleTest&&) noexcept;
+
+  /// Seats the sample at the first call, then loads it to the next row of the curve. False once the stop rule has ended
+  /// the test, or no equilibrium could be found: then ended_because() tells. `watch` is called after every iteration
+  /// and may throw to leave the test as it was at the last row.
+  bool advance(const std::function<void(const SampleStanding&)>& watch);
+
+  bool has_ended() const;
+  const std::string& ended_because() const; ///< empty where the stop rule ended it
+  const CurveSample& last_row() const;
+  SampleStanding standing() const;
+
+  /// Adds the present fields to a time series for ParaView.
+  void write_fields(const std::filesystem::path& folder, const std::string& name);
+
+  TestRecord finish(bool interrupted) const;
+
+private:
+  struct Parts; ///< deal.II's headers stay out of who includes this one
+  std::unique_ptr<Parts> parts;
+};
+} // namespace feldspar
