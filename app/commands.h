@@ -30,6 +30,8 @@ int run_lab(const CommonOptions& options);
 
 int run_rve(const CommonOptions& options);
 
+int run_multiscale(const CommonOptions& options);
+
 int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);

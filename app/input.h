@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/parameters.h"
+#include "coupling/sample_parameters.h"
 #include "dem/lab_results.h"
 #include "dem/parameters.h"
 
@@ -48,6 +49,7 @@ struct Input
   ContactParameters contact;
   StrainPathParameters strain_path;
   EquilibriumParameters equilibrium;
+  SampleParameters sample;
   std::string reference_file; ///< figures of the rock that results are set beside; empty: none
 };
 

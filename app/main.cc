@@ -34,6 +34,7 @@ public:
     app.require_subcommand(0, 1);
     add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, report", run_lab));
     add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
+    add_run("multiscale", "laboratory tests on a mesh with a representative volume at every point", run_multiscale);
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_report();
@@ -139,7 +140,8 @@ private:
   {
     if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
       return;
-    const std::vector<std::string_view> names{"lab", "rve", "specimen", "contact", "report", "parameters"};
+    const std::vector<std::string_view> names{"lab",     "rve",    "multiscale", "specimen",
+                                              "contact", "report", "parameters"};
     if (std::find(names.begin(), names.end(), argv[1]) == names.end())
       throw InputError(fmt::format("{}: no such command{}", argv[1], suggestion(argv[1], names)));
   }

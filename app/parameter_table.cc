@@ -339,6 +339,7 @@ std::vector<Parameter> make_parameter_table()
   using C = ContactParameters;
   using R = StrainPathParameters;
   using E = EquilibriumParameters;
+  using M = SampleParameters;
   const Section<S> specimen{"Specimen", &Input::specimen};
   const Section<F> flat_joint{"Flat joint", &Input::flat_joint};
   const Section<P> particle_contact{"Particle contact", &Input::particle_contact};
@@ -348,6 +349,7 @@ std::vector<Parameter> make_parameter_table()
   const Section<C> contact_path{"Contact path", &Input::contact};
   const Section<R> strain_path{"Strain path", &Input::strain_path};
   const Section<E> equilibrium{"Representative volume", &Input::equilibrium};
+  const Section<M> sample{"Sample", &Input::sample};
 
   return {
     specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}, {"3", 3}},
@@ -503,6 +505,27 @@ std::vector<Parameter> make_parameter_table()
                                   "whether segments with 0.98 of the worst overload break together with it"),
     equilibrium.integer("Most iterations", &E::most_iterations, {'[', 1.0, 1e6, ']'},
                         "in search of one equilibrium, before there is said to be none"),
+
+    sample.quantity("Width", &M::width, length, "mm", above_zero, "of the sample of `feldspar multiscale`"),
+    sample.quantity("Height", &M::height, length, "mm", above_zero, "of the sample, along the axis of the tests"),
+    sample.integer("Elements across", &M::elements_across, {'[', 1.0, 10000.0, ']'}, "over the width"),
+    sample.integer("Elements along", &M::elements_along, {'[', 1.0, 10000.0, ']'}, "over the height"),
+    sample.integer("Order", &M::order, {'[', 1.0, 2.0, ']'}, "of the elements; order + 1 points each way"),
+    sample.choice<bool>("Platens", &M::rough_platens, {{"smooth", false}, {"rough", true}},
+                        "whether the ends are held sideways"),
+    sample.integer("Realisations", &M::n_realisations, {'[', 1.0, 1000.0, ']'},
+                   "packings of the volume, dealt to the points by the seed"),
+    sample.choice<bool>("Orientation", &M::random_orientation, {{"random", true}, {"fixed", false}},
+                        "whether the volume at each point is turned by an angle of its own"),
+    sample.number("Compression step", &M::compression_step, {'(', 0.0, 0.01, ']'},
+                  "axial strain between two rows of the curve"),
+    sample.number("Tension step", &M::tension_step, {'(', 0.0, 0.01, ']'}, "the same in direct tension"),
+    sample.number("Most broken share", &M::most_broken_share, {'(', 0.0, 1.0, ']'},
+                  "of all segments in one step; a step that breaks more is cut"),
+    sample.number("Smallest step share", &M::smallest_step_share, {'(', 0.0, 1.0, ']'},
+                  "of a step, below which there is said to be no equilibrium"),
+    sample.number("Newton tolerance", &M::newton_tolerance, {'[', 1e-12, 0.1, ']'},
+                  "unbalanced over internal force of the sample"),
 
     file_parameter(
       "Report", "Reference file", "figures of the rock and of other models (JSON) to set the results beside",

@@ -5,8 +5,9 @@ target_compile_features(feldspar_settings INTERFACE cxx_std_20)
 target_include_directories(feldspar_settings INTERFACE ${CMAKE_SOURCE_DIR})
 # No fused multiply-add behind our back: the same source gives the same bits with every compiler and processor.
 target_compile_options(feldspar_settings INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow)
-# One alignment for Eigen's types, whatever the processor: the libraries of the distribution were built so.
-target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+# One alignment and one allocator for Eigen, whatever the processor: the libraries of the distribution were built so, and
+# functions of both are linked into one program.
+target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
 if(FELDSPAR_NATIVE)
   target_compile_options(feldspar_settings INTERFACE -march=native)
 endif()
