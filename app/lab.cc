@@ -9,11 +9,10 @@
 #include "app/specimen_source.h"
 #include "dem/input_error.h"
 #include "report/comparison.h"
-#include "report/csv_tables.h"
 #include "report/figures.h"
+#include "report/result_folder.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
-#include "report/summary.h"
 #include "report/text_file.h"
 
 #include <fmt/format.h>
@@ -30,16 +29,6 @@ std::optional<std::filesystem::path> reference_of(const Input& input)
   if (input.reference_file.empty())
     return std::nullopt;
   return input.reference_file;
-}
-
-void write_results(const std::filesystem::path& folder, const Provenance& made_by,
-                   const std::vector<FinishedTest>& tests)
-{
-  std::filesystem::create_directories(folder / "curves");
-  for (const auto& test : tests)
-    write_curve(test, folder / "curves" / (test.name + ".csv"));
-  write_cracks(tests, folder / "cracks.csv");
-  write_summary(made_by, tests, folder / "summary.json");
 }
 
 /// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
@@ -99,7 +88,10 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     throw InputError(failed->record.failure);
 
   // Report.
-  write_results(folder, provenance(input, input_file), tests);
+  write_result_folder(provenance(input, input_file), tests, folder);
+  if (!input.reference_file.empty())
+    std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
+                               std::filesystem::copy_options::overwrite_existing);
   std::string figure_problem;
   if (!tests.empty())
     {

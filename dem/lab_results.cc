@@ -96,6 +96,7 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::poissons_ratio_initial,
                                                       &TestResults::poissons_ratio_secant,
                                                       &TestResults::crack_initiation_stress,
+                                                      &TestResults::crack_initiation_stress_lateral,
                                                       &TestResults::crack_damage_stress,
                                                       &TestResults::post_peak_drop,
                                                       &TestResults::residual_deviator_ratio,
@@ -179,15 +180,22 @@ public:
 
 std::uint64_t n_cracks(const CurveSample& row) { return row.n_tension_cracks + row.n_shear_cracks; }
 
-Figure crack_initiation(const RisingBranch& branch)
+Figure crack_initiation(const TestRecord& record, const RisingBranch& branch)
 {
-  const std::uint64_t at_peak = n_cracks(branch.rows.back());
-  if (at_peak == 0)
-    return unknown("no crack before the peak");
-  for (const auto& row : branch.rows)
-    if (double(n_cracks(row)) >= 0.01 * double(at_peak))
-      return known(branch.stress(row));
-  return unknown("no crack before the peak");
+  const auto row = crack_initiation_row(record, branch.rows.size() - 1);
+  return row ? known(branch.stress(branch.rows[*row])) : unknown("no crack before the peak");
+}
+
+/// Where the volume is smallest, if it grows again before the peak.
+std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
+{
+  const auto row =
+    std::min_element(branch.rows.begin(), branch.rows.end(), [](const CurveSample& a, const CurveSample& b) {
+      return a.gauge_volumetric_strain < b.gauge_volumetric_strain;
+    });
+  if (row == branch.rows.begin() || row + 1 == branch.rows.end())
+    return std::nullopt;
+  return std::size_t(row - branch.rows.begin());
 }
 
 /// Where volumetric strain, contracting at first, turns round.
@@ -195,28 +203,42 @@ Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
 {
   if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
     return unknown("of uniaxial and triaxial compression only");
-  const auto most_contracted =
-    std::min_element(branch.rows.begin(), branch.rows.end(), [](const CurveSample& a, const CurveSample& b) {
-      return a.gauge_volumetric_strain < b.gauge_volumetric_strain;
-    });
-  if (most_contracted == branch.rows.begin())
-    return unknown("the volume never contracted");
-  if (most_contracted + 1 == branch.rows.end())
-    return unknown("volumetric strain did not turn round before the peak");
-  return known(branch.stress(*most_contracted));
+  if (const auto row = most_contracted_row(branch))
+    return known(branch.stress(branch.rows[*row]));
+  return unknown(branch.rows.back().gauge_volumetric_strain < 0.0 ? "volumetric strain did not turn round before the peak"
+                                                                  : "the volume never contracted");
 }
-/// Where the stress was highest; none if it was rising to the end. Of a Brazilian test the first maximum that was
-/// followed by a fall: the halves of a split disc may carry more than the whole one did.
-std::optional<std::size_t> peak_row(const TestRecord& record)
+
+/// Lateral strain response: the stress at which the lateral expansion lies furthest below the straight line from the
+/// start to crack damage, for there it begins to grow faster. Needs no crack to be counted.
+Figure crack_initiation_by_lateral_strain(const TestRecord& record, const RisingBranch& branch)
 {
-  PeakWatch watch(record.kind);
-  std::size_t peak = 0;
-  for (std::size_t k = 0; k < record.curve.size(); ++k)
-    if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
-      peak = k;
-  if (peak == 0 || peak + 1 == record.curve.size())
-    return std::nullopt;
-  return peak;
+  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+    return unknown("of uniaxial and triaxial compression only");
+  const auto damage = most_contracted_row(branch);
+  if (!damage)
+    return unknown("needs the crack damage stress");
+  const auto expansion = [](const CurveSample& row) { return row.gauge_lateral_strain; };
+  const CurveSample& first = branch.rows.front();
+  const CurveSample& last = branch.rows[*damage];
+  if (!(branch.stress(last) > branch.stress(first)))
+    return unknown("no load before the crack damage stress");
+  const double slope =
+    (expansion(last) - expansion(first)) / (branch.stress(last) - branch.stress(first));
+  double furthest = 0.0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k <= *damage; ++k)
+    {
+      const double on_line = expansion(first) + slope * (branch.stress(branch.rows[k]) - branch.stress(first));
+      if (const double distance = on_line - expansion(branch.rows[k]); distance > furthest)
+        {
+          furthest = distance;
+          at = k;
+        }
+    }
+  if (at == 0)
+    return unknown("lateral strain never lags behind a straight line");
+  return known(branch.stress(branch.rows[at]));
 }
 
 /// Moduli and Poisson's ratios, of tests whose stress is uniform.
@@ -301,6 +323,29 @@ void evaluate_fragments(const TestRecord& record, TestResults& results)
 }
 } // namespace
 
+std::optional<std::size_t> peak_row(const TestRecord& record)
+{
+  PeakWatch watch(record.kind);
+  std::size_t peak = 0;
+  for (std::size_t k = 0; k < record.curve.size(); ++k)
+    if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
+      peak = k;
+  if (peak == 0 || peak + 1 == record.curve.size())
+    return std::nullopt;
+  return peak;
+}
+
+std::optional<std::size_t> crack_initiation_row(const TestRecord& record, const std::size_t peak)
+{
+  const std::uint64_t at_peak = n_cracks(record.curve[peak]);
+  if (at_peak == 0)
+    return std::nullopt;
+  std::size_t row = 0;
+  while (double(n_cracks(record.curve[row])) < 0.01 * double(at_peak))
+    ++row;
+  return row;
+}
+
 TestResults evaluate(const TestRecord& record)
 {
   TestResults results;
@@ -331,7 +376,8 @@ TestResults evaluate(const TestRecord& record)
   const CurveSample& at_peak = curve[*peak];
   results.peak_stress = known(branch.stress(at_peak));
   results.strain_at_peak = known(sign * at_peak.axial_strain);
-  results.crack_initiation_stress = crack_initiation(branch);
+  results.crack_initiation_stress = crack_initiation(record, branch);
+  results.crack_initiation_stress_lateral = crack_initiation_by_lateral_strain(record, branch);
   results.crack_damage_stress = crack_damage(record, branch);
   results.post_peak_drop = known(1.0 - branch.stress(curve.back()) / branch.stress(at_peak));
   results.residual_deviator_ratio = known(branch.deviator(curve.back()) / branch.peak_deviator);

@@ -108,7 +108,8 @@ struct CurveSample
 /// A grain as the pictures need it.
 struct GrainPicture
 {
-  std::array<double, 3> position; ///< [m]
+  std::array<double, 3> start;    ///< when the loading began [m]
+  std::array<double, 3> position; ///< at the end [m]
   double radius;                  ///< [m]
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
 };
@@ -167,7 +168,8 @@ struct TestResults
   Figure youngs_modulus_secant;  ///< to 50 % of the peak
   Figure poissons_ratio_initial;
   Figure poissons_ratio_secant;
-  Figure crack_initiation_stress;
+  Figure crack_initiation_stress;         ///< by the count of cracks
+  Figure crack_initiation_stress_lateral; ///< by the lateral strain, as curves of the laboratory are read
   Figure crack_damage_stress;
   Figure post_peak_drop;          ///< peak minus last stress, over peak
   Figure residual_deviator_ratio; ///< deviator at the end over that at the peak
@@ -187,6 +189,13 @@ struct TestResults
   std::uint64_t n_fragments = 0;       ///< of two grains or more, at the end
   double largest_fragment_share = 0.0; ///< of the grains' volume
 };
+
+/// The row of the curve where the stress was highest; none if it was rising to the end. Of a Brazilian test the first
+/// maximum that was followed by a fall: the halves of a split disc may carry more than the whole one did.
+std::optional<std::size_t> peak_row(const TestRecord& record);
+
+/// The first row with 1 % of the cracks at the peak; none if there is no crack up to there.
+std::optional<std::size_t> crack_initiation_row(const TestRecord& record, std::size_t peak);
 
 /// Reads the results off the curve (docs/theory.md §5).
 TestResults evaluate(const TestRecord& record);

@@ -2,15 +2,10 @@
 
 namespace feldspar
 {
-namespace
-{
-constexpr int schema_version = 1;
-} // namespace
-
 nlohmann::ordered_json as_json(const Provenance& provenance)
 {
   nlohmann::ordered_json json;
-  json["schema_version"] = schema_version;
+  json["schema_version"] = summary_schema_version;
   json["feldspar_version"] = provenance.version;
   json["commit"] = provenance.commit;
   json["input"]["file"] = provenance.input_file;

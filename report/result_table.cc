@@ -1,82 +1,101 @@
 #include "report/result_table.h"
 
 #include <cmath>
+#include <limits>
 
 namespace feldspar
 {
 namespace
 {
-using Value = std::function<Figure(const FinishedTest&)>;
-
-Value result(Figure TestResults::*member)
+/// A figure that may be missing, with the reason.
+ResultEntry result(const std::string_view name, Figure TestResults::*member)
 {
-  return [member](const FinishedTest& test) { return test.results.*member; };
+  return {name, [member](const FinishedTest& test) { return test.results.*member; },
+          [member](FinishedTest& test, const Figure& figure) { test.results.*member = figure; }};
 }
 
-/// A number that is always there, or NaN with the reason for it.
-template <typename Get>
-Value number(Get&& get, std::string reason_for_nan = "")
+/// A number that is always there, or NaN with the reason for it. `part` gives the number's place in a test.
+template <typename Part>
+ResultEntry number(const std::string_view name, const Part& part, const std::string& reason_for_nan = "")
 {
-  return [get, reason_for_nan](const FinishedTest& test) -> Figure {
-    const auto value = double(get(test));
-    if (std::isnan(value))
-      return {std::nullopt, reason_for_nan};
-    return {value, ""};
-  };
+  return {name,
+          [=](const FinishedTest& test) -> Figure {
+            const auto value = double(part(test));
+            if (std::isnan(value))
+              return {std::nullopt, reason_for_nan};
+            return {value, ""};
+          },
+          [=](FinishedTest& test, const Figure& figure) {
+            auto& place = part(test);
+            using Number = std::remove_reference_t<decltype(place)>;
+            place = Number(figure.value.value_or(std::numeric_limits<Number>::quiet_NaN())); // 0 of a count
+          }};
 }
 
 template <typename T>
-Value of_specimen(T SpecimenReport::*member, std::string reason_for_nan = "")
+ResultEntry of_test(const std::string_view name, T TestRecord::*member)
 {
-  return number([member](const FinishedTest& test) { return test.record.specimen.*member; }, reason_for_nan);
+  return number(name, [member](auto& test) -> auto& { return test.record.*member; });
+}
+
+template <typename T>
+ResultEntry of_results(const std::string_view name, T TestResults::*member)
+{
+  return number(name, [member](auto& test) -> auto& { return test.results.*member; });
+}
+
+template <typename T>
+ResultEntry of_specimen(const std::string_view name, T SpecimenReport::*member, const std::string& reason_for_nan = "")
+{
+  return number(name, [member](auto& test) -> auto& { return test.record.specimen.*member; }, reason_for_nan);
 }
 } // namespace
 
 const std::vector<ResultEntry>& result_table()
 {
   static const std::vector<ResultEntry> table{
-    {"confining_pressure_Pa", number([](const FinishedTest& test) { return test.record.confining_pressure; })},
-    {"strain_rate_per_s", number([](const FinishedTest& test) { return test.record.strain_rate; })},
-    {"peak_stress_Pa", result(&TestResults::peak_stress)},
-    {"strain_at_peak", result(&TestResults::strain_at_peak)},
-    {"youngs_modulus_initial_Pa", result(&TestResults::youngs_modulus_initial)},
-    {"youngs_modulus_tangent_Pa", result(&TestResults::youngs_modulus_tangent)},
-    {"youngs_modulus_secant_Pa", result(&TestResults::youngs_modulus_secant)},
-    {"poissons_ratio_initial", result(&TestResults::poissons_ratio_initial)},
-    {"poissons_ratio_secant", result(&TestResults::poissons_ratio_secant)},
-    {"crack_initiation_stress_Pa", result(&TestResults::crack_initiation_stress)},
-    {"crack_damage_stress_Pa", result(&TestResults::crack_damage_stress)},
-    {"post_peak_drop", result(&TestResults::post_peak_drop)},
-    {"residual_deviator_ratio", result(&TestResults::residual_deviator_ratio)},
-    {"n_tension_cracks", number([](const FinishedTest& test) { return test.results.n_tension_cracks; })},
-    {"n_shear_cracks", number([](const FinishedTest& test) { return test.results.n_shear_cracks; })},
-    {"n_tension_cracks_at_peak", result(&TestResults::n_tension_cracks_at_peak)},
-    {"n_shear_cracks_at_peak", result(&TestResults::n_shear_cracks_at_peak)},
-    {"shear_share_at_peak", result(&TestResults::shear_share_at_peak)},
-    {"n_fragments", number([](const FinishedTest& test) { return test.results.n_fragments; })},
-    {"largest_fragment_share", number([](const FinishedTest& test) { return test.results.largest_fragment_share; })},
-    {"n_grains", of_specimen(&SpecimenReport::n_grains)},
-    {"n_joints", of_specimen(&SpecimenReport::n_joints)},
-    {"coordination_number", of_specimen(&SpecimenReport::coordination_number)},
-    {"coordination_number_core", of_specimen(&SpecimenReport::coordination_number_core,
-                                             "no grain lies more than three mean diameters from the walls")},
-    {"installation_gap_ratio", of_specimen(&SpecimenReport::installation_gap_ratio)},
-    {"porosity", of_specimen(&SpecimenReport::porosity)},
-    {"mean_overlap_ratio", of_specimen(&SpecimenReport::mean_overlap_ratio)},
-    {"resolution", of_specimen(&SpecimenReport::resolution)},
-    {"radius_multiplier", of_specimen(&SpecimenReport::radius_multiplier)},
-    {"energy_imbalance", number([](const FinishedTest& test) { return test.results.energy_imbalance; })},
-    {"energy_imbalance_over_work",
-     number([](const FinishedTest& test) { return test.results.energy_imbalance_over_work; })},
-    {"kinetic_to_strain_energy", result(&TestResults::kinetic_to_strain_energy)},
-    {"unbalanced_force_ratio", result(&TestResults::unbalanced_force_ratio)},
-    {"end_stress_difference", result(&TestResults::end_stress_difference)},
-    {"p_wave_transits_to_peak", result(&TestResults::p_wave_transits_to_peak)},
-    {"servo_error", result(&TestResults::servo_error)},
-    {"servo_error_largest", result(&TestResults::servo_error_largest)},
-    {"steps", number([](const FinishedTest& test) { return test.record.steps; })},
-    {"time_step_s", number([](const FinishedTest& test) { return test.record.time_step; })},
-    {"wall_time_s", number([](const FinishedTest& test) { return test.record.wall_time; })}};
+    of_test("confining_pressure_Pa", &TestRecord::confining_pressure),
+    of_test("strain_rate_per_s", &TestRecord::strain_rate),
+    result("peak_stress_Pa", &TestResults::peak_stress),
+    result("strain_at_peak", &TestResults::strain_at_peak),
+    result("youngs_modulus_initial_Pa", &TestResults::youngs_modulus_initial),
+    result("youngs_modulus_tangent_Pa", &TestResults::youngs_modulus_tangent),
+    result("youngs_modulus_secant_Pa", &TestResults::youngs_modulus_secant),
+    result("poissons_ratio_initial", &TestResults::poissons_ratio_initial),
+    result("poissons_ratio_secant", &TestResults::poissons_ratio_secant),
+    result("crack_initiation_stress_Pa", &TestResults::crack_initiation_stress),
+    result("crack_initiation_stress_lateral_Pa", &TestResults::crack_initiation_stress_lateral),
+    result("crack_damage_stress_Pa", &TestResults::crack_damage_stress),
+    result("post_peak_drop", &TestResults::post_peak_drop),
+    result("residual_deviator_ratio", &TestResults::residual_deviator_ratio),
+    of_results("n_tension_cracks", &TestResults::n_tension_cracks),
+    of_results("n_shear_cracks", &TestResults::n_shear_cracks),
+    result("n_tension_cracks_at_peak", &TestResults::n_tension_cracks_at_peak),
+    result("n_shear_cracks_at_peak", &TestResults::n_shear_cracks_at_peak),
+    result("shear_share_at_peak", &TestResults::shear_share_at_peak),
+    of_results("n_fragments", &TestResults::n_fragments),
+    of_results("largest_fragment_share", &TestResults::largest_fragment_share),
+    of_specimen("n_grains", &SpecimenReport::n_grains),
+    of_specimen("n_joints", &SpecimenReport::n_joints),
+    of_specimen("coordination_number", &SpecimenReport::coordination_number),
+    of_specimen("coordination_number_core", &SpecimenReport::coordination_number_core,
+                "no grain lies more than three mean diameters from the walls"),
+    of_specimen("installation_gap_ratio", &SpecimenReport::installation_gap_ratio),
+    of_specimen("porosity", &SpecimenReport::porosity),
+    of_specimen("mean_overlap_ratio", &SpecimenReport::mean_overlap_ratio),
+    of_specimen("resolution", &SpecimenReport::resolution),
+    of_specimen("radius_multiplier", &SpecimenReport::radius_multiplier),
+    of_results("energy_imbalance", &TestResults::energy_imbalance),
+    of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work),
+    result("kinetic_to_strain_energy", &TestResults::kinetic_to_strain_energy),
+    result("unbalanced_force_ratio", &TestResults::unbalanced_force_ratio),
+    result("end_stress_difference", &TestResults::end_stress_difference),
+    result("p_wave_transits_to_peak", &TestResults::p_wave_transits_to_peak),
+    result("servo_error", &TestResults::servo_error),
+    result("servo_error_largest", &TestResults::servo_error_largest),
+    of_test("steps", &TestRecord::steps),
+    of_test("time_step_s", &TestRecord::time_step),
+    of_test("wall_time_s", &TestRecord::wall_time)};
   return table;
 }
 } // namespace feldspar

@@ -13,9 +13,10 @@ struct ResultEntry
 {
   std::string_view name;
   std::function<Figure(const FinishedTest&)> value;
+  std::function<void(FinishedTest&, const Figure&)> set; ///< puts back what `value` gave
 };
 
-/// Every figure that summary.json gives for a test, in its order there. Whoever writes, averages or compares results
-/// walks this.
+/// Every figure that summary.json gives for a test, in its order there. Whoever writes, reads, averages or compares
+/// results walks this.
 const std::vector<ResultEntry>& result_table();
 } // namespace feldspar

@@ -1,5 +1,7 @@
 #include "report/statistics.h"
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <cmath>
 
 namespace feldspar
@@ -19,6 +21,9 @@ std::optional<Statistics> statistics(const std::vector<double>& values)
         squares += (value - result.mean) * (value - result.mean);
       result.standard_deviation = std::sqrt(squares / double(result.n - 1));
       result.standard_error = *result.standard_deviation / std::sqrt(double(result.n));
+      const boost::math::students_t student{double(result.n - 1)};
+      result.confidence_95 =
+        boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - 0.95))) * *result.standard_error;
     }
   return result;
 }

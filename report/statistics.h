@@ -12,6 +12,7 @@ struct Statistics
   double mean = 0.0;
   std::optional<double> standard_deviation; ///< of the sample (n - 1); none for one value
   std::optional<double> standard_error;     ///< of the mean
+  std::optional<double> confidence_95;      ///< half-width of the interval of the mean, by Student's t
 };
 
 /// None for no values.

@@ -43,10 +43,14 @@ Json describe(const FinishedTest& test)
   Json json;
   json["kind"] = name(test.record.kind);
   json["name"] = test.name;
+  json["group"] = test.group;
   json["seed"] = test.record.seed;
   if (!test.variant.empty())
     json["variant"] = test.variant;
   json["interrupted"] = test.record.interrupted;
+  if (!test.record.failure.empty())
+    json["failure"] = test.record.failure;
+  json["size_m"] = test.record.size;
   for (const auto& entry : result_table())
     {
       write_figure(json, std::string(entry.name), entry.value(test));
@@ -76,6 +80,7 @@ Json ensemble(const std::vector<FinishedTest>& tests)
             {
               out["standard_deviation"] = *over_seeds->standard_deviation;
               out["standard_error"] = *over_seeds->standard_error;
+              out["mean_confidence_95"] = *over_seeds->confidence_95;
             }
         }
   return json;

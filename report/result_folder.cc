@@ -1,0 +1,180 @@
+#include "report/result_folder.h"
+
+#include "dem/input_error.h"
+#include "report/csv_tables.h"
+#include "report/provenance_json.h"
+#include "report/result_table.h"
+#include "report/summary.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json, const std::string_view key)
+{
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::optional<TestKind> kind_named(const std::string_view wanted)
+{
+  for (const TestKind kind : {TestKind::direct_tension, TestKind::uniaxial_compression, TestKind::triaxial_compression,
+                              TestKind::brazilian})
+    if (name(kind) == wanted)
+      return kind;
+  return std::nullopt;
+}
+
+Json read_summary(const std::filesystem::path& folder)
+{
+  const std::filesystem::path file = folder / result_file::summary;
+  std::ifstream in(file);
+  if (!in)
+    throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
+  Json json = Json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    throw InputError(fmt::format("{}: not JSON, or cut short", file.string()));
+  if (!json.contains("tests") || !json["tests"].is_array())
+    throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
+  return json;
+}
+
+Provenance provenance_of(const Json& json)
+{
+  Provenance made_by;
+  made_by.version = text_of(json, "feldspar_version");
+  made_by.commit = text_of(json, "commit");
+  if (const auto input = json.find("input"); input != json.end() && input->is_object())
+    {
+      made_by.input_file = text_of(*input, "file");
+      if (const auto parameters = input->find("parameters"); parameters != input->end() && parameters->is_object())
+        for (const auto& [section, entries] : parameters->items())
+          if (entries.is_object())
+            for (const auto& [entry, value] : entries.items())
+              made_by.input.push_back({section, entry, value.is_string() ? value.get<std::string>() : value.dump()});
+    }
+  if (const auto host = json.find("host"); host != json.end() && host->is_object())
+    {
+      made_by.processor = text_of(*host, "processor");
+      if (const auto threads = host->find("threads"); threads != host->end() && threads->is_number_unsigned())
+        made_by.n_threads = threads->get<unsigned int>();
+    }
+  return made_by;
+}
+
+FinishedTest test_of(const Json& json, const TestKind kind)
+{
+  FinishedTest test;
+  test.record.kind = kind;
+  test.name = text_of(json, "name");
+  test.variant = text_of(json, "variant");
+  test.record.failure = text_of(json, "failure");
+  test.record.interrupted = json.contains("interrupted") && json["interrupted"] == true;
+  if (const auto seed = json.find("seed"); seed != json.end() && seed->is_number_unsigned())
+    test.record.seed = seed->get<std::uint64_t>();
+  if (const auto size = json.find("size_m"); size != json.end() && size->is_array())
+    for (std::size_t c = 0; c < std::min<std::size_t>(size->size(), 3); ++c)
+      if ((*size)[c].is_number())
+        test.record.size[c] = (*size)[c].get<double>();
+  for (const auto& entry : result_table())
+    {
+      const std::string key(entry.name);
+      Figure figure{std::nullopt, "not in this result folder"};
+      if (const auto found = json.find(key); found != json.end() && found->is_number())
+        figure = {found->get<double>(), ""};
+      else if (const std::string reason = text_of(json, key + "_reason"); !reason.empty())
+        figure.reason = reason;
+      entry.set(test, figure);
+    }
+  test.group = text_of(json, "group");
+  if (test.group.empty()) // a layout from before groups were written
+    test.group = test.name.substr(0, test.name.rfind("_seed_"));
+  return test;
+}
+
+/// Runs a reader; what it objects to becomes a problem.
+template <typename Read>
+void try_to(std::vector<std::string>& problems, Read&& read)
+{
+  try
+    {
+      read();
+    }
+  catch (const InputError& error)
+    {
+      problems.push_back(error.what());
+    }
+}
+} // namespace
+
+void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
+                         const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder / result_file::curves);
+  std::filesystem::create_directories(folder / result_file::grains);
+  for (const auto& test : tests)
+    {
+      write_curve(test, folder / result_file::curves / (test.name + ".csv"));
+      write_grains(test, folder / result_file::grains / (test.name + ".csv"));
+    }
+  write_cracks(tests, folder / result_file::cracks);
+  write_summary(made_by, tests, folder / result_file::summary);
+}
+
+std::vector<Series> read_result_folder(const std::filesystem::path& folder)
+{
+  const Json json = read_summary(folder);
+  std::vector<std::string> problems;
+  const auto version = json.find("schema_version");
+  if (version == json.end() || *version != summary_schema_version)
+    problems.push_back(fmt::format("{} has layout {}; this program writes layout {}, so figures may be missing here",
+                                   (folder / result_file::summary).string(),
+                                   version == json.end() ? "unknown" : version->dump(), summary_schema_version));
+
+  std::vector<FinishedTest> tests;
+  for (const auto& entry : json["tests"])
+    if (const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind")) : std::nullopt)
+      tests.push_back(test_of(entry, *kind));
+    else
+      problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out",
+                                     (folder / result_file::summary).string()));
+  if (tests.empty())
+    throw InputError(fmt::format("{}: there is no test in it", (folder / result_file::summary).string()));
+
+  for (auto& test : tests)
+    {
+      if (!test.record.failure.empty())
+        continue; // it has neither
+      const std::string table = test.name + ".csv";
+      try_to(problems,
+             [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
+    }
+  try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
+
+  const std::filesystem::path whole = std::filesystem::absolute(folder);
+  const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  std::vector<Series> all;
+  for (auto& test : tests)
+    {
+      const std::string name_of_series = test.variant.empty() ? label : test.variant;
+      auto series = std::find_if(all.begin(), all.end(),
+                                 [&](const Series& one) { return one.label == name_of_series; });
+      if (series == all.end())
+        series = all.insert(all.end(), {name_of_series, SeriesKind::specimens, provenance_of(json), {}, {}});
+      series->tests.push_back(std::move(test));
+    }
+  all.front().problems = problems;
+  return all;
+}
+} // namespace feldspar
