@@ -15,10 +15,10 @@ build_packages=(
   g++ cmake ninja-build git ca-certificates
   libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
   libdeal.ii-dev petsc-dev
-  libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev
+  libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
-test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales)
+test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium)
 
 say() { printf '\n==> %s\n' "$*"; }
 die()

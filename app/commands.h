@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// The subcommands. Each returns the exit code; a user's mistake comes as InputError.
 namespace feldspar
@@ -32,6 +33,18 @@ int run_rve(const CommonOptions& options);
 int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);
+
+struct ReportOptions
+{
+  std::vector<std::filesystem::path> result_folders;
+  std::vector<std::filesystem::path> curves; ///< measured in a laboratory
+  std::optional<std::filesystem::path> reference;
+  std::optional<std::filesystem::path> output;
+  bool force = false;
+  bool quiet = false;
+};
+
+int run_report(const ReportOptions& options);
 
 struct ParametersOptions
 {

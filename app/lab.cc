@@ -5,11 +5,12 @@
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/provenance.h"
+#include "app/report_command.h"
 #include "app/run_record.h"
 #include "app/specimen_source.h"
 #include "dem/input_error.h"
 #include "report/comparison.h"
-#include "report/figures.h"
+#include "report/reference.h"
 #include "report/result_folder.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
@@ -24,16 +25,16 @@ namespace feldspar
 {
 namespace
 {
-std::optional<std::filesystem::path> reference_of(const Input& input)
+std::optional<Reference> reference_of(const Input& input)
 {
   if (input.reference_file.empty())
     return std::nullopt;
-  return input.reference_file;
+  return read_reference(input.reference_file);
 }
 
 /// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
 std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<2>>& specimens,
-                         const std::vector<FinishedTest>& tests, const std::string& figure_problem)
+                         const std::vector<FinishedTest>& tests, const std::vector<std::string>& missing)
 {
   std::string text;
   for (const auto& specimen : specimens)
@@ -52,8 +53,8 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   for (const auto& test : tests)
     if (!test.results.peak_stress.value)
       text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
-  if (!figure_problem.empty())
-    text += figure_problem + "\n";
+  for (const auto& sentence : missing)
+    text += sentence + "\n";
   return text;
 }
 
@@ -92,13 +93,8 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
-  std::string figure_problem;
-  if (!tests.empty())
-    {
-      std::filesystem::create_directories(folder / "figures");
-      figure_problem = draw_figures(tests, folder / "figures").problem;
-    }
-  const std::string text = describe_run(all_variants, specimens, tests, figure_problem);
+  const auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder});
+  const std::string text = describe_run(all_variants, specimens, tests, missing);
   write_text_file(folder / "log.txt", text);
   if (!quiet)
     fmt::print("\n{}\n", text);
@@ -158,7 +154,7 @@ int run_lab(const CommonOptions& options)
         fmt::format("{}: Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set "
                     "Shape = box, or use feldspar rve",
                     options.input.string()));
-  compare({}, reference_of(input)); // a bad reference file is said before the work, not after it
+  reference_of(input); // a bad reference file is said before the work, not after it
   const OutputFolder folder(options.output, options.input, options.force);
   remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
   try

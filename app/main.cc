@@ -32,10 +32,11 @@ public:
   {
     app.set_version_flag("--version", fmt::format("feldspar {}", version));
     app.require_subcommand(0, 1);
-    add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, pictures", run_lab));
+    add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, report", run_lab));
     add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
+    add_report();
     add_parameters();
   }
 
@@ -88,6 +89,25 @@ private:
     command.get_option("--force")->excludes(resume);
   }
 
+  void add_report()
+  {
+    CLI::App& command = *app.add_subcommand("report", "(re)make the comparison report from result folders");
+    command.add_option("RESULTS", report.result_folders, "folders of `feldspar lab`; each is a series of its own");
+    command.add_option("--curve", report.curves, "a stress-strain curve measured in a laboratory; may be repeated")
+      ->type_name("CSV")
+      ->allow_extra_args(false);
+    command
+      .add_option("--reference", report.reference, "figures of the rock (default: those the runs were set beside)")
+      ->type_name("JSON");
+    command
+      .add_option("--output", report.output,
+                  "folder of the report (default: the folder itself if there is one, else report-results-001, ...)")
+      ->type_name("DIR");
+    command.add_flag("--force", report.force, "write over what is in the folder");
+    command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
+    command.callback([this] { chosen = [this] { return run_report(report); }; });
+  }
+
   void add_parameters()
   {
     CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
@@ -113,13 +133,14 @@ private:
   {
     if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
       return;
-    const std::vector<std::string_view> names{"lab", "rve", "specimen", "contact", "parameters"};
+    const std::vector<std::string_view> names{"lab", "rve", "specimen", "contact", "report", "parameters"};
     if (std::find(names.begin(), names.end(), argv[1]) == names.end())
       throw InputError(fmt::format("{}: no such command{}", argv[1], suggestion(argv[1], names)));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and flat joints", "feldspar"};
   CommonOptions common;
+  ReportOptions report;
   ParametersOptions parameters;
   std::optional<unsigned int> n_threads;
   std::function<int()> chosen;

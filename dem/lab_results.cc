@@ -205,8 +205,9 @@ Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
     return unknown("of uniaxial and triaxial compression only");
   if (const auto row = most_contracted_row(branch))
     return known(branch.stress(branch.rows[*row]));
-  return unknown(branch.rows.back().gauge_volumetric_strain < 0.0 ? "volumetric strain did not turn round before the peak"
-                                                                  : "the volume never contracted");
+  return unknown(branch.rows.back().gauge_volumetric_strain < 0.0
+                   ? "volumetric strain did not turn round before the peak"
+                   : "the volume never contracted");
 }
 
 /// Lateral strain response: the stress at which the lateral expansion lies furthest below the straight line from the
@@ -223,8 +224,7 @@ Figure crack_initiation_by_lateral_strain(const TestRecord& record, const Rising
   const CurveSample& last = branch.rows[*damage];
   if (!(branch.stress(last) > branch.stress(first)))
     return unknown("no load before the crack damage stress");
-  const double slope =
-    (expansion(last) - expansion(first)) / (branch.stress(last) - branch.stress(first));
+  const double slope = (expansion(last) - expansion(first)) / (branch.stress(last) - branch.stress(first));
   double furthest = 0.0;
   std::size_t at = 0;
   for (std::size_t k = 0; k <= *damage; ++k)

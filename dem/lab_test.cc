@@ -197,9 +197,9 @@ TestRecord LabTest<dim>::finish(const bool interrupted) const
   result.time_step = set_up.dynamics.time_step();
   const auto fragment = fragments(specimen.joints, specimen.grains.size());
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
-    result.grains_at_end.push_back(
-      {in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
-       in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i], fragment[i]});
+    result.grains_at_end.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
+                                    in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i],
+                                    fragment[i]});
   return result;
 }
 

@@ -1,51 +1,16 @@
 #include "report/comparison.h"
 
-#include "dem/input_error.h"
-#include "report/statistics.h"
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <map>
 
 namespace feldspar
 {
 namespace
 {
-using Json = nlohmann::json;
-
-Json read(const std::optional<std::filesystem::path>& file)
-{
-  if (!file)
-    return Json::object();
-  std::ifstream in(*file);
-  if (!in)
-    throw InputError(fmt::format("Report/Reference file = {}: no such file", file->string()));
-  Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("experiment"))
-    throw InputError(
-      fmt::format("Report/Reference file = {}: not a JSON file with an \"experiment\" in it", file->string()));
-  return json;
-}
-
-/// The keys of a reference file end in its units, MPa and GPa; scale turns its bare numbers into the row's unit.
-std::optional<ReferenceValue> find(const Json& json, const char* source, const std::string& key, const double scale)
-{
-  if (!json.contains(source) || !json[source].contains(key) || !json[source][key].contains("mean"))
-    return std::nullopt;
-  const Json& entry = json[source][key];
-  const auto number = [&](const char* name) -> std::optional<double> {
-    return entry.contains(name) && entry[name].is_number() ? std::optional(entry[name].get<double>() / scale)
-                                                           : std::nullopt;
-  };
-  if (!number("mean"))
-    return std::nullopt;
-  return ReferenceValue{*number("mean"), number("min"), number("max")};
-}
-
 /// One value a seed, from the figure of one kind of test.
 std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, const TestKind kind,
                                         Figure TestResults::*figure)
@@ -58,12 +23,24 @@ std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, 
 }
 } // namespace
 
-std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
-                                   const std::optional<std::filesystem::path>& reference_file)
+std::optional<double> ComparisonRow::deviation() const
+{
+  if (!ours || !experiment || experiment->mean == 0.0)
+    return std::nullopt;
+  return ours->mean / experiment->mean - 1.0;
+}
+
+std::optional<bool> ComparisonRow::in_range() const
+{
+  if (!ours || !experiment || !experiment->low || !experiment->high)
+    return std::nullopt;
+  return ours->mean >= *experiment->low && ours->mean <= *experiment->high;
+}
+
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
 {
   constexpr auto pulled = TestKind::direct_tension;
   constexpr auto crushed = TestKind::uniaxial_compression;
-  const Json reference = read(reference_file);
   std::vector<ComparisonRow> rows;
   const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
                        const std::map<std::uint64_t, double>& values, const std::string& key,
@@ -71,18 +48,11 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
     std::vector<double> scaled;
     for (const auto& [seed, value] : values)
       scaled.push_back(value / scale);
-    const auto ours = statistics(scaled);
-    ComparisonRow row{property,
-                      unit,
-                      decimals,
-                      std::nullopt,
-                      std::nullopt,
-                      find(reference, "paper_model", key, reference_scale),
-                      find(reference, "experiment", key, reference_scale)};
-    if (ours)
+    ComparisonRow row{property, unit, decimals, statistics(scaled), std::nullopt, std::nullopt};
+    if (reference)
       {
-        row.mean = ours->mean;
-        row.standard_deviation = ours->standard_deviation;
+        row.model = reference->model.find(key, reference_scale);
+        row.experiment = reference->experiment.find(key, reference_scale);
       }
     rows.push_back(row);
   };
@@ -99,6 +69,8 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
       "strain_at_tensile_peak", 1e-4);
   add("uniaxial compressive strength", "MPa", 1, 1e6, strength, "uniaxial_compressive_strength_MPa");
   add("tensile over compressive strength", "", 3, 1.0, ratio, "tension_to_compression");
+  add("strain at peak, compression", "1e-3", 2, 1e-3, by_seed(tests, crushed, &TestResults::strain_at_peak),
+      "strain_at_compressive_peak", 1e-3);
   add("Young's modulus, tangent 40-60 % of peak", "GPa", 1, 1e9,
       by_seed(tests, crushed, &TestResults::youngs_modulus_tangent), "youngs_modulus_GPa");
   add("Young's modulus, initial", "GPa", 1, 1e9, by_seed(tests, crushed, &TestResults::youngs_modulus_initial), "");
@@ -107,12 +79,14 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
   add("Poisson's ratio, initial", "", 3, 1.0, by_seed(tests, crushed, &TestResults::poissons_ratio_initial), "");
   add("crack initiation stress, compression", "MPa", 1, 1e6,
       by_seed(tests, crushed, &TestResults::crack_initiation_stress), "crack_initiation_stress_MPa");
+  add("crack initiation stress, lateral strain", "MPa", 1, 1e6,
+      by_seed(tests, crushed, &TestResults::crack_initiation_stress_lateral), "crack_initiation_stress_lateral_MPa");
   add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
       "crack_damage_stress_MPa");
   std::map<double, std::map<std::uint64_t, double>> confined;
   for (const auto& test : tests)
     if (test.record.kind == TestKind::triaxial_compression && test.results.peak_stress.value)
-      confined[test.record.confining_pressure][test.record.seed] = *test.results.peak_stress.value;
+      confined[std::round(test.record.confining_pressure)][test.record.seed] = *test.results.peak_stress.value;
   for (const auto& [pressure, strengths] : confined)
     {
       const std::string megapascals = fmt::format("{:g}", pressure / 1e6);
@@ -124,6 +98,17 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
   return rows;
 }
 
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value)
+{
+  const auto number = [&](const double x) { return fmt::format("{:.{}f}", x, row.decimals); };
+  if (!value)
+    return "-";
+  std::string text = number(value->mean);
+  if (value->low && value->high)
+    text += fmt::format(" ({} to {})", number(*value->low), number(*value->high));
+  return text;
+}
+
 std::string as_text(const std::vector<ComparisonRow>& rows)
 {
   std::vector<std::array<std::string, 4>> cells;
@@ -131,19 +116,11 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
   for (const auto& row : rows)
     {
       const auto value = [&](const double number) { return fmt::format("{:.{}f}", number, row.decimals); };
-      const auto reference = [&](const std::optional<ReferenceValue>& entry) {
-        if (!entry)
-          return std::string("-");
-        std::string text = value(entry->mean);
-        if (entry->low && entry->high)
-          text += fmt::format(" ({} to {})", value(*entry->low), value(*entry->high));
-        return text;
-      };
-      std::string ours = row.mean ? value(*row.mean) : "-";
-      if (row.standard_deviation)
-        ours += fmt::format(" ± {}", value(*row.standard_deviation));
+      std::string ours = row.ours ? value(row.ours->mean) : "-";
+      if (row.ours && row.ours->standard_deviation)
+        ours += fmt::format(" ± {}", value(*row.ours->standard_deviation));
       cells.push_back({row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit), ours,
-                       reference(row.model), reference(row.experiment)});
+                       as_text(row, row.model), as_text(row, row.experiment)});
     }
 
   // Width on the screen: bytes that continue a UTF-8 character take no place.

@@ -1,38 +1,36 @@
 #pragma once
 
+#include "report/reference.h"
 #include "report/run.h"
+#include "report/statistics.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace feldspar
 {
-/// A figure of the rock or of another model, with its range where that is known.
-struct ReferenceValue
-{
-  double mean;
-  std::optional<double> low;
-  std::optional<double> high;
-};
-
-/// One property of the rock: ours beside the references.
+/// One property of the rock: ours beside the references, all in `unit`.
 struct ComparisonRow
 {
   std::string property;
   std::string unit;
   int decimals;
-  std::optional<double> mean; ///< over the seeds
-  std::optional<double> standard_deviation;
+  std::optional<Statistics> ours;      ///< over the seeds
   std::optional<ReferenceValue> model; ///< of the paper
   std::optional<ReferenceValue> experiment;
+
+  /// Of our mean from that of the experiment, over the latter; none without either.
+  std::optional<double> deviation() const;
+  /// Whether our mean lies in the range of the experiment; none without either.
+  std::optional<bool> in_range() const;
 };
 
-/// Sets results beside a reference file (JSON: rock, experiment, paper_model; see examples/beishan-granite/
-/// reference.json). Without a file the reference columns stay empty. Throws InputError for a file that is none.
-std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests,
-                                   const std::optional<std::filesystem::path>& reference_file);
+/// Sets the results of one rock beside a reference; without one its columns stay empty.
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference);
+
+/// A figure of a reference as the row writes numbers: mean (low to high), or a dash.
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value);
 
 /// For a terminal.
 std::string as_text(const std::vector<ComparisonRow>& rows);

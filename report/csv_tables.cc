@@ -46,18 +46,21 @@ Column<Row> column(const std::string_view name, const Part& part, const bool lab
 template <typename Row, typename T>
 Column<Row> column(const std::string_view name, T Row::*member, const bool laboratory = false)
 {
-  return column<Row>(name, [member](auto& row) -> auto& { return row.*member; }, laboratory);
+  return column<Row>(
+    name, [member](auto& row) -> auto& { return row.*member; }, laboratory);
 }
 
 Column<CurveSample> energy(const std::string_view name, double Energies::*member)
 {
-  return column<CurveSample>(name, [member](auto& row) -> auto& { return row.energies.*member; });
+  return column<CurveSample>(
+    name, [member](auto& row) -> auto& { return row.energies.*member; });
 }
 
 template <typename Row, std::size_t n>
 Column<Row> coordinate(const std::string_view name, std::array<double, n> Row::*member, const std::size_t c)
 {
-  return column<Row>(name, [=](auto& row) -> auto& { return (row.*member)[c]; });
+  return column<Row>(
+    name, [=](auto& row) -> auto& { return (row.*member)[c]; });
 }
 
 const std::vector<Column<CurveSample>>& curve_columns()
@@ -89,31 +92,23 @@ const std::vector<Column<CurveSample>>& curve_columns()
 /// All but the name of the test and the kind.
 const std::vector<Column<Crack>>& crack_columns()
 {
-  static const std::vector<Column<Crack>> columns{column<Crack>("joint", &Crack::joint),
-                                                  column<Crack>("segment", &Crack::segment),
-                                                  column<Crack>("step", &Crack::step),
-                                                  column<Crack>("axial_strain", &Crack::axial_strain, true),
-                                                  coordinate("x_m", &Crack::centroid, 0),
-                                                  coordinate("y_m", &Crack::centroid, 1),
-                                                  coordinate("z_m", &Crack::centroid, 2),
-                                                  coordinate("normal_x", &Crack::normal, 0),
-                                                  coordinate("normal_y", &Crack::normal, 1),
-                                                  coordinate("normal_z", &Crack::normal, 2),
-                                                  column<Crack>("size_m", &Crack::size),
-                                                  column<Crack>("released_energy_J", &Crack::released_energy)};
+  static const std::vector<Column<Crack>> columns{
+    column<Crack>("joint", &Crack::joint),     column<Crack>("segment", &Crack::segment),
+    column<Crack>("step", &Crack::step),       column<Crack>("axial_strain", &Crack::axial_strain, true),
+    coordinate("x_m", &Crack::centroid, 0),    coordinate("y_m", &Crack::centroid, 1),
+    coordinate("z_m", &Crack::centroid, 2),    coordinate("normal_x", &Crack::normal, 0),
+    coordinate("normal_y", &Crack::normal, 1), coordinate("normal_z", &Crack::normal, 2),
+    column<Crack>("size_m", &Crack::size),     column<Crack>("released_energy_J", &Crack::released_energy)};
   return columns;
 }
 
 const std::vector<Column<GrainPicture>>& grain_columns()
 {
-  static const std::vector<Column<GrainPicture>> columns{coordinate("start_x_m", &GrainPicture::start, 0),
-                                                         coordinate("start_y_m", &GrainPicture::start, 1),
-                                                         coordinate("start_z_m", &GrainPicture::start, 2),
-                                                         coordinate("x_m", &GrainPicture::position, 0),
-                                                         coordinate("y_m", &GrainPicture::position, 1),
-                                                         coordinate("z_m", &GrainPicture::position, 2),
-                                                         column<GrainPicture>("radius_m", &GrainPicture::radius),
-                                                         column<GrainPicture>("fragment", &GrainPicture::fragment)};
+  static const std::vector<Column<GrainPicture>> columns{
+    coordinate("start_x_m", &GrainPicture::start, 0),        coordinate("start_y_m", &GrainPicture::start, 1),
+    coordinate("start_z_m", &GrainPicture::start, 2),        coordinate("x_m", &GrainPicture::position, 0),
+    coordinate("y_m", &GrainPicture::position, 1),           coordinate("z_m", &GrainPicture::position, 2),
+    column<GrainPicture>("radius_m", &GrainPicture::radius), column<GrainPicture>("fragment", &GrainPicture::fragment)};
   return columns;
 }
 

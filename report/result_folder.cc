@@ -28,8 +28,8 @@ std::string text_of(const Json& json, const std::string_view key)
 
 std::optional<TestKind> kind_named(const std::string_view wanted)
 {
-  for (const TestKind kind : {TestKind::direct_tension, TestKind::uniaxial_compression, TestKind::triaxial_compression,
-                              TestKind::brazilian})
+  for (const TestKind kind :
+       {TestKind::direct_tension, TestKind::uniaxial_compression, TestKind::triaxial_compression, TestKind::brazilian})
     if (name(kind) == wanted)
       return kind;
   return std::nullopt;
@@ -156,8 +156,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
       if (!test.record.failure.empty())
         continue; // it has neither
       const std::string table = test.name + ".csv";
-      try_to(problems,
-             [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
     }
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
@@ -168,8 +167,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
   for (auto& test : tests)
     {
       const std::string name_of_series = test.variant.empty() ? label : test.variant;
-      auto series = std::find_if(all.begin(), all.end(),
-                                 [&](const Series& one) { return one.label == name_of_series; });
+      auto series =
+        std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
       if (series == all.end())
         series = all.insert(all.end(), {name_of_series, SeriesKind::specimens, provenance_of(json), {}, {}});
       series->tests.push_back(std::move(test));

@@ -35,19 +35,22 @@ ResultEntry number(const std::string_view name, const Part& part, const std::str
 template <typename T>
 ResultEntry of_test(const std::string_view name, T TestRecord::*member)
 {
-  return number(name, [member](auto& test) -> auto& { return test.record.*member; });
+  return number(
+    name, [member](auto& test) -> auto& { return test.record.*member; });
 }
 
 template <typename T>
 ResultEntry of_results(const std::string_view name, T TestResults::*member)
 {
-  return number(name, [member](auto& test) -> auto& { return test.results.*member; });
+  return number(
+    name, [member](auto& test) -> auto& { return test.results.*member; });
 }
 
 template <typename T>
 ResultEntry of_specimen(const std::string_view name, T SpecimenReport::*member, const std::string& reason_for_nan = "")
 {
-  return number(name, [member](auto& test) -> auto& { return test.record.specimen.*member; }, reason_for_nan);
+  return number(
+    name, [member](auto& test) -> auto& { return test.record.specimen.*member; }, reason_for_nan);
 }
 } // namespace
 

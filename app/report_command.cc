@@ -1,0 +1,66 @@
+#include "app/report_command.h"
+
+#include "app/commands.h"
+#include "app/laboratory_curve.h"
+#include "app/output_folder.h"
+#include "dem/input_error.h"
+#include "report/report.h"
+#include "report/result_folder.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+namespace feldspar
+{
+std::vector<std::string> report_on(const ReportOrder& order)
+{
+  ReportInput input;
+  input.one_folder = order.result_folders.size() == 1;
+  std::optional<std::filesystem::path> reference = order.reference;
+  for (const auto& folder : order.result_folders)
+    {
+      for (auto& series : read_result_folder(folder))
+        input.all.push_back(std::move(series));
+      if (!reference && std::filesystem::exists(folder / result_file::reference))
+        reference = folder / result_file::reference;
+    }
+  for (const auto& curve : order.curves)
+    input.all.push_back(read_laboratory_curve(curve));
+  if (reference)
+    try
+      {
+        input.reference = read_reference(*reference);
+      }
+    catch (const InputError& error)
+      {
+        input.reference_problem = error.what();
+      }
+  else
+    input.reference_problem = "there is no reference file: give one with Report/Reference file or --reference";
+  return write_report(input, order.output);
+}
+
+int run_report(const ReportOptions& options)
+{
+  ReportOrder order{options.result_folders, options.curves, options.reference, {}};
+  if (order.result_folders.empty() && order.curves.empty())
+    throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
+  if (order.result_folders.size() == 1 && !options.output)
+    {
+      order.output = order.result_folders.front();
+      if (!std::filesystem::is_directory(order.output))
+        throw InputError(fmt::format("{}: there is no such folder", order.output.string()));
+    }
+  std::optional<OutputFolder> folder;
+  if (order.output.empty())
+    order.output = folder.emplace(options.output, "report", options.force).path();
+  const auto missing = report_on(order);
+  if (!options.quiet)
+    for (const auto& sentence : missing)
+      fmt::print("{}\n", sentence);
+  fmt::print("{}\n", (order.output / result_file::page).string());
+  return 0;
+}
+} // namespace feldspar

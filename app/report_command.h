@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What a report is to be made of and where.
+struct ReportOrder
+{
+  std::vector<std::filesystem::path> result_folders;
+  std::vector<std::filesystem::path> curves;      ///< measured in a laboratory, one file a test
+  std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
+  std::filesystem::path output;                   ///< exists
+};
+
+/// Reads, and writes the report. Returns what is missing in it and why. Throws InputError for a folder that holds no
+/// results and for a curve that cannot be read.
+std::vector<std::string> report_on(const ReportOrder& order);
+} // namespace feldspar

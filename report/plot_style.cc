@@ -1,0 +1,45 @@
+#include "report/plot_style.h"
+
+#include "report/gnuplot.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+
+namespace feldspar::plot
+{
+std::string colour(const Series& series, const std::size_t n)
+{
+  static constexpr std::array colours{blue, vermillion, green, purple, orange, sky};
+  return series.kind == SeriesKind::laboratory_curve ? black : colours[n % colours.size()];
+}
+
+int dashes(const std::size_t n) { return 1 + int(n / 6); }
+
+std::string frame(const std::string& x_label, const std::string& y_label)
+{
+  return fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n"
+                     "set border 3 lw 0.8; set tics nomirror out; set grid lw 0.5 lc rgb '#e4e4e4'\n"
+                     "set key below center horizontal Left reverse samplen 2.2 spacing 1.15 width 2 noenhanced\n",
+                     quoted(x_label), quoted(y_label));
+}
+
+std::string title(const std::string& text)
+{
+  return text.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(text));
+}
+
+std::string file_name(const std::string& label)
+{
+  std::string name;
+  for (const char c : label)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.')
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  while (!name.empty() && name.back() == '_')
+    name.pop_back();
+  return name;
+}
+} // namespace feldspar::plot

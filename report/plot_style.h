@@ -1,0 +1,41 @@
+#pragma once
+
+#include "report/series.h"
+
+#include <string>
+
+/// What all pictures share: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
+namespace feldspar::plot
+{
+inline constexpr double mega = 1e6;
+inline constexpr double milli = 1e-3;
+inline constexpr double percent = 1e-2;
+
+inline constexpr const char* black = "#000000";
+inline constexpr const char* grey = "#8c8c8c";
+inline constexpr const char* light_grey = "#d8d8d8";
+inline constexpr const char* blue = "#0072B2";
+inline constexpr const char* vermillion = "#D55E00";
+inline constexpr const char* green = "#009E73";
+inline constexpr const char* purple = "#CC79A7";
+inline constexpr const char* sky = "#56B4E9";
+inline constexpr const char* orange = "#E69F00";
+
+inline constexpr const char* tension_colour = vermillion;
+inline constexpr const char* shear_colour = blue;
+
+/// Of the n-th series; a measured curve is black.
+std::string colour(const Series& series, std::size_t n);
+
+/// Dashes tell series apart where colours repeat.
+int dashes(std::size_t n);
+
+/// Axis labels, grid, and the key under the plot, where it hides nothing.
+std::string frame(const std::string& x_label, const std::string& y_label);
+
+/// `title` for the key of a plot, or none.
+std::string title(const std::string& text);
+
+/// A name for files out of a label.
+std::string file_name(const std::string& label);
+} // namespace feldspar::plot

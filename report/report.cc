@@ -1,0 +1,597 @@
+#include "report/report.h"
+
+#include "report/comparison.h"
+#include "report/crack_pictures.h"
+#include "report/curve_pictures.h"
+#include "report/envelope_pictures.h"
+#include "report/page.h"
+#include "report/plot_style.h"
+#include "report/result_folder.h"
+#include "report/result_table.h"
+#include "report/statistics.h"
+#include "report/strength_data.h"
+#include "report/strength_envelopes.h"
+#include "report/test_groups.h"
+#include "report/test_pictures.h"
+#include "report/text_file.h"
+#include "report/trust.h"
+#include "report/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double mega = 1e6;
+const std::string none = "–";
+
+/// Everything that sections are made of, computed once.
+struct Findings
+{
+  const std::vector<Series>& all;
+  const std::optional<Reference>& reference;
+  const std::string& reference_problem;
+  bool one_folder;
+  std::vector<std::vector<ComparisonRow>> comparisons; ///< of each series
+  std::vector<StrengthEnvelopes> envelopes;            ///< of each series
+};
+
+std::string number(const double value, const int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+
+std::string number(const Figure& figure, const double unit, const int decimals)
+{
+  return figure.value ? number(*figure.value / unit, decimals) : none;
+}
+
+std::string estimate(const Estimate& value, const double unit, const int decimals)
+{
+  std::string text = number(value.value / unit, decimals);
+  if (value.half_width.value)
+    text += fmt::format(" ± {}", number(*value.half_width.value / unit, decimals));
+  return text;
+}
+
+std::string deviation_text(const Statistics& over_seeds, const double unit, const int decimals)
+{
+  std::string text = number(over_seeds.mean / unit, decimals);
+  if (over_seeds.standard_deviation)
+    text += fmt::format(" ± {}", number(*over_seeds.standard_deviation / unit, decimals));
+  return text;
+}
+
+std::string interval_text(const Statistics& over_seeds, const double unit, const int decimals)
+{
+  if (!over_seeds.confidence_95)
+    return none;
+  return fmt::format("{} to {}", number((over_seeds.mean - *over_seeds.confidence_95) / unit, decimals),
+                     number((over_seeds.mean + *over_seeds.confidence_95) / unit, decimals));
+}
+
+/// Terminal text writes stresses out.
+std::string with_symbols(std::string text)
+{
+  for (const auto& [word, symbol] :
+       {std::pair("sigma_3", "σ₃"), {"sigma_1", "σ₁"}, {"sigma_t", "σ_t"}, {"sigma_ci", "σ_ci"}, {"<=", "≤"}})
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
+      text.replace(at, std::string(word).size(), symbol);
+  return text;
+}
+
+/// The heading of what belongs to one of several series.
+PageBlock block_of(const Findings& findings, const std::size_t n)
+{
+  PageBlock block;
+  if (findings.all.size() > 1)
+    {
+      block.subheading = findings.all[n].label;
+      block.chip = plot::colour(findings.all[n], n);
+    }
+  return block;
+}
+
+std::string against_experiment(const ComparisonRow& row)
+{
+  if (!row.ours || !row.experiment)
+    return none;
+  const std::string deviation = row.deviation() ? fmt::format("{:+.1f} %", 100.0 * *row.deviation()) : "";
+  if (!row.in_range())
+    return deviation + ", no range given";
+  return (*row.in_range() ? "✓ " : "✗ ") + deviation + (*row.in_range() ? ", in range" : ", out of range");
+}
+
+Table comparison_table(const Findings& findings)
+{
+  // Rows of all series, by their names, in the order in which they come.
+  std::vector<std::string> properties;
+  for (const auto& rows : findings.comparisons)
+    for (const auto& row : rows)
+      if ((row.ours || row.experiment || row.model) &&
+          std::find(properties.begin(), properties.end(), row.property) == properties.end())
+        properties.push_back(row.property);
+  const bool one = findings.all.size() == 1;
+
+  Table table{"comparison",
+              "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
+              "Student's t. Range: does our mean lie in that of the experiments?",
+              {"property"},
+              {}};
+  for (const auto& series : findings.all)
+    {
+      const std::string of = one ? "model" : series.label;
+      table.header.insert(table.header.end(), {of, of + ": 95 % of the mean", of + " against experiment"});
+    }
+  if (findings.reference)
+    table.header.insert(table.header.end(),
+                        {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label});
+  for (const auto& property : properties)
+    {
+      std::vector<std::string> cells{""};
+      std::string experiment = none;
+      std::string model = none;
+      for (const auto& rows : findings.comparisons)
+        {
+          const auto row = std::find_if(rows.begin(), rows.end(),
+                                        [&](const ComparisonRow& candidate) { return candidate.property == property; });
+          if (row == rows.end())
+            {
+              cells.insert(cells.end(), 3, none);
+              continue;
+            }
+          cells.front() = row->unit.empty() ? property : fmt::format("{} [{}]", property, row->unit);
+          cells.push_back(
+            row->ours ? deviation_text(*row->ours, 1.0, row->decimals) + fmt::format(" (n = {})", row->ours->n) : none);
+          cells.push_back(row->ours ? interval_text(*row->ours, 1.0, row->decimals) : none);
+          cells.push_back(against_experiment(*row));
+          if (row->experiment)
+            experiment = as_text(*row, row->experiment);
+          if (row->model)
+            model = as_text(*row, row->model);
+        }
+      if (findings.reference)
+        cells.insert(cells.end(), {experiment, model});
+      table.rows.push_back(cells);
+    }
+  return table;
+}
+
+PageSection verdict_section(const Findings& findings)
+{
+  PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      PageBlock block = block_of(findings, n);
+      if (findings.all[n].kind != SeriesKind::laboratory_curve)
+        {
+          const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
+          block.headline = answer.headline;
+          block.points = answer.points;
+        }
+      block.warnings = warnings(findings.all[n]);
+      if (block.warnings.empty() && findings.all[n].kind != SeriesKind::laboratory_curve)
+        block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
+      section.blocks.push_back(block);
+    }
+  PageBlock table;
+  if (!findings.reference_problem.empty())
+    table.warnings.push_back(findings.reference_problem + ".");
+  table.tables.push_back(comparison_table(findings));
+  if (findings.reference)
+    {
+      std::string source = findings.reference->rock;
+      for (const auto& citation : findings.reference->citations)
+        source += (source.empty() ? "" : ". ") + citation;
+      if (!source.empty())
+        table.paragraphs.push_back("Reference: " + source + ".");
+    }
+  section.blocks.push_back(table);
+  return section;
+}
+
+Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
+{
+  const auto& measured = envelopes.data;
+  const auto stress = [](const std::optional<double>& value, const int decimals) {
+    return value ? number(*value / mega, decimals) : none;
+  };
+  Table table{
+    name,
+    fmt::format("Envelopes: parameters ± half of the 95 % interval, stresses in MPa. Measured UCS {}, measured "
+                "σ_t {}",
+                stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
+    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
+    {}};
+  for (const auto& pair : envelopes.hoek_brown)
+    for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+      {
+        const std::string form = fmt::format(
+          "Hoek–Brown, {}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
+          answer == &pair.with_tension_point ? "with" : "without");
+        if (!answer->fit)
+          {
+            table.rows.push_back({form, "no fit: " + answer->reason, "", "", "", "", "", "", "", ""});
+            continue;
+          }
+        const HoekBrownFit& fit = *answer->fit;
+        table.rows.push_back({form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 2), estimate(fit.s, 1.0, 3),
+                              estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
+                              number(fit.quality.root_mean_square / mega, 1),
+                              estimate(fit.uniaxial_compressive_strength, mega, 1),
+                              number(-fit.tensile_cut_off.value / mega, 2), fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
+      }
+  if (const auto& fit = envelopes.mohr_coulomb.fit)
+    table.rows.push_back(
+      {fmt::format("Mohr–Coulomb: φ = {}°, c = {} MPa", estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
+                   estimate(fit->cohesion, mega, 1)),
+       none, none, none, none, number(fit->quality.r_squared, 1.0, 4), number(fit->quality.root_mean_square / mega, 1),
+       estimate(fit->uniaxial_strength, mega, 1), none, "✓"});
+  else
+    table.rows.push_back({"Mohr–Coulomb", "no fit: " + envelopes.mohr_coulomb.reason, "", "", "", "", "", "", "", ""});
+  return table;
+}
+
+Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name)
+{
+  Table table{name, "Residuals: σ₁ of each point less that of the envelope [MPa]", {"σ₃ [MPa]", "σ₁ [MPa]"}, {}};
+  std::map<std::pair<double, double>, std::map<std::size_t, double>> residuals;
+  std::size_t n_fits = 0;
+  for (const auto& record : records(envelopes))
+    {
+      if (!record.reason.empty())
+        continue;
+      std::string heading = record.form + (record.variant.empty() ? "" : ", " + record.variant);
+      std::replace(heading.begin(), heading.end(), '_', ' ');
+      table.header.push_back(heading);
+      for (const auto& [point, residual] : record.residuals)
+        residuals[{point.sigma_3, point.sigma_1}][n_fits] = residual;
+      ++n_fits;
+    }
+  for (const auto& [point, of_fits] : residuals)
+    {
+      std::vector<std::string> row{number(point.first / mega, 2), number(point.second / mega, 1)};
+      for (std::size_t k = 0; k < n_fits; ++k)
+        row.push_back(of_fits.contains(k) ? number(of_fits.at(k) / mega, 1) : none);
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+/// "" of a single series, else something that tells the files of the series apart.
+std::string of_series(const Findings& findings, const std::size_t n)
+{
+  return findings.all.size() > 1 ? fmt::format("_{}_{}", n + 1, plot::file_name(findings.all[n].label)) : "";
+}
+
+/// Draws everything and puts it where it belongs.
+class PictureBook
+{
+public:
+  /// Where the pictures go is filled in later: sections keep places.
+  std::vector<PagePicture> keep(std::vector<Picture> pictures)
+  {
+    std::vector<PagePicture> places;
+    for (auto& picture : pictures)
+      {
+        places.push_back({picture, ""});
+        all.push_back(std::move(picture));
+      }
+    return places;
+  }
+
+  /// Pictures that go to files only.
+  void keep_as_files(std::vector<Picture> pictures)
+  {
+    for (auto& picture : pictures)
+      if (std::none_of(all.begin(), all.end(), [&](const Picture& other) { return other.name == picture.name; }))
+        all.push_back(std::move(picture));
+  }
+
+  void draw_into(const std::filesystem::path& folder, Page& page)
+  {
+    const auto problems = draw(all, folder);
+    std::map<std::string, std::string> problem_of;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      problem_of[all[k].name] = problems[k];
+    for (auto& section : page.sections)
+      for (auto& block : section.blocks)
+        for (auto& picture : block.pictures)
+          picture.problem = problem_of[picture.picture.name];
+    const auto first = std::find_if(problems.begin(), problems.end(), [](const auto& text) { return !text.empty(); });
+    if (first != problems.end())
+      missing = *first;
+  }
+
+  std::string missing; ///< why the first picture that is missing is
+private:
+  std::vector<Picture> all;
+};
+
+template <typename T>
+void append(std::vector<T>& all, std::vector<T> more)
+{
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
+PageSection envelope_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"envelope", "Envelope", "Strength envelope", {}};
+  if (auto combined = combined_envelope_picture(findings.all, findings.envelopes, findings.reference);
+      !combined.empty())
+    {
+      PageBlock together;
+      together.pictures = book.keep(std::move(combined));
+      section.blocks.push_back(together);
+    }
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      if (findings.all[n].kind == SeriesKind::laboratory_curve)
+        continue;
+      PageBlock block = block_of(findings, n);
+      const StrengthEnvelopes& envelopes = findings.envelopes[n];
+      if (envelopes.data.points.empty())
+        {
+          block.paragraphs.push_back("No compression test of this series has a strength, so there is no envelope.");
+          section.blocks.push_back(block);
+          continue;
+        }
+      block.paragraphs.push_back(with_symbols(remark(envelopes)));
+      block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
+      section.blocks.push_back(block);
+      PageBlock figures;
+      figures.tables.push_back(fit_table(envelopes, "envelopes" + of_series(findings, n)));
+      figures.paragraphs.push_back(
+        "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
+        "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");
+      section.blocks.push_back(figures);
+      PageBlock residuals;
+      residuals.folded = "Residual of every point" + (findings.all.size() > 1 ? ", " + findings.all[n].label : "");
+      residuals.pictures = book.keep(residual_picture(findings.all[n], envelopes));
+      residuals.tables.push_back(residual_table(envelopes, "residuals" + of_series(findings, n)));
+      if (!residuals.pictures.empty())
+        section.blocks.push_back(residuals);
+    }
+  return section;
+}
+
+PageSection curve_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"curves", "Curves", "Curves", {}};
+  for (auto& group : curve_pictures(findings.all))
+    if (group.on_page)
+      {
+        PageBlock block;
+        block.subheading = group.title;
+        block.pictures = book.keep(std::move(group.pictures));
+        section.blocks.push_back(block);
+      }
+    else
+      book.keep_as_files(std::move(group.pictures));
+  PageBlock remark_below;
+  remark_below.paragraphs.push_back(
+    section.blocks.empty()
+      ? std::string("No test of these series has a curve.")
+      : fmt::format("Of the confinements the lowest and the highest are shown; the others are in {}/.",
+                    result_file::figures));
+  section.blocks.push_back(remark_below);
+  return section;
+}
+
+PageSection crack_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"cracks", "Cracks", "Cracks", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      const Series& series = findings.all[n];
+      if (series.kind == SeriesKind::laboratory_curve)
+        continue;
+      PageBlock block = block_of(findings, n);
+      std::vector<Picture> maps;
+      std::vector<Picture> fragments;
+      for (const auto& group : shown(groups_of(series)))
+        if (const auto* test = typical(group))
+          {
+            const std::string title = group.title() + (findings.all.size() > 1 ? ", " + series.label : "");
+            append(maps, crack_map(*test, title));
+            append(fragments, fragment_map(*test, title));
+          }
+      if (!findings.one_folder)
+        for (auto* pictures : {&maps, &fragments})
+          for (auto& picture : *pictures)
+            picture.name += of_series(findings, n);
+      if (maps.empty())
+        block.paragraphs.push_back(
+          "No crack map: the positions of the grains, or a test with a peak, are missing in this "
+          "result folder.");
+      block.pictures = book.keep(std::move(maps));
+      append(block.pictures, book.keep(rose_picture(series)));
+      append(block.pictures, book.keep(std::move(fragments)));
+      append(block.pictures, book.keep(fragment_size_picture(series)));
+      section.blocks.push_back(block);
+    }
+  PageBlock together;
+  together.pictures = book.keep(shear_share_picture(findings.all));
+  if (!together.pictures.empty())
+    section.blocks.push_back(together);
+  return section;
+}
+
+Table strength_table(const Findings& findings)
+{
+  Table table{"strengths",
+              "Strengths of every kind of test [MPa]",
+              {"test", "series", "n", "mean ± s.d.", "95 % of the mean", "shear share of cracks at the peak [%]",
+               "deviator at the end over peak"},
+              {}};
+  for (const auto& series : findings.all)
+    for (const auto& group : groups_of(series))
+      {
+        const auto over_seeds = [&](Figure TestResults::*figure, const double unit, const int decimals) {
+          const auto found = statistics(values(group, figure));
+          return found ? deviation_text(*found, unit, decimals) : none;
+        };
+        const auto strength = statistics(values(group, &TestResults::peak_stress));
+        const int decimals = group.kind == TestKind::direct_tension || group.kind == TestKind::brazilian ? 2 : 1;
+        table.rows.push_back({group.title(), series.label, fmt::format("{}", strength ? strength->n : 0),
+                              over_seeds(&TestResults::peak_stress, mega, decimals),
+                              strength ? interval_text(*strength, mega, decimals) : none,
+                              over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),
+                              over_seeds(&TestResults::residual_deviator_ratio, 1.0, 2)});
+      }
+  return table;
+}
+
+/// Every figure of every test in SI; the page shows the most wanted, the file has all.
+Table test_table(const Findings& findings, const bool all_figures)
+{
+  static const std::set<std::string_view> wanted{"peak_stress_Pa",
+                                                 "strain_at_peak",
+                                                 "youngs_modulus_tangent_Pa",
+                                                 "youngs_modulus_initial_Pa",
+                                                 "poissons_ratio_initial",
+                                                 "crack_initiation_stress_Pa",
+                                                 "crack_damage_stress_Pa",
+                                                 "n_tension_cracks",
+                                                 "n_shear_cracks",
+                                                 "energy_imbalance_over_work",
+                                                 "wall_time_s"};
+  Table table{"tests", "Every test, SI; the file has every figure of summary.json", {"test", "series", "seed"}, {}};
+  for (const auto& entry : result_table())
+    if (all_figures || wanted.contains(entry.name))
+      table.header.emplace_back(entry.name);
+  for (const auto& series : findings.all)
+    for (const auto& test : series.tests)
+      {
+        std::vector<std::string> row{test.name, series.label, fmt::format("{}", test.record.seed)};
+        for (const auto& entry : result_table())
+          if (all_figures || wanted.contains(entry.name))
+            {
+              const Figure figure = entry.value(test);
+              row.push_back(!figure.value ? (all_figures ? "" : none)
+                                          : fmt::format("{:.{}g}", *figure.value, all_figures ? 10 : 4));
+            }
+        table.rows.push_back(row);
+      }
+  return table;
+}
+
+PageSection trust_section(const Findings& findings)
+{
+  PageSection section{"trust", "Trust", "How far to trust it", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      const Series& series = findings.all[n];
+      PageBlock block = block_of(findings, n);
+      if (series.kind == SeriesKind::laboratory_curve)
+        {
+          block.paragraphs.push_back("Measured on rock; there is nothing of ours to be checked.");
+          section.blocks.push_back(block);
+          continue;
+        }
+      Table checks{"trust" + of_series(findings, n),
+                   "Checks over all tests",
+                   {"measure", "bound", "mean", "worst", "within"},
+                   {}};
+      for (const auto& check : trust_checks(series))
+        checks.rows.push_back({check.measure, check.bound, check.mean, check.worst,
+                               check.n_out == 0 ? fmt::format("✓ all {}", check.n_tests)
+                                                : fmt::format("✗ {} of {} out", check.n_out, check.n_tests)});
+      block.tables.push_back(checks);
+      Table specimens = specimen_table(series);
+      specimens.name += of_series(findings, n);
+      block.tables.push_back(specimens);
+      const auto& made_by = series.made_by;
+      block.paragraphs.push_back(fmt::format("Made by feldspar {}{} from {} on {}, {} thread{}.",
+                                             made_by.version.empty() ? "of unknown version" : made_by.version,
+                                             made_by.commit.empty() ? "" : ", commit " + made_by.commit,
+                                             made_by.input_file.empty() ? "an unknown input" : made_by.input_file,
+                                             made_by.processor.empty() ? "an unknown processor" : made_by.processor,
+                                             made_by.n_threads, made_by.n_threads == 1 ? "" : "s"));
+      section.blocks.push_back(block);
+      Table input{"input" + of_series(findings, n), "Input as it was understood", {"section", "entry", "value"}, {}};
+      for (const auto& entry : made_by.input)
+        input.rows.push_back({entry.section, entry.entry, entry.value});
+      PageBlock echo;
+      echo.folded = "Input" + (findings.all.size() > 1 ? ", " + series.label : "");
+      echo.tables.push_back(input);
+      section.blocks.push_back(echo);
+    }
+  PageBlock tests;
+  tests.folded = "Every test";
+  tests.tables = {strength_table(findings), test_table(findings, false)};
+  section.blocks.push_back(tests);
+  return section;
+}
+
+/// Labels tell series apart; folders of the same name are numbered.
+std::vector<Series> with_unlike_labels(std::vector<Series> all)
+{
+  std::map<std::string, int> seen;
+  for (auto& series : all)
+    if (const int n = ++seen[series.label]; n > 1)
+      series.label += fmt::format(" ({})", n);
+  return all;
+}
+} // namespace
+
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder)
+{
+  const std::vector<Series> all = with_unlike_labels(input.all);
+  Findings findings{all, input.reference, input.reference_problem, input.one_folder, {}, {}};
+  for (const auto& series : all)
+    {
+      findings.comparisons.push_back(compare(series.tests, input.reference));
+      findings.envelopes.push_back(fit_strength_envelopes(strength_data(series.tests)));
+    }
+
+  PictureBook book;
+  Page page;
+  page.title = input.reference && !input.reference->rock.empty()
+                 ? input.reference->rock.substr(0, input.reference->rock.find_first_of(":;"))
+                 : "Rock";
+  page.title += ": model and rock";
+  std::size_t n_tests = 0;
+  for (const auto& series : all)
+    n_tests += series.tests.size();
+  page.subtitle =
+    fmt::format("Feldspar report of {} test{} in {} series.", n_tests, n_tests == 1 ? "" : "s", all.size());
+  page.sections = {verdict_section(findings), envelope_section(findings, book), curve_section(findings, book),
+                   crack_section(findings, book), trust_section(findings)};
+
+  if (input.one_folder)
+    for (const auto& series : all)
+      {
+        book.keep_as_files(single_test_pictures(series));
+        if (&series == &all.front())
+          book.keep_as_files(overview_picture(series));
+      }
+
+  std::filesystem::create_directories(folder / result_file::figures);
+  std::filesystem::create_directories(folder / result_file::tables);
+  book.draw_into(folder / result_file::figures, page);
+  if (!book.missing.empty())
+    page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + book.missing);
+  for (const auto& section : page.sections)
+    for (const auto& block : section.blocks)
+      for (const auto& table : block.tables)
+        write_text_file(folder / result_file::tables / (table.name + ".csv"),
+                        as_csv(table.name == "tests" ? test_table(findings, true) : table));
+  write_page(page, folder / result_file::page, folder / result_file::figures);
+
+  std::vector<std::string> missing;
+  for (const auto& series : all)
+    missing.insert(missing.end(), series.problems.begin(), series.problems.end());
+  for (const auto& problem : {input.reference_problem, book.missing})
+    if (!problem.empty())
+      missing.push_back(problem);
+  return missing;
+}
+} // namespace feldspar

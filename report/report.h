@@ -1,0 +1,25 @@
+#pragma once
+
+#include "report/reference.h"
+#include "report/series.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What a report is made of.
+struct ReportInput
+{
+  std::vector<Series> all; ///< the first is the one that is compared in words
+  std::optional<Reference> reference;
+  std::string reference_problem; ///< why there is none although there should be one
+  bool one_folder = true;        ///< the names of tests are unlike; every test gets pictures of its own, as files
+};
+
+/// Writes report.html, figures/ and tables/ into a folder that exists. Returns what is missing in the report and why,
+/// each in a sentence; the report says it too.
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
+} // namespace feldspar
