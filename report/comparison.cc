@@ -37,6 +37,14 @@ std::optional<bool> ComparisonRow::in_range() const
   return ours->mean >= *experiment->low && ours->mean <= *experiment->high;
 }
 
+std::optional<bool> ComparisonRow::surely_in_range() const
+{
+  if (!in_range() || !ours->confidence_95)
+    return std::nullopt;
+  return ours->mean - *ours->confidence_95 >= *experiment->low &&
+         ours->mean + *ours->confidence_95 <= *experiment->high;
+}
+
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
 {
   constexpr auto pulled = TestKind::direct_tension;

@@ -24,6 +24,8 @@ struct ComparisonRow
   std::optional<double> deviation() const;
   /// Whether our mean lies in the range of the experiment; none without either.
   std::optional<bool> in_range() const;
+  /// Whether all of the 95 % interval of our mean lies in that range; none without either.
+  std::optional<bool> surely_in_range() const;
 };
 
 /// Sets the results of one rock beside a reference; without one its columns stay empty.

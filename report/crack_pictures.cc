@@ -198,30 +198,39 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const auto& [number, diameter] : diameters)
-    {
-      smallest = std::min(smallest, diameter);
-      largest = std::max(largest, diameter);
-    }
-  std::string rows;
+    if (number > 0)
+      {
+        smallest = std::min(smallest, diameter);
+        largest = std::max(largest, diameter);
+      }
+  const bool is_broken = largest > 0.0;
+  std::string body;
+  std::string loose;
   for (const auto& grain : record.grains_at_end)
-    fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g} {:.6g} {:.4g}\n", grain.position[0] / milli,
-                   grain.position[axis] / milli, grain.radius / milli, diameters.at(grain.fragment) / milli);
+    fmt::format_to(std::back_inserter(grain.fragment > 0 ? loose : body), "{:.6g} {:.6g} {:.6g} {:.4g}\n",
+                   grain.position[0] / milli, grain.position[axis] / milli, grain.radius / milli,
+                   diameters.at(grain.fragment) / milli);
   const auto [width, height] = panel_size(frame);
-  return {{.name = test.name + "_fragments",
-           .caption = fmt::format("{}, {}: fragments at the end, by their equivalent diameter", title, seed_of(test)),
-           .alternative = fmt::format(
-             "Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
-             title, seed_of(test), test.results.n_fragments, 100.0 * test.results.largest_fragment_share),
-           .width = width + 90,
-           .height = height,
-           .raster = true,
-           .vector = false,
-           .script = fmt::format("$grains << EOD\n{}EOD\n", rows) + map_set_up(frame) +
-                     // viridis, whose brightness grows all the way
-                     "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-                     "set logscale cb\nset cbtics (1,2,5,10,20,50,100,200)\nset cblabel 'equivalent diameter [mm]'\n" +
-                     fmt::format("set cbrange [{:.4g}:{:.4g}]\n", 0.95 * smallest / milli, 1.05 * largest / milli) +
-                     "unset key\nplot $grains using 1:2:3:4 with circles fill solid noborder lc palette\n"}};
+  return {
+    {.name = test.name + "_fragments",
+     .caption = fmt::format("{}, {}: fragments at the end, coloured by their size", title, seed_of(test)),
+     .alternative =
+       fmt::format("Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
+                   title, seed_of(test), test.results.n_fragments, 100.0 * test.results.largest_fragment_share),
+     .width = width + 90,
+     .height = height,
+     .raster = true,
+     .vector = false,
+     .script =
+       fmt::format("$body << EOD\n{}EOD\n$loose << EOD\n{}EOD\n", body, loose) + map_set_up(frame) +
+       // viridis, whose brightness grows all the way
+       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
+       "set logscale cb\nset cbtics (0.5,1,1.5,2,3,5,10,20,50,100,200)\nset cblabel 'equivalent diameter [mm]'\n" +
+       (is_broken ? fmt::format("set cbrange [{:.4g}:{:.4g}]\n", 0.95 * smallest / milli, 1.05 * largest / milli)
+                  : std::string()) +
+       fmt::format("plot $body using 1:2:3 with circles fill solid noborder lc rgb '{}' title 'largest piece'{}\n",
+                   light_grey,
+                   is_broken ? ", $loose using 1:2:3:4 with circles fill solid noborder lc palette notitle" : "")}};
 }
 
 std::vector<Picture> rose_picture(const Series& series)
@@ -271,16 +280,14 @@ std::vector<Picture> rose_picture(const Series& series)
       };
       data += fmt::format("$all{0} << EOD\n{1}EOD\n$shear{0} << EOD\n{2}EOD\n", n_panels, wedges(true), wedges(false));
       const double reach = 1.12 * largest / percent;
-      const double ring = std::max(1.0, std::floor(0.5 * largest / percent));
+      const double ring = std::max(1.0, std::floor(0.6 * largest / percent));
       plots += fmt::format(
-        "unset object; unset label\nset title {0} noenhanced\nset xrange [-{1}:{1}]; set yrange [-{1}:{1}]\n"
-        "set object 1 circle at 0,0 size {2} fs empty border lc rgb '#b0b0b0' lw 0.7 back\n"
-        "set object 2 circle at 0,0 size {3} fs empty border lc rgb '#b0b0b0' lw 0.7 back\n"
-        "set label 1 '{2} %' at 0,{2} offset 0.4,0.5 tc rgb '#606060' front\n"
-        "set label 2 '{3} %' at 0,{3} offset 0.4,0.5 tc rgb '#606060' front\n"
-        "plot $all{4} using 1:2 with filledcurves closed fill solid 0.85 border lc rgb '{5}' title 'tension', "
-        "$shear{4} using 1:2 with filledcurves closed fill solid 0.85 border lc rgb '{6}' title 'shear'\n",
-        quoted(group.title()), reach, ring, 2.0 * ring, n_panels, tension_colour, shear_colour);
+        "unset label\nset title {0} noenhanced\nset xrange [-{1}:{1}]; set yrange [-{1}:{1}]\n"
+        "set object 1 circle at 0,0 size {2} fs empty border lc rgb '#909090' lw 0.7 front\n"
+        "set label 1 'ring: {2} %' at graph 0.98,0.03 right tc rgb '#404040' front\n"
+        "plot $all{3} using 1:2 with filledcurves closed fs solid 0.8 noborder lc rgb '{4}' title 'tension', "
+        "$shear{3} using 1:2 with filledcurves closed fs solid 0.9 noborder lc rgb '{5}' title 'shear'\n",
+        quoted(group.title()), reach, ring, n_panels, tension_colour, shear_colour);
       ++n_panels;
     }
   if (n_panels == 0)

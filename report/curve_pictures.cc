@@ -159,8 +159,9 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
   const bool pulls = same.front().group.kind == TestKind::direct_tension;
   return Picture{
     .name = name + "_stress",
-    .caption = "Stress against axial, lateral and volumetric strain. Lines: means; bands: ± s.d.; thin: single "
-               "tests. Lateral and volumetric strain up to the mean strain at peak.",
+    .caption =
+      "Stress against axial, lateral and volumetric strain. Lines: means; bands: ± standard deviation; thin: single "
+      "tests. Lateral and volumetric strain up to the mean strain at peak",
     .alternative = "Stress against axial, lateral and volumetric strain in " + of_tests + ".",
     .width = width,
     .height = height,
@@ -207,7 +208,7 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
   if (plot.empty())
     return std::nullopt;
   return Picture{.name = name + "_cracks",
-                 .caption = "Broken segments. Lines: means; bands: ± s.d.",
+                 .caption = "Broken segments. Lines: means; bands: ± standard deviation",
                  .alternative = "Number of tension and of shear cracks against axial strain in " + of_tests + ".",
                  .width = width,
                  .height = height,
@@ -240,14 +241,14 @@ std::optional<Picture> energy_picture(const SameTests& same, const std::string& 
       fmt::format("dt {} lc rgb '{}'", part.dashes, part.colour), part.label);
   if (plot.empty())
     return std::nullopt;
-  return Picture{.name = name + "_energy",
-                 .caption = "Where the work of the boundaries went" +
-                            (same.size() > 1 ? ", " + of->series->label : std::string()) +
-                            ". Lines: means; bands: ± s.d.",
-                 .alternative = "Energies against axial strain in " + of_tests + ".",
-                 .width = width,
-                 .height = height,
-                 .script = plot.script(frame("axial strain [10⁻³]", "energy [J]") + "set key maxcols 3\n")};
+  return Picture{
+    .name = name + "_energy",
+    .caption = "Where the work of the boundaries went" + (same.size() > 1 ? ", " + of->series->label : std::string()) +
+               ". Lines: means; bands: ± standard deviation",
+    .alternative = "Energies against axial strain in " + of_tests + ".",
+    .width = width,
+    .height = height,
+    .script = plot.script(frame("axial strain [10⁻³]", "energy [J]") + "set yrange [0:*]\nset key maxcols 3\n")};
 }
 
 /// Cracks and their released energy per strain, as acoustic emission is shown.

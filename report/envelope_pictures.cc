@@ -87,8 +87,9 @@ public:
     for (int k = 0; k <= n; ++k)
       {
         // Closer where the curve bends: near its beginning.
-        const double share = double(k) / n;
-        const double sigma_3 = begin + (highest_3 * 1.03 - begin) * share * share;
+        const double share = std::pow(double(k) / n, 4.0);
+        const double inside = begin + 1e-12 * std::abs(begin); // at its beginning the bracket is 0, or just below it
+        const double sigma_3 = inside + (highest_3 * 1.03 - inside) * share;
         if (const double value = sigma_1(sigma_3); std::isfinite(value))
           fmt::format_to(std::back_inserter(rows), "{} {}\n", sigma_3 / mega, value / mega);
       }
@@ -122,7 +123,7 @@ public:
       {
         const PrintedEnvelope& printed = *reference.model.envelope;
         add_curve([&](const double x) { return printed.sigma_1(x); }, -printed.s * printed.sigma_ci / printed.m,
-                  fmt::format("lw 1.4 dt 3 lc rgb '{}'", grey), reference.model.label + ", printed envelope");
+                  fmt::format("lw 1.4 dt 3 lc rgb '{}'", grey), reference.model.label + ", printed");
       }
   }
 
@@ -141,7 +142,8 @@ public:
                    (lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
                    (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega,
                    (upper ? upper->sigma_1 : 1.08 * highest_1) / mega);
-    text += "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\nset key maxcols 2\nplot ";
+    text +=
+      "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\nset key vertical maxrows 5 font ',12'\nplot ";
     const auto add = [&](const std::vector<std::string>& entries) {
       for (const auto& entry : entries)
         text += entry + ", \\\n";
@@ -192,9 +194,9 @@ void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
       if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;
-      const std::string name = is_intact                              ? "Hoek–Brown, intact"
-                               : pair.form == HoekBrownForm::as_paper ? "Hoek–Brown, as the paper = general"
-                                                                      : "Hoek–Brown, general";
+      const std::string name = is_intact                              ? "H–B intact"
+                               : pair.form == HoekBrownForm::as_paper ? "H–B as the paper = general"
+                                                                      : "H–B general";
       for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
         if (answer->fit)
           {
@@ -233,7 +235,7 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
      .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
                     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
      .width = 820,
-     .height = 620,
+     .height = 660,
      .script = plotted.script()});
   // Near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
@@ -270,7 +272,7 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
           const HoekBrownFit& fit = *pair.with_tension_point.fit;
           plotted.add_curve([&](const double x) { return fit.sigma_1(x); }, fit.tensile_cut_off.value,
                             fmt::format("lw 2 dt {} lc rgb '{}'", dashes(n), colour(all[n], n)),
-                            all[n].label + ": Hoek–Brown, intact, with σ_t");
+                            all[n].label + ": H–B intact, with σ_t");
         }
   return {{.name = "envelopes",
            .caption = "Strength of all series",
@@ -318,7 +320,7 @@ std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelo
      .height = 460,
      .script =
        data + frame("confinement σ₃ [MPa], compression positive", "residual in σ₁ [MPa]") +
-       "set xzeroaxis lw 1 lc rgb '#808080'\nset key maxcols 2\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nplot " +
+       "set xzeroaxis lw 1 lc rgb '#808080'\nset key vertical maxrows 3 font ',12'\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nplot " +
        plots + "\n"}};
 }
 

@@ -42,7 +42,7 @@ std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
     result.emplace_back(".png", fmt::format("pngcairo size {} font 'DejaVu Sans,11'", size));
   if (picture.vector)
     {
-      result.emplace_back(".svg", fmt::format("svg size {} font 'DejaVu Sans,12' background 'white'", size));
+      result.emplace_back(".svg", fmt::format("svg size {} font 'sans-serif,14' background 'white'", size));
       result.emplace_back(".pdf", fmt::format("pdfcairo size {:.2f}cm,{:.2f}cm font 'DejaVu Sans,8'",
                                               picture.width / 40.0, picture.height / 40.0));
     }

@@ -65,6 +65,7 @@ data describe(const Table& table)
       rows << one;
     }
   data result = data::type::object;
+  result.set("id", "table_" + table.name);
   result.set("caption", table.caption);
   result.set("file", fmt::format("{}/{}.csv", result_file::tables, table.name));
   result.set("header", list(table.header));

@@ -19,9 +19,9 @@ int dashes(const std::size_t n) { return 1 + int(n / 6); }
 
 std::string frame(const std::string& x_label, const std::string& y_label)
 {
-  return fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n"
+  return fmt::format("set xlabel {} noenhanced offset 0,0.4\nset ylabel {} noenhanced\n"
                      "set border 3 lw 0.8; set tics nomirror out; set grid lw 0.5 lc rgb '#e4e4e4'\n"
-                     "set key below center horizontal Left reverse samplen 2.2 spacing 1.15 width 2 noenhanced\n",
+                     "set key below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8 noenhanced\n",
                      quoted(x_label), quoted(y_label));
 }
 

@@ -35,6 +35,12 @@ namespace
 constexpr double mega = 1e6;
 const std::string none = "–";
 
+template <typename T>
+void append(std::vector<T>& all, std::vector<T> more)
+{
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
+
 /// Everything that sections are made of, computed once.
 struct Findings
 {
@@ -99,14 +105,35 @@ PageBlock block_of(const Findings& findings, const std::size_t n)
   return block;
 }
 
+std::string signed_percent(const double share)
+{
+  return fmt::format("{}{:.1f} %", share < 0.0 ? "−" : "+", 100.0 * std::abs(share));
+}
+
 std::string against_experiment(const ComparisonRow& row)
 {
   if (!row.ours || !row.experiment)
     return none;
-  const std::string deviation = row.deviation() ? fmt::format("{:+.1f} %", 100.0 * *row.deviation()) : "";
+  const std::string deviation = row.deviation() ? signed_percent(*row.deviation()) : "";
   if (!row.in_range())
     return deviation + ", no range given";
   return (*row.in_range() ? "✓ " : "✗ ") + deviation + (*row.in_range() ? ", in range" : ", out of range");
+}
+
+/// A line of the comparison: heading, model, experiment, model against experiment and so on of one series; of several
+/// the rock before them.
+std::vector<std::string> arranged(const std::string& heading, const std::vector<std::string>& rock,
+                                  const std::vector<std::string>& ours, const bool one)
+{
+  std::vector<std::string> line{heading};
+  if (one && !rock.empty())
+    append(line, {ours[0], rock[0], ours[1], ours[2], rock[1]});
+  else
+    {
+      append(line, rock);
+      append(line, ours);
+    }
+  return line;
 }
 
 Table comparison_table(const Findings& findings)
@@ -125,17 +152,19 @@ Table comparison_table(const Findings& findings)
               "Student's t. Range: does our mean lie in that of the experiments?",
               {"property"},
               {}};
-  for (const auto& series : findings.all)
-    {
-      const std::string of = one ? "model" : series.label;
-      table.header.insert(table.header.end(), {of, of + ": 95 % of the mean", of + " against experiment"});
-    }
+  // Of one series the model stands beside the rock; of several each is held against the rock, which comes first.
+  std::vector<std::string> rock;
   if (findings.reference)
-    table.header.insert(table.header.end(),
-                        {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label});
+    rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};
+  std::vector<std::string> of_series;
+  for (const auto& series : findings.all)
+    append(of_series,
+           {one ? "model" : series.label, one ? "model against experiment" : "against experiment", "95 % of the mean"});
+  table.header = arranged("property", rock, of_series, one);
   for (const auto& property : properties)
     {
-      std::vector<std::string> cells{""};
+      std::string heading;
+      std::vector<std::string> ours;
       std::string experiment = none;
       std::string model = none;
       for (const auto& rows : findings.comparisons)
@@ -144,22 +173,22 @@ Table comparison_table(const Findings& findings)
                                         [&](const ComparisonRow& candidate) { return candidate.property == property; });
           if (row == rows.end())
             {
-              cells.insert(cells.end(), 3, none);
+              append(ours, {none, none, none});
               continue;
             }
-          cells.front() = row->unit.empty() ? property : fmt::format("{} [{}]", property, row->unit);
-          cells.push_back(
-            row->ours ? deviation_text(*row->ours, 1.0, row->decimals) + fmt::format(" (n = {})", row->ours->n) : none);
-          cells.push_back(row->ours ? interval_text(*row->ours, 1.0, row->decimals) : none);
-          cells.push_back(against_experiment(*row));
+          heading = row->unit.empty() ? property : fmt::format("{} [{}]", property, row->unit);
+          append(ours,
+                 {row->ours ? fmt::format("{} (n = {})", deviation_text(*row->ours, 1.0, row->decimals), row->ours->n)
+                            : none,
+                  against_experiment(*row), row->ours ? interval_text(*row->ours, 1.0, row->decimals) : none});
           if (row->experiment)
             experiment = as_text(*row, row->experiment);
           if (row->model)
             model = as_text(*row, row->model);
         }
       if (findings.reference)
-        cells.insert(cells.end(), {experiment, model});
-      table.rows.push_back(cells);
+        rock = {experiment, model};
+      table.rows.push_back(arranged(heading, rock, ours, one));
     }
   return table;
 }
@@ -205,17 +234,18 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
   };
   Table table{
     name,
-    fmt::format("Envelopes: parameters ± half of the 95 % interval, stresses in MPa. Measured UCS {}, measured "
-                "σ_t {}",
-                stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
+    fmt::format(
+      "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa. Measured UCS {}, measured "
+      "σ_t {}",
+      stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
     {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
     {}};
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
       {
-        const std::string form = fmt::format(
-          "Hoek–Brown, {}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
-          answer == &pair.with_tension_point ? "with" : "without");
+        const std::string form =
+          fmt::format("{}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
+                      answer == &pair.with_tension_point ? "with" : "without");
         if (!answer->fit)
           {
             table.rows.push_back({form, "no fit: " + answer->reason, "", "", "", "", "", "", "", ""});
@@ -229,11 +259,9 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
                               number(-fit.tensile_cut_off.value / mega, 2), fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
       }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
-    table.rows.push_back(
-      {fmt::format("Mohr–Coulomb: φ = {}°, c = {} MPa", estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
-                   estimate(fit->cohesion, mega, 1)),
-       none, none, none, none, number(fit->quality.r_squared, 1.0, 4), number(fit->quality.root_mean_square / mega, 1),
-       estimate(fit->uniaxial_strength, mega, 1), none, "✓"});
+    table.rows.push_back({"Mohr–Coulomb", none, none, none, none, number(fit->quality.r_squared, 1.0, 4),
+                          number(fit->quality.root_mean_square / mega, 1), estimate(fit->uniaxial_strength, mega, 1),
+                          none, "✓"});
   else
     table.rows.push_back({"Mohr–Coulomb", "no fit: " + envelopes.mohr_coulomb.reason, "", "", "", "", "", "", "", ""});
   return table;
@@ -315,12 +343,6 @@ private:
   std::vector<Picture> all;
 };
 
-template <typename T>
-void append(std::vector<T>& all, std::vector<T> more)
-{
-  std::move(more.begin(), more.end(), std::back_inserter(all));
-}
-
 PageSection envelope_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"envelope", "Envelope", "Strength envelope", {}};
@@ -348,6 +370,10 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       section.blocks.push_back(block);
       PageBlock figures;
       figures.tables.push_back(fit_table(envelopes, "envelopes" + of_series(findings, n)));
+      if (const auto& fit = envelopes.mohr_coulomb.fit)
+        figures.paragraphs.push_back(fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa.",
+                                                 estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
+                                                 estimate(fit->cohesion, mega, 1)));
       figures.paragraphs.push_back(
         "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");

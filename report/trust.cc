@@ -3,7 +3,6 @@
 #include "report/statistics.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <functional>

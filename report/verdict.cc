@@ -1,7 +1,8 @@
 #include "report/verdict.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include <cmath>
 
 namespace feldspar
 {
@@ -14,7 +15,11 @@ std::string beside_experiment(const ComparisonRow& row)
   std::string text = fmt::format("{} {:.{}f}{}; experiment {}{}", row.property, row.ours->mean, row.decimals, unit,
                                  as_text(row, row.experiment), unit);
   if (const auto deviation = row.deviation())
-    text += fmt::format("; {:+.1f} %", 100.0 * *deviation);
+    text += fmt::format("; {}{:.1f} %", *deviation < 0.0 ? "−" : "+", 100.0 * std::abs(*deviation));
+  if (row.in_range() == true && row.surely_in_range() == false)
+    text += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches out of the range",
+                        row.ours->mean - *row.ours->confidence_95, row.decimals,
+                        row.ours->mean + *row.ours->confidence_95, row.decimals);
   return text;
 }
 } // namespace
