@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace feldspar
 {
@@ -62,6 +64,60 @@ TEST(LabResults, AreThoseOfAKnownCurve)
   // One crack a row: 1 % of those at the peak come within a few rows of the first.
   EXPECT_NEAR(*results.crack_initiation_stress.value, 42e6, 10 * 70e9 * row);
   EXPECT_NEAR(*results.post_peak_drop.value, 0.6 * 1.0714285714, 0.01);
+}
+
+/// A compression curve whose lateral strain has two kinks: modulus 60 GPa, Poisson's ratio 0.2 to 60 MPa, 0.35 to
+/// 120 MPa, 0.9 to the peak of 160 MPa, then down. No cracks are counted. A row a half MPa.
+TestRecord kinked_compression()
+{
+  TestRecord record;
+  record.kind = TestKind::uniaxial_compression;
+  const auto add = [&](const double strain, const double expansion, const double stress) {
+    CurveSample row;
+    row.axial_strain = row.gauge_axial_strain = -strain;
+    row.axial_stress = -stress;
+    row.gauge_lateral_strain = expansion;
+    row.gauge_volumetric_strain = 2.0 * expansion - strain;
+    record.curve.push_back(row);
+  };
+  const auto expansion = [](const double stress) {
+    return (0.2 * std::min(stress, 60e6) + 0.35 * std::clamp(stress - 60e6, 0.0, 60e6) +
+            0.9 * std::max(stress - 120e6, 0.0)) /
+           60e9;
+  };
+  for (int k = 0; k <= 320; ++k)
+    add(k * 0.5e6 / 60e9, expansion(k * 0.5e6), k * 0.5e6);
+  for (int k = 1; k <= 100; ++k)
+    add(160e6 / 60e9 * (1.0 + 0.005 * k), expansion(160e6) * (1.0 + 0.05 * k), 160e6 * (1.0 - 0.006 * k));
+  return record;
+}
+
+TEST(LabResults, OfACurveWithoutCracksComeFromItsStrains)
+{
+  // The line from the start to crack damage lies furthest above the lateral strain at its first kink. Volume: with a
+  // ratio below 0.5 it shrinks, with 0.9 it grows. Every kink is a row, so what is left is rounding.
+  const auto results = evaluate(kinked_compression());
+  EXPECT_NEAR(*results.crack_initiation_stress_lateral.value, 60e6, 1.0);
+  EXPECT_NEAR(*results.crack_damage_stress.value, 120e6, 1.0);
+  EXPECT_NEAR(*results.peak_stress.value, 160e6, 1.0);
+  EXPECT_NEAR(*results.youngs_modulus_initial.value, 60e9, 1e-6 * 60e9);
+  EXPECT_NEAR(*results.youngs_modulus_tangent.value, 60e9, 1e-6 * 60e9);
+  EXPECT_NEAR(*results.poissons_ratio_initial.value, 0.2, 1e-6);
+  // At 80 MPa: (0.2·60 + 0.35·20)/80.
+  EXPECT_NEAR(*results.poissons_ratio_secant.value, 0.2375, 1e-6);
+  EXPECT_EQ(results.crack_initiation_stress.reason, "no crack before the peak");
+}
+
+TEST(LabResults, SayWhenLateralStrainTellsNoCrackInitiation)
+{
+  TestRecord record = kinked_compression();
+  for (auto& row : record.curve) // grows ever more slowly against the stress: never behind a straight line
+    row.gauge_lateral_strain = std::sqrt(row.gauge_lateral_strain);
+  EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("never lags behind"), std::string::npos);
+  record.kind = TestKind::direct_tension;
+  for (auto& row : record.curve)
+    row.axial_stress *= -1.0;
+  EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("compression only"), std::string::npos);
 }
 
 TEST(LabResults, SayWhyWhenACurveNeverPeaks)

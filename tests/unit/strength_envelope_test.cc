@@ -332,6 +332,44 @@ INSTANTIATE_TEST_SUITE_P(
     RefusedCase{"weaker than its confinement", changed([](StrengthData& data) { data.points[3].sigma_1 = 10 * MPa; }),
                 "lies below sigma_3"}));
 
+TEST(HoekBrown, PublishedTriaxialDataGiveTheirSourcesParameters)
+{
+  // E. Hoek and E. T. Brown, Practical estimates of rock mass strength, Int. J. Rock Mech. Min. Sci. 34 (1997)
+  // 1165-1186, the worked example of triaxial tests on intact rock [MPa]: sigma_ci 37.4 MPa, m_i 15.50, r² 0.997.
+  const std::array<EnvelopePoint, 5> tests{{{0.0, 38.3}, {5.0, 72.4}, {7.5, 80.5}, {15.0, 115.6}, {20.0, 134.3}}};
+
+  // The source fits a straight line to (sigma_1 - sigma_3)² = m_i sigma_ci sigma_3 + sigma_ci². With that residual the
+  // points give its figures to their last digits, so the points are those of the source.
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  const auto square = [](const EnvelopePoint& point) { return std::pow(point.sigma_1 - point.sigma_3, 2.0); };
+  for (const auto& point : tests)
+    {
+      mean_x += point.sigma_3 / double(tests.size());
+      mean_y += square(point) / double(tests.size());
+    }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const auto& point : tests)
+    {
+      xx += (point.sigma_3 - mean_x) * (point.sigma_3 - mean_x);
+      xy += (point.sigma_3 - mean_x) * (square(point) - mean_y);
+    }
+  const double sigma_ci = std::sqrt(mean_y - xy / xx * mean_x);
+  EXPECT_NEAR(sigma_ci, 37.4, 0.05);
+  EXPECT_NEAR(xy / xx / sigma_ci, 15.50, 0.005);
+
+  // Ours is the residual in sigma_1, which weighs the low strengths more: within 10 %.
+  StrengthData data;
+  for (const auto& point : tests)
+    data.points.push_back({point.sigma_3 * MPa, point.sigma_1 * MPa});
+  const auto answer = fit_hoek_brown(data, HoekBrownForm::intact, false);
+  ASSERT_TRUE(answer.fit) << answer.reason;
+  EXPECT_NEAR(answer.fit->sigma_ci.value, 37.4 * MPa, 0.1 * 37.4 * MPa);
+  EXPECT_NEAR(answer.fit->m.value, 15.50, 0.1 * 15.50);
+  EXPECT_GT(*answer.fit->quality.r_squared.value, 0.99);
+}
+
 TEST(MohrCoulomb, GivesFrictionAndCohesionBackFromExactPoints)
 {
   const double phi = 40.0 * std::numbers::pi / 180.0;

@@ -1,0 +1,324 @@
+// What the report says and reads: compression positive where the laboratory has it so.
+
+#include "dem/input_error.h"
+#include "report/comparison.h"
+#include "report/result_folder.h"
+#include "report/result_table.h"
+#include "report/series.h"
+#include "report/statistics.h"
+#include "report/table.h"
+#include "report/test_groups.h"
+#include "report/trust.h"
+#include "report/verdict.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+TEST(Statistics, AreThoseOfTheTextbook)
+{
+  // 1, 2, 3, 4: mean 2.5, squares 5, s.d. sqrt(5/3), standard error sqrt(5/12), t_{0.975, 3} = 3.182446 (any table).
+  const auto four = *statistics({1.0, 2.0, 3.0, 4.0});
+  EXPECT_NEAR(four.mean, 2.5, 1e-15);
+  EXPECT_NEAR(*four.standard_deviation, std::sqrt(5.0 / 3.0), 1e-15);
+  EXPECT_NEAR(*four.standard_error, std::sqrt(5.0 / 12.0), 1e-15);
+  EXPECT_NEAR(*four.confidence_95, 3.182446 * std::sqrt(5.0 / 12.0), 1e-6);
+  EXPECT_FALSE(statistics({1.0})->confidence_95);
+  EXPECT_FALSE(statistics({}));
+}
+
+/// A test in compression, a row each 1e-4 of strain: 60 GPa to 120 MPa, then down to 30 MPa.
+FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
+{
+  FinishedTest test;
+  test.group = "uniaxial_compression";
+  test.name = fmt::format("uniaxial_compression_seed_{}", seed);
+  TestRecord& record = test.record;
+  record.kind = TestKind::uniaxial_compression;
+  record.seed = seed;
+  record.size = {0.05, 0.1, 0.0};
+  record.bulk_density = 2700.0;
+  record.steps = 1000;
+  record.time_step = 1e-7;
+  record.wall_time = 2.5;
+  record.specimen.n_grains = 2;
+  record.specimen.n_joints = 1;
+  record.specimen.resolution = 30.0;
+  record.specimen.radius_multiplier = 1.001;
+  record.specimen.coordination_number_core = std::nan("");
+  for (int k = 0; k <= 30; ++k)
+    {
+      CurveSample row;
+      row.step = std::uint64_t(10 * k);
+      row.time = 1e-4 * k;
+      row.axial_strain = row.gauge_axial_strain = -1e-4 * k;
+      row.axial_stress = -scale * (k <= 20 ? 6e6 * k : 120e6 - 9e6 * (k - 20));
+      row.gauge_lateral_strain = 2e-5 * k;
+      row.gauge_volumetric_strain = -6e-5 * k;
+      row.n_tension_cracks = std::uint64_t(k > 10 ? 3 * (k - 10) : 0);
+      row.n_shear_cracks = std::uint64_t(k > 15 ? k - 15 : 0);
+      row.energies = {1.0 * k, 1e-5 * k, 0.7 * k, 0.1 * k, 0.1 * k, 0.1 * k};
+      record.curve.push_back(row);
+    }
+  for (std::uint32_t k = 0; k < 40; ++k)
+    record.cracks.push_back({k % 4 ? CrackKind::tension : CrackKind::shear,
+                             7,
+                             k,
+                             110 + 5 * k,
+                             -1e-4 * (11.0 + 0.5 * k),
+                             {0.02, 0.001 * k, 0.0},
+                             {0.6, 0.8, 0.0},
+                             3e-4,
+                             0.1 / 3.0});
+  record.grains_at_end = {{{0.01, 0.02, 0.0}, {0.011, 0.02, 0.0}, 0.00062, 0},
+                          {{0.03, 0.02, 0.0}, {0.034, 0.02, 0.0}, 0.001, 1}};
+  test.results = evaluate(record);
+  return test;
+}
+
+std::string content(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ResultFolder, IsReadBackAsItWasWritten)
+{
+  const TemporaryFolder folder;
+  FinishedTest failed;
+  failed.group = "direct_tension";
+  failed.name = "direct_tension_seed_3";
+  failed.record.seed = 3;
+  failed.record.kind = TestKind::direct_tension;
+  failed.record.failure = "the grips slipped";
+  failed.results = evaluate(failed.record);
+  const std::vector<FinishedTest> written{compression(3), compression(4, 1.1), failed};
+  const Provenance made_by{"0.1", "abc", "rock.prm", {{"Seeds", "Seeds", "3, 4"}}, "a processor", 2};
+  write_result_folder(made_by, written, folder.path());
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].label, folder.path().filename().string());
+  EXPECT_TRUE(all[0].problems.empty()) << all[0].problems.front();
+  EXPECT_EQ(all[0].made_by.commit, "abc");
+  EXPECT_EQ(all[0].made_by.input.at(0).value, "3, 4");
+  ASSERT_EQ(all[0].tests.size(), written.size());
+  for (std::size_t t = 0; t < written.size(); ++t)
+    {
+      const auto& was = written[t];
+      const auto& is = all[0].tests[t];
+      EXPECT_EQ(is.name, was.name);
+      EXPECT_EQ(is.group, was.group);
+      EXPECT_EQ(is.record.failure, was.record.failure);
+      EXPECT_EQ(is.record.size, was.record.size);
+      for (const auto& entry : result_table())
+        {
+          EXPECT_EQ(entry.value(is).value, entry.value(was).value) << entry.name;
+          if (!entry.value(was).value)
+            {
+              EXPECT_EQ(entry.value(is).reason, entry.value(was).reason) << entry.name;
+            }
+        }
+    }
+  // Written again, the same bytes: nothing was lost on the way.
+  const TemporaryFolder again;
+  write_result_folder(made_by, all[0].tests, again.path());
+  for (const char* file : {"summary.json", "cracks.csv", "curves/uniaxial_compression_seed_3.csv",
+                           "grains/uniaxial_compression_seed_4.csv"})
+    EXPECT_EQ(content(again.path() / file), content(folder.path() / file)) << file;
+  EXPECT_GT(content(folder.path() / "cracks.csv").size(), 1000u);
+}
+
+TEST(ResultFolder, OfVariantsIsASeriesForEach)
+{
+  const TemporaryFolder folder;
+  auto slow = compression(1);
+  slow.variant = "Tests/Compression strain rate = 0.5 1/s";
+  auto fast = compression(1);
+  fast.name += "_variant_2";
+  fast.variant = "Tests/Compression strain rate = 1 1/s";
+  write_result_folder({}, {slow, fast}, folder.path());
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].label, slow.variant);
+  EXPECT_EQ(all[1].tests.at(0).name, fast.name);
+}
+
+TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
+{
+  const TemporaryFolder folder;
+  folder.write("summary.json", R"({"schema_version": 0, "tests": [
+    {"kind": "uniaxial_compression", "name": "uniaxial_compression_seed_1", "seed": 1, "peak_stress_Pa": 150e6},
+    {"kind": "shaken", "name": "shaken_seed_1"}, 7]})");
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_EQ(all[0].tests.size(), 1u);
+  EXPECT_EQ(*all[0].tests[0].results.peak_stress.value, 150e6);
+  EXPECT_EQ(all[0].tests[0].group, "uniaxial_compression");
+  EXPECT_EQ(all[0].tests[0].results.youngs_modulus_initial.reason, "not in this result folder");
+  std::string said;
+  for (const auto& problem : all[0].problems)
+    said += problem + "\n";
+  for (const char* words :
+       {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: missing", "cracks.csv: missing"})
+    EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
+}
+
+TEST(ResultFolder, ThatIsNoneIsRefused)
+{
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& words) {
+    try
+      {
+        read_result_folder(folder.path());
+        ADD_FAILURE() << words;
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      }
+  };
+  refused("there is no summary.json in it");
+  folder.write("summary.json", "{\"tests\": [");
+  refused("not JSON, or cut short");
+  folder.write("summary.json", "[]");
+  refused("not JSON, or cut short");
+  folder.write("summary.json", "{\"stiffness_Pa\": 1}");
+  refused("there is no list of \"tests\"");
+  folder.write("summary.json", "{\"tests\": []}");
+  refused("there is no test in it");
+}
+
+TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
+{
+  const TemporaryFolder folder;
+  write_result_folder({}, {compression(3), compression(4)}, folder.path());
+  std::filesystem::create_directories(folder.path() / "curves");
+  folder.write("curves/uniaxial_compression_seed_3.csv", "step,time_s\n1,2\n");
+  folder.write("curves/uniaxial_compression_seed_4.csv",
+               content(folder.path() / "curves/uniaxial_compression_seed_4.csv") + "1,2,3\n");
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all[0].problems.size(), 2u);
+  EXPECT_NE(all[0].problems[0].find("uniaxial_compression_seed_3.csv:1: there is no column axial_strain"),
+            std::string::npos)
+    << all[0].problems[0];
+  EXPECT_NE(all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 19 cells; found 3"),
+            std::string::npos)
+    << all[0].problems[1];
+  EXPECT_EQ(all[0].tests[0].record.cracks.size(), 40u);
+  EXPECT_TRUE(all[0].tests[0].results.peak_stress.value);
+}
+
+TEST(Band, IsMeanAndDeviationAtTheSameStrain)
+{
+  // Two tests whose stresses are in the ratio of 1 to 1.1: mean 1.05, s.d. 0.1/sqrt(2) of the first.
+  const Series series{"two", SeriesKind::specimens, {}, {compression(3), compression(4, 1.1)}, {}};
+  const auto groups = groups_of(series);
+  ASSERT_EQ(groups.size(), 1u);
+  const Band stress = band(
+    groups[0], [](const CurveSample& row) { return row.axial_stress; }, true);
+  ASSERT_FALSE(stress.strain.empty());
+  EXPECT_NEAR(stress.strain.back(), 30e-4, 1e-12);
+  for (std::size_t k = 0; k < stress.strain.size(); ++k)
+    {
+      const double strain = stress.strain[k];
+      const double first = strain <= 20e-4 ? 60e9 * strain : 120e6 - 90e9 * (strain - 20e-4);
+      // Rows are 1e-4 apart and the kink is one of them: linear between them is exact.
+      EXPECT_NEAR(stress.mean[k], 1.05 * first, 1.0) << strain;
+      EXPECT_NEAR(stress.deviation[k], 0.1 / std::sqrt(2.0) * first, 1.0) << strain;
+    }
+}
+
+Reference granite(const double low, const double high)
+{
+  Reference reference;
+  reference.experiment.label = "experiment";
+  reference.experiment.values["uniaxial_compressive_strength_MPa"] = {125.0, low, high};
+  reference.experiment.values["youngs_modulus_GPa"] = {50.0, std::nullopt, std::nullopt};
+  return reference;
+}
+
+TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
+{
+  // 120 and 132 MPa: mean 126, 95 % of the mean ± 12.706·8.485/sqrt(2) = 76 MPa.
+  const std::vector<FinishedTest> tests{compression(3), compression(4, 1.1)};
+  const auto said = [&](const std::optional<Reference>& reference, const std::string& problem) {
+    const Verdict answer = verdict(compare(tests, reference), problem);
+    std::string text = answer.headline + "\n";
+    for (const auto& point : answer.points)
+      text += point + "\n";
+    return text;
+  };
+  const auto holds = [](const std::string& text, const std::vector<std::string>& all_words) {
+    for (const auto& words : all_words)
+      EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
+  };
+  holds(said(granite(120.0, 130.0), ""),
+        {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 MPa", "+0.8 %",
+         "reaches out of the range", "No range given: Young's modulus"});
+  holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range"});
+  // All of the interval inside: no such remark.
+  EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches out"), std::string::npos);
+  holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
+}
+
+TEST(Trust, SaysWhatIsOutOfItsBounds)
+{
+  // Energies of compression(): 1 - 0.7 - 3·0.1 - 1e-5 of the work is unaccounted, 0.001 %.
+  Series series{"rock", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}};
+  EXPECT_TRUE(warnings(series).empty()) << warnings(series).front();
+
+  series.tests[1].results.energy_imbalance_over_work = 0.02;
+  series.tests[2].record.interrupted = true;
+  series.tests[2].results = evaluate(series.tests[2].record);
+  series.problems = {"curves/a.csv: missing or empty"};
+  std::string said;
+  for (const auto& sentence : warnings(series))
+    said += sentence + "\n";
+  for (
+    const char* words :
+    {"Out of bounds in 1 of 3 tests: energy imbalance over boundary work; worst 2.00 % (uniaxial_compression_seed_2)",
+     "uniaxial_compression_seed_3 has no strength: interrupted before its end", "curves/a.csv: missing or empty"})
+    EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
+
+  series.tests.resize(1);
+  said.clear();
+  for (const auto& sentence : warnings(series))
+    said += sentence;
+  EXPECT_NE(said.find("Only 1 specimen:"), std::string::npos) << said;
+}
+
+TEST(Table, IsQuotedAsCsvWants)
+{
+  EXPECT_EQ(as_csv({"name", "caption", {"a", "b, c"}, {{"say \"so\"", "1"}}}), "a,\"b, c\"\n\"say \"\"so\"\"\",1\n");
+}
+
+TEST(Reference, StrengthsUnderConfinementComeInTheOrderOfPressure)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("rock.json", R"({"rock": "basalt", "experiment": {"label": "core tests",
+    "strength_at_10_MPa": {"mean": 200}, "strength_at_2.5_MPa": {"mean": 120, "min": 100, "max": 140},
+    "strength_at_depth_MPa": {"mean": 1}},
+    "paper_model": {"hoek_brown": {"sigma_ci_MPa": 100, "m": 10, "s": 1, "a": 0.5}}})");
+  const Reference reference = read_reference(file);
+  EXPECT_EQ(reference.experiment.label, "core tests");
+  const auto points = reference.experiment.strengths();
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].sigma_3, 2.5e6);
+  EXPECT_EQ(points[1].sigma_1, 200e6);
+  // 10 + 100·sqrt(10·10/100 + 1) MPa.
+  EXPECT_NEAR(reference.model.envelope->sigma_1(10e6), 10e6 + 100e6 * std::sqrt(2.0), 1.0);
+  EXPECT_TRUE(std::isnan(reference.model.envelope->sigma_1(-11e6)));
+}
+} // namespace
+} // namespace feldspar::tests
