@@ -71,9 +71,7 @@ private:
     command.add_option("--output", common.output, "folder of the results (default: INPUT-results-001, ...)")
       ->type_name("DIR");
     command.add_flag("--force", common.force, "write over what is in the folder");
-    command.add_option("--threads", n_threads, "how many to use (default: all cores)")
-      ->type_name("N")
-      ->check(CLI::Range(1u, 4096u));
+    add_threads(command);
     command.add_flag("--quiet", common.quiet, "no progress on standard output");
     command.callback([this, run_command] { chosen = [this, run_command] { return run_command(common); }; });
     return command;
@@ -87,6 +85,13 @@ private:
     command.get_option("INPUT")->required(false)->excludes(resume);
     command.get_option("--output")->excludes(resume);
     command.get_option("--force")->excludes(resume);
+  }
+
+  void add_threads(CLI::App& command)
+  {
+    command.add_option("--threads", n_threads, "how many to use (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 4096u));
   }
 
   void add_report()
@@ -104,6 +109,7 @@ private:
                   "folder of the report (default: the folder itself if there is one, else report-results-001, ...)")
       ->type_name("DIR");
     command.add_flag("--force", report.force, "write over what is in the folder");
+    add_threads(command);
     command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
     command.callback([this] { chosen = [this] { return run_report(report); }; });
   }

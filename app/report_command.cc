@@ -47,15 +47,11 @@ int run_report(const ReportOptions& options)
   ReportOrder order{options.result_folders, options.curves, options.reference, {}};
   if (order.result_folders.empty() && order.curves.empty())
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
-  if (order.result_folders.size() == 1 && !options.output)
-    {
-      order.output = order.result_folders.front();
-      if (!std::filesystem::is_directory(order.output))
-        throw InputError(fmt::format("{}: there is no such folder", order.output.string()));
-    }
-  std::optional<OutputFolder> folder;
-  if (order.output.empty())
-    order.output = folder.emplace(options.output, "report", options.force).path();
+  // Of one folder the report goes into it, beside its results.
+  const bool beside_results = order.result_folders.size() == 1 && !options.output;
+  const OutputFolder folder(beside_results ? order.result_folders.front() : options.output, "report",
+                            beside_results || options.force);
+  order.output = folder.path();
   const auto missing = report_on(order);
   if (!options.quiet)
     for (const auto& sentence : missing)

@@ -158,8 +158,8 @@ Table comparison_table(const Findings& findings)
     rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};
   std::vector<std::string> of_series;
   for (const auto& series : findings.all)
-    append(of_series,
-           {one ? "model" : series.label, one ? "model against experiment" : "against experiment", "95 % of the mean"});
+    append(of_series, {one && series.kind == SeriesKind::specimens ? "model" : series.label,
+                       one ? "model against experiment" : "against experiment", "95 % of the mean"});
   table.header = arranged("property", rock, of_series, one);
   for (const auto& property : properties)
     {
@@ -199,15 +199,21 @@ PageSection verdict_section(const Findings& findings)
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       PageBlock block = block_of(findings, n);
-      if (findings.all[n].kind != SeriesKind::laboratory_curve)
+      block.warnings = warnings(findings.all[n]);
+      if (findings.all[n].kind == SeriesKind::laboratory_curve)
+        {
+          block.subheading = findings.all[n].label;
+          block.chip = plot::colour(findings.all[n], n);
+          block.paragraphs.push_back("Measured in a laboratory and evaluated as the model's tests are.");
+        }
+      else
         {
           const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
           block.headline = answer.headline;
           block.points = answer.points;
+          if (block.warnings.empty())
+            block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
         }
-      block.warnings = warnings(findings.all[n]);
-      if (block.warnings.empty() && findings.all[n].kind != SeriesKind::laboratory_curve)
-        block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
       section.blocks.push_back(block);
     }
   PageBlock table;

@@ -1,0 +1,377 @@
+// The report as a user makes and reads it: out of small specimens, in a browser where one is there.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t count(const std::string& text, const std::string& what)
+{
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size())
+    ++n;
+  return n;
+}
+
+/// The page without the data of its pictures.
+std::string words_of(const fs::path& page)
+{
+  std::string text = content(page);
+  for (std::size_t at = 0; (at = text.find(";base64,", at)) != std::string::npos;)
+    text.erase(at, text.find('"', at) - at);
+  return text;
+}
+
+/// One run, some ninety grains a specimen, that the tests of this file look at and copy.
+class Report : public testing::Test
+{
+protected:
+  static void SetUpTestSuite()
+  {
+    run = std::make_unique<TemporaryFolder>();
+    run->write("rock.json", R"({"rock": "Test granite: grey", "citation": {"tests": "made up"},
+      "experiment": {"label": "experiment", "tensile_strength_MPa": {"mean": 10, "min": 1, "max": 30},
+                     "uniaxial_compressive_strength_MPa": {"mean": 900, "min": 800, "max": 1000}},
+      "paper_model": {"label": "a model", "strength_at_10_MPa": {"mean": 300},
+                      "hoek_brown": {"sigma_ci_MPa": 167, "m": 41.98, "s": 2.09, "a": 0.395}}})");
+    run->write("rock.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
+                           "subsection Tests\n  set List = direct_tension, uniaxial_compression, triaxial_compression\n"
+                           "  set Confinements = 10, 20, 30 MPa\nend\n"
+                           "subsection Seeds\n  set Seeds = 1, 2\nend\n"
+                           "subsection Report\n  set Reference file = rock.json\nend\n");
+    outcome = run_feldspar(run->path(), "lab rock.prm --output out --quiet");
+  }
+  static void TearDownTestSuite() { run.reset(); }
+
+  void SetUp() override
+  {
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+    fs::copy(run->path() / "out", folder.path() / "out", fs::copy_options::recursive);
+  }
+
+  /// Makes the report anew and returns its words; pictures, which take the most time, only where they are looked at.
+  std::string remade(const std::string& arguments = "report out", const bool with_pictures = false)
+  {
+    const auto answer =
+      run_feldspar(folder.path(), arguments, with_pictures ? "" : "PATH=" + (folder.path() / "empty").string());
+    EXPECT_EQ(answer.exit_code, 0) << answer.error;
+    EXPECT_EQ(answer.error, "");
+    const std::string last_line = answer.output.substr(answer.output.rfind('\n', answer.output.size() - 2) + 1);
+    return words_of(folder.path() / last_line.substr(0, last_line.size() - 1));
+  }
+
+  static void holds(const std::string& text, const std::vector<std::string>& all_words)
+  {
+    for (const auto& words : all_words)
+      EXPECT_NE(text.find(words), std::string::npos) << words;
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> run;
+  static inline Outcome outcome;
+  const TemporaryFolder folder;
+};
+
+TEST_F(Report, IsOneFileThatNeedsNoOther)
+{
+  const fs::path page = folder.path() / "out/report.html";
+  EXPECT_LT(fs::file_size(page), 10'000'000u);
+  const std::string words = words_of(page);
+  for (const char* loaded : {"http:", "https:", "<script", "<link", "url(", "@import", "<iframe"})
+    EXPECT_EQ(words.find(loaded), std::string::npos) << loaded;
+  // Every picture is in it, with a text for who cannot see it.
+  const std::regex image(
+    "<img src=\"data:image/(svg\\+xml|png)\" alt=\"[^\"]{20,}\" width=\"[0-9]+\" height=\"[0-9]+\">");
+  const auto n_images = std::distance(std::sregex_iterator(words.begin(), words.end(), image), {});
+  EXPECT_EQ(std::size_t(n_images), count(words, "<img"));
+  EXPECT_GE(n_images, 25); // 4 tests shown with 4 curves and 2 maps each, and the envelopes
+  EXPECT_EQ(count(words, "class=\"absent\""), 0u);
+  EXPECT_EQ(count(words, "{{"), 0u);
+  holds(words, {"Test granite: model and rock", "Is the model the rock?", "Not in every respect: 1 of 2 properties",
+                "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
+                "Only 2 specimens", "a model", "made up", "Width"});
+}
+
+TEST_F(Report, LeavesFiguresAndTablesForAPaper)
+{
+  for (const char* name :
+       {"envelope", "envelope_near_uniaxial", "residuals_out", "uniaxial_compression_stress",
+        "uniaxial_compression_cracks", "uniaxial_compression_energy", "uniaxial_compression_crack_rate",
+        "triaxial_compression_20_MPa_stress", "rose_out", "shear_share", "fragment_sizes_out"})
+    for (const char* ending : {".svg", ".pdf", ".gp"})
+      EXPECT_GT(fs::file_size(folder.path() / "out/figures" / (std::string(name) + ending)), 500u) << name << ending;
+  for (const char* name : {"uniaxial_compression_seed_2_cracks.png", "uniaxial_compression_seed_1_fragments.png"})
+    EXPECT_GT(fs::file_size(folder.path() / "out/figures" / name), 5000u) << name;
+  const std::string comparison = content(folder.path() / "out/tables/comparison.csv");
+  EXPECT_TRUE(comparison.starts_with("property,model,\"experiment, mean (range)\",")) << comparison;
+  for (const char* name : {"envelopes", "residuals", "trust", "specimens", "input", "strengths", "tests"})
+    EXPECT_GT(count(content(folder.path() / "out/tables" / (std::string(name) + ".csv")), "\n"), 2u) << name;
+}
+
+TEST_F(Report, MadeAnewFromTheFolderIsTheSame)
+{
+  const std::string first = content(folder.path() / "out/report.html");
+  fs::remove_all(folder.path() / "out/figures");
+  fs::remove_all(folder.path() / "out/tables");
+  fs::remove(folder.path() / "out/report.html");
+  remade("report out", true);
+  EXPECT_EQ(content(folder.path() / "out/report.html"), first);
+}
+
+TEST_F(Report, SetsFoldersBesideOneAnother)
+{
+  fs::copy(folder.path() / "out", folder.path() / "other", fs::copy_options::recursive);
+  const std::string words = remade("report out other --output both", true);
+  holds(words, {"</span>out</h3>", "</span>other</h3>", "Strength of all series"});
+  const std::string comparison = content(folder.path() / "both/tables/comparison.csv");
+  EXPECT_NE(comparison.substr(0, comparison.find('\n')).find(",out,against experiment,95 % of the mean,other,"),
+            std::string::npos)
+    << comparison;
+  EXPECT_TRUE(fs::exists(folder.path() / "both/figures/envelopes.svg"));
+  // A folder that is in use is not written over unless that is wanted.
+  EXPECT_EQ(run_feldspar(folder.path(), "report out other --output both").exit_code, 2);
+  remade("report out other --output both --force");
+  remade("report out other");
+  EXPECT_TRUE(fs::exists(folder.path() / "report-results-001/report.html"));
+}
+
+TEST_F(Report, SaysWhatIsMissingInAFolderAndIsStillMade)
+{
+  fs::remove(folder.path() / "out/curves/uniaxial_compression_seed_1.csv");
+  fs::remove(folder.path() / "out/cracks.csv");
+  fs::remove_all(folder.path() / "out/grains");
+  const std::string words = remade();
+  holds(words, {"curves/uniaxial_compression_seed_1.csv: missing or empty", "out/cracks.csv: missing or empty",
+                "No crack map", "Strength envelope"});
+}
+
+TEST_F(Report, OfAnOlderLayoutSaysSoAndIsStillMade)
+{
+  auto json = nlohmann::ordered_json::parse(content(folder.path() / "out/summary.json"));
+  json["schema_version"] = 0;
+  json.erase("input");
+  json.erase("host");
+  for (auto& test : json["tests"])
+    for (const char* name : {"size_m", "group", "shear_share_at_peak", "n_fragments", "crack_damage_stress_Pa"})
+      test.erase(name);
+  folder.write("out/summary.json", json.dump());
+  holds(remade(),
+        {"summary.json has layout 0; this program writes layout 1", "from an unknown input", "Strength envelope"});
+}
+
+TEST_F(Report, OfAForeignFolderIsRefusedInOneLine)
+{
+  folder.write("out/summary.json", "{\"stiffness_Pa\": [1, 2]}");
+  for (const char* arguments : {"report out", "report nowhere", "report", "report out nowhere --output new"})
+    {
+      const auto answer = run_feldspar(folder.path(), arguments);
+      EXPECT_EQ(answer.exit_code, 2) << arguments;
+      EXPECT_EQ(count(answer.error, "\n"), 1u) << answer.error;
+    }
+  EXPECT_FALSE(fs::exists(folder.path() / "nowhere"));
+  EXPECT_FALSE(fs::exists(folder.path() / "new"));
+}
+
+TEST_F(Report, WithoutAPeakSaysSoInItsPlace)
+{
+  folder.write("early.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
+                            "subsection Tests\n  set List = uniaxial_compression\n  set Stop strain = 0.0002\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab early.prm --output early --quiet").exit_code, 0);
+  holds(words_of(folder.path() / "early/report.html"),
+        {"uniaxial_compression_seed_1 has no strength: the stress never peaked",
+         "No compression test of this series has a strength", "Nothing to compare with: there is no reference file",
+         "No crack map"});
+}
+
+TEST_F(Report, WithoutGnuplotHasItsWordsAndTables)
+{
+  fs::remove_all(folder.path() / "out/figures");
+  const std::string words = remade();
+  holds(words, {"Pictures are missing: ", "is gnuplot (package gnuplot-nox) installed?", "Not in every respect",
+                "class=\"absent\""});
+  EXPECT_EQ(count(words, "<img"), 0u);
+}
+
+TEST_F(Report, WithoutItsReferenceSaysSoInItsPlace)
+{
+  holds(remade("report out --reference nowhere.json"),
+        {"Nothing to compare with: Report/Reference file = nowhere.json: no such file"});
+  fs::remove(folder.path() / "out/reference.json");
+  holds(remade(), {"Nothing to compare with: there is no reference file"});
+}
+
+/// 60 GPa, Poisson's ratio 0.2 to 60 MPa, 0.35 to 120 MPa, 0.9 to the peak of 160 MPa; in per cent and MPa.
+std::string measured_curve(const std::string& header, const double sign_of_lateral = -1.0)
+{
+  std::string text = header + "\n";
+  const auto expansion = [](const double stress) {
+    return (0.2 * std::min(stress, 60.0) + 0.35 * std::clamp(stress - 60.0, 0.0, 60.0) +
+            0.9 * std::max(stress - 120.0, 0.0)) /
+           600.0;
+  };
+  for (int k = 0; k <= 200; ++k)
+    {
+      const double stress = k <= 160 ? k : 320.0 - k;
+      text +=
+        fmt::format("{:.9f},{:.9f},{},0\n", k / 600.0, sign_of_lateral * expansion(std::min(double(k), 160.0)), stress);
+    }
+  return text;
+}
+
+TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
+{
+  folder.write("core.csv",
+               measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]"));
+  holds(remade("report out --curve core.csv --output both"), {"</span>core.csv</h3>"});
+  remade("report --curve core.csv --output alone");
+  const std::string comparison = content(folder.path() / "alone/tables/comparison.csv");
+  holds(comparison,
+        {"property,core.csv,", "uniaxial compressive strength [MPa],160.0 (n = 1)",
+         "\"Young's modulus, tangent 40-60 % of peak [GPa]\",60.0 ", "\"Young's modulus, initial [GPa]\",60.0 ",
+         "\"Poisson's ratio, initial\",0.200 ", "\"Poisson's ratio, secant at 50 % of peak\",0.238 ",
+         "\"crack initiation stress, lateral strain [MPa]\",60.0 ",
+         "\"crack damage stress, compression [MPa]\",120.0 "});
+
+  // The same in other units and another order, with a column more.
+  std::string other = "note,confining_pressure [Pa],axial_stress [kPa],lateral_strain [-],axial_strain [mm/m]\n";
+  std::istringstream rows(
+    measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]"));
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row))
+    {
+      double axial = 0.0;
+      double lateral = 0.0;
+      double stress = 0.0;
+      ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf", &axial, &lateral, &stress), 3);
+      other += fmt::format("0,0,{},{:.12f},{:.9f}\n", 1e3 * stress, lateral / 100.0, 10.0 * axial);
+    }
+  fs::create_directories(folder.path() / "si");
+  folder.write("si/core.csv", other);
+  remade("report --curve si/core.csv --output units");
+  EXPECT_EQ(content(folder.path() / "units/tables/comparison.csv"), comparison);
+}
+
+TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
+{
+  const std::string header = "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    folder.write("core.csv", text);
+    const auto answer = run_feldspar(folder.path(), "report --curve core.csv --output new");
+    EXPECT_EQ(answer.exit_code, 2) << words;
+    EXPECT_NE(answer.error.find(words), std::string::npos) << answer.error;
+    EXPECT_EQ(count(answer.error, "\n"), 1u) << answer.error;
+    EXPECT_FALSE(fs::exists(folder.path() / "new")) << words;
+  };
+  refused(measured_curve("axial_strain [%],lateral_strain [%],axial_stress,confining_pressure [MPa]"),
+          "core.csv:1: \"axial_stress\" has no unit in square brackets");
+  refused(measured_curve("axial_strain [%],lateral_strain [%],axial_stress [mm],confining_pressure [MPa]"),
+          "\"mm\" is not the unit of a stress");
+  refused(measured_curve("axial_strain [%],axial_stress [MPa],axial_stress [MPa],confining_pressure [MPa]"),
+          "axial_stress is there twice");
+  refused(measured_curve("axial_strain [%],radial [%],axial_stress [MPa],confining_pressure [MPa]"),
+          "there is no column lateral_strain");
+  refused(measured_curve(header, 1.0), "lateral_strain grows with the load");
+  refused(header + "\n0,0,0,0\n0.1,-0.02,50,0\n0.2,-0.04,100,0\n", "axial_stress never peaks");
+  refused(header + "\n0,0,0,0\n-0.1,-0.02,50,0\n-0.2,-0.04,40,0\n", "shortening is positive");
+  refused(header + "\n0,0,5,5\n0.1,-0.02,50,9\n0.2,-0.04,40,5\n", "confining_pressure is");
+  refused(header + "\n0,0,0,0\n0.1,-0.02,much,0\n", "core.csv:3: axial_stress [MPa]: \"much\" is not a decimal number");
+  refused("", "core.csv:1: there is no column axial_strain");
+}
+
+/// Headless Chromium, which the report itself does not need.
+class Browser
+{
+public:
+  static bool is_there() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
+
+  /// Shows a page with more arguments; what it printed and what the page's console said.
+  static Outcome show(const fs::path& page, const std::string& arguments)
+  {
+    const TemporaryFolder profile; // with its crash reports and caches
+    const std::string out = (profile.path() / "out").string();
+    const std::string command = fmt::format(
+      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "--user-data-dir='{0}/profile' --hide-scrollbars --enable-logging=stderr {1} 'file://{2}' >'{3}' 2>'{3}.err'",
+      profile.path().string(), arguments, page.string(), out);
+    Outcome outcome{};
+    outcome.exit_code = std::system(command.c_str());
+    outcome.output = content(out);
+    std::istringstream errors(content(out + ".err"));
+    for (std::string line; std::getline(errors, line);)
+      if (line.find(":CONSOLE") != std::string::npos)
+        outcome.error += line + "\n";
+    return outcome;
+  }
+};
+
+TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
+{
+  if (!Browser::is_there())
+    GTEST_SKIP() << "chromium (package chromium) is not installed";
+  const fs::path page = folder.path() / "out/report.html";
+  // Its own policy forbids it to load anything; what breaks that, or a script that fails, stands in the console.
+  for (const int width : {1280, 390})
+    for (const char* mode : {"", "--force-dark-mode --blink-settings=preferredColorScheme=0"})
+      {
+        const fs::path shot = folder.path() / "shot.png";
+        const auto shown =
+          Browser::show(page, fmt::format("{} --window-size={},900 --screenshot='{}'", mode, width, shot.string()));
+        EXPECT_EQ(shown.exit_code, 0);
+        EXPECT_EQ(shown.error, "");
+        ASSERT_TRUE(fs::exists(shot));
+        EXPECT_GT(fs::file_size(shot), 20'000u);
+        fs::remove(shot);
+      }
+  // A page that does load something is found out: the check above can fail.
+  std::string loading = content(page);
+  loading.insert(loading.find("<main>"), "<img src=\"http://127.0.0.1:9/missing.png\" alt=\"\">");
+  folder.write("loading.html", loading);
+  EXPECT_NE(Browser::show(folder.path() / "loading.html",
+                          fmt::format("--screenshot='{}'", (folder.path() / "shot.png").string()))
+              .error,
+            "");
+
+  // No wider than its frame: tables scroll in their places. The probe replaces the policy, which forbids scripts; a
+  // window of the browser is never as narrow as a phone, a frame in it is.
+  std::string probe = content(page);
+  const std::size_t policy = probe.find("<meta http-equiv");
+  probe.replace(policy, probe.find('>', policy) + 1 - policy,
+                "<script>addEventListener('load', () => parent.postMessage('wide ' + "
+                "document.documentElement.scrollWidth + ' of ' + innerWidth, '*'))</script>");
+  folder.write("probe.html", probe);
+  for (const int width : {1280, 390})
+    {
+      folder.write("frame.html",
+                   fmt::format("<title>none</title><script>addEventListener('message', event => {{ document.title = "
+                               "event.data; }})</script><iframe src=\"probe.html\" width=\"{}\" height=\"900\" "
+                               "style=\"border: 0\"></iframe>",
+                               width));
+      const auto shown = Browser::show(folder.path() / "frame.html", "--dump-dom");
+      EXPECT_NE(shown.output.find(fmt::format("<title>wide {} of {}</title>", width, width)), std::string::npos)
+        << shown.output.substr(0, 200);
+    }
+}
+} // namespace
+} // namespace feldspar::tests
