@@ -19,8 +19,8 @@ namespace
 {
 using namespace plot;
 
-constexpr int width = 640;
-constexpr int height = 460;
+constexpr int width = 580;
+constexpr int height = 450;
 constexpr std::size_t most_rows = 250; ///< of a single test in a picture
 constexpr std::size_t n_bins = 40;
 

@@ -234,8 +234,8 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
      .caption = "Strength envelope" + (all.size() > 1 ? " of " + all[which].label : std::string()),
      .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
                     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
-     .width = 820,
-     .height = 660,
+     .width = 660,
+     .height = 640,
      .script = plotted.script()});
   // Near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
@@ -245,8 +245,8 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
         {.name = "envelope_near_uniaxial" + of_series,
          .caption = "The same near the uniaxial and the tension test",
          .alternative = "The strength envelope between tension and low confinement, enlarged.",
-         .width = 820,
-         .height = 620,
+         .width = 660,
+         .height = 640,
          .script = plotted.script(EnvelopePoint{sigma_3, 2.2 * *envelopes.data.uniaxial_compressive_strength})});
     }
   return pictures;
@@ -277,8 +277,8 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
   return {{.name = "envelopes",
            .caption = "Strength of all series",
            .alternative = "Strength against confinement of all series, each with the intact Hoek–Brown envelope.",
-           .width = 820,
-           .height = 620,
+           .width = 660,
+           .height = 640,
            .script = plotted.script()}};
 }
 
@@ -316,7 +316,7 @@ std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelo
     {.name = "residuals_" + file_name(series.label),
      .caption = "Residuals: strength of each point less that of the envelope",
      .alternative = "Residual of each point for each fitted envelope; the figures are in the table below.",
-     .width = 820,
+     .width = 660,
      .height = 460,
      .script =
        data + frame("confinement σ₃ [MPa], compression positive", "residual in σ₁ [MPa]") +
@@ -351,6 +351,6 @@ std::vector<Picture> shear_share_picture(const std::vector<Series>& all)
            .width = 640,
            .height = 420,
            .script = data + frame("confinement σ₃ [MPa]", "shear cracks at the peak [%]") +
-                     "set offsets graph 0.03, graph 0.03, graph 0.03, 0\nset yrange [0:*]\nplot " + plots + "\n"}};
+                     "set offsets 0, graph 0.03, graph 0.03, 0\nset yrange [0:*]\nplot " + plots + "\n"}};
 }
 } // namespace feldspar

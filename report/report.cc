@@ -238,13 +238,17 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
   const auto stress = [](const std::optional<double>& value, const int decimals) {
     return value ? number(*value / mega, decimals) : none;
   };
+  const auto beside = [](const double fitted, const std::optional<double>& was_measured) {
+    return was_measured ? fmt::format(" ({})", signed_percent(fitted / *was_measured - 1.0)) : std::string();
+  };
   Table table{
     name,
     fmt::format(
       "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa. Measured UCS {}, measured "
       "σ_t {}",
       stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
-    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
+    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS (from measured)", "fitted σ_t (from measured)",
+     "admissible"},
     {}};
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
@@ -258,15 +262,20 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
             continue;
           }
         const HoekBrownFit& fit = *answer->fit;
-        table.rows.push_back({form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 2), estimate(fit.s, 1.0, 3),
-                              estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
-                              number(fit.quality.root_mean_square / mega, 1),
-                              estimate(fit.uniaxial_compressive_strength, mega, 1),
-                              number(-fit.tensile_cut_off.value / mega, 2), fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
+        table.rows.push_back(
+          {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 2), estimate(fit.s, 1.0, 3),
+           estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
+           number(fit.quality.root_mean_square / mega, 1),
+           estimate(fit.uniaxial_compressive_strength, mega, 1) +
+             beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
+           number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength),
+           fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
       }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     table.rows.push_back({"Mohr–Coulomb", none, none, none, none, number(fit->quality.r_squared, 1.0, 4),
-                          number(fit->quality.root_mean_square / mega, 1), estimate(fit->uniaxial_strength, mega, 1),
+                          number(fit->quality.root_mean_square / mega, 1),
+                          estimate(fit->uniaxial_strength, mega, 1) +
+                            beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
                           none, "✓"});
   else
     table.rows.push_back({"Mohr–Coulomb", "no fit: " + envelopes.mohr_coulomb.reason, "", "", "", "", "", "", "", ""});
