@@ -20,12 +20,6 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& json, const std::string_view key)
-{
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 std::optional<TestKind> kind_named(const std::string_view wanted)
 {
   for (const TestKind kind :
@@ -47,29 +41,6 @@ Json read_summary(const std::filesystem::path& folder)
   if (!json.contains("tests") || !json["tests"].is_array())
     throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
   return json;
-}
-
-Provenance provenance_of(const Json& json)
-{
-  Provenance made_by;
-  made_by.version = text_of(json, "feldspar_version");
-  made_by.commit = text_of(json, "commit");
-  if (const auto input = json.find("input"); input != json.end() && input->is_object())
-    {
-      made_by.input_file = text_of(*input, "file");
-      if (const auto parameters = input->find("parameters"); parameters != input->end() && parameters->is_object())
-        for (const auto& [section, entries] : parameters->items())
-          if (entries.is_object())
-            for (const auto& [entry, value] : entries.items())
-              made_by.input.push_back({section, entry, value.is_string() ? value.get<std::string>() : value.dump()});
-    }
-  if (const auto host = json.find("host"); host != json.end() && host->is_object())
-    {
-      made_by.processor = text_of(*host, "processor");
-      if (const auto threads = host->find("threads"); threads != host->end() && threads->is_number_unsigned())
-        made_by.n_threads = threads->get<unsigned int>();
-    }
-  return made_by;
 }
 
 FinishedTest test_of(const Json& json, const TestKind kind)
@@ -170,7 +141,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
       auto series =
         std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
       if (series == all.end())
-        series = all.insert(all.end(), {name_of_series, SeriesKind::specimens, provenance_of(json), {}, {}});
+        series = all.insert(all.end(), {name_of_series, SeriesKind::specimens, read_provenance(json), {}, {}});
       series->tests.push_back(std::move(test));
     }
   all.front().problems = problems;
