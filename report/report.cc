@@ -193,6 +193,64 @@ Table comparison_table(const Findings& findings)
   return table;
 }
 
+/// A measured curve beside the model's tests of its kind and pressure.
+Table measured_table(const Findings& findings, const std::size_t which)
+{
+  const Series& measured = findings.all[which];
+  const TestGroup curve = groups_of(measured).front();
+  Table table{fmt::format("measured_{}_{}", which + 1, plot::file_name(measured.label)),
+              curve.title() + ": measured and model, mean ± standard deviation over the seeds",
+              {"property", measured.label},
+              {}};
+  // The model was hardly pressed with just the pressure of the laboratory.
+  const auto is_alike = [&](const TestGroup& group) {
+    return group.kind == curve.kind && std::abs(group.confining_pressure - curve.confining_pressure) <=
+                                         0.05 * std::max(group.confining_pressure, curve.confining_pressure);
+  };
+  std::vector<TestGroup> beside;
+  for (const auto& series : findings.all)
+    if (series.kind != SeriesKind::laboratory_curve)
+      for (const auto& group : groups_of(series))
+        if (is_alike(group))
+          {
+            beside.push_back(group);
+            table.header.push_back(group.confining_pressure == curve.confining_pressure
+                                     ? series.label
+                                     : series.label + ", " + group.title());
+          }
+  struct Property
+  {
+    const char* name;
+    Figure TestResults::*figure;
+    double unit;
+    int decimals;
+  };
+  static constexpr std::array properties{
+    Property{"peak stress [MPa]", &TestResults::peak_stress, mega, 1},
+    Property{"strain at peak [1e-3]", &TestResults::strain_at_peak, 1e-3, 2},
+    Property{"Young's modulus, tangent 40-60 % of peak [GPa]", &TestResults::youngs_modulus_tangent, 1e9, 1},
+    Property{"Young's modulus, initial [GPa]", &TestResults::youngs_modulus_initial, 1e9, 1},
+    Property{"Poisson's ratio, secant at 50 % of peak", &TestResults::poissons_ratio_secant, 1.0, 3},
+    Property{"Poisson's ratio, initial", &TestResults::poissons_ratio_initial, 1.0, 3},
+    Property{"crack initiation stress, lateral strain [MPa]", &TestResults::crack_initiation_stress_lateral, mega, 1},
+    Property{"crack initiation stress, count of cracks [MPa]", &TestResults::crack_initiation_stress, mega, 1},
+    Property{"crack damage stress [MPa]", &TestResults::crack_damage_stress, mega, 1}};
+  for (const auto& property : properties)
+    {
+      std::vector<std::string> row{
+        property.name, number(curve.tests.front()->results.*property.figure, property.unit, property.decimals)};
+      for (const auto& group : beside)
+        {
+          const auto over_seeds = statistics(values(group, property.figure));
+          row.push_back(over_seeds ? deviation_text(*over_seeds, property.unit, property.decimals) : none);
+        }
+      table.rows.push_back(row);
+    }
+  if (beside.empty())
+    table.caption += "; the model was not tested so";
+  return table;
+}
+
 PageSection verdict_section(const Findings& findings)
 {
   PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
@@ -205,6 +263,7 @@ PageSection verdict_section(const Findings& findings)
           block.subheading = findings.all[n].label;
           block.chip = plot::colour(findings.all[n], n);
           block.paragraphs.push_back("Measured in a laboratory and evaluated as the model's tests are.");
+          block.tables.push_back(measured_table(findings, n));
         }
       else
         {
@@ -358,6 +417,21 @@ private:
   std::vector<Picture> all;
 };
 
+/// Whether an envelope that another source prints meets its own uniaxial tests; empty if there is none.
+std::string remark_on_printed(const ReferenceSource& source)
+{
+  const auto measured = source.find("uniaxial_compressive_strength_MPa");
+  if (!source.envelope || !measured)
+    return "";
+  const double fitted = source.envelope->sigma_1(0.0) / mega;
+  std::string text = fmt::format(
+    "{}: the printed envelope has s = {:.2f} and says {:.0f} MPa at σ₃ = 0, where its own tests gave {:.0f} MPa",
+    source.label, source.envelope->s, fitted, measured->mean);
+  if (source.envelope->s > 1.0)
+    text += ": with s > 1 the strength σ_ci·sᵃ at σ₃ = 0 exceeds σ_ci";
+  return text + ".";
+}
+
 PageSection envelope_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"envelope", "Envelope", "Strength envelope", {}};
@@ -381,6 +455,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
           continue;
         }
       block.paragraphs.push_back(with_symbols(remark(envelopes)));
+      if (n == 0 && findings.reference)
+        if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
+          block.paragraphs.push_back(printed);
       block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
       section.blocks.push_back(block);
       PageBlock figures;

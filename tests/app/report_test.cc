@@ -253,6 +253,28 @@ TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
          "\"crack initiation stress, lateral strain [MPa]\",60.0 ",
          "\"crack damage stress, compression [MPa]\",120.0 "});
 
+  // Under pressure it stands beside the model's tests at that pressure.
+  std::string confined =
+    measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]");
+  std::istringstream lines(confined);
+  std::string line;
+  std::getline(lines, confined);
+  confined += '\n';
+  while (std::getline(lines, line))
+    {
+      double axial = 0.0;
+      double lateral = 0.0;
+      double stress = 0.0;
+      ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &axial, &lateral, &stress), 3);
+      confined += fmt::format("{:.9f},{:.9f},{},10\n", axial, lateral, stress + 10.0);
+    }
+  folder.write("confined.csv", confined);
+  remade("report out --curve confined.csv --output pressed");
+  const std::string beside = content(folder.path() / "pressed/tables/measured_2_confined.csv.csv");
+  EXPECT_TRUE(beside.starts_with("property,confined.csv,out\n")) << beside;
+  holds(beside, {"peak stress [MPa],170.0,", "\"Young's modulus, initial [GPa]\",60.0,",
+                 "\"crack initiation stress, lateral strain [MPa]\",70.0,", "crack damage stress [MPa],130.0,"});
+
   // The same in other units and another order, with a column more.
   std::string other = "note,confining_pressure [Pa],axial_stress [kPa],lateral_strain [-],axial_strain [mm/m]\n";
   std::istringstream rows(
