@@ -310,9 +310,10 @@ std::optional<Picture> crack_rate_picture(const SameTests& same, const std::stri
     .alternative = "Histogram of cracks and of the energy they released over axial strain in " + of_tests + ".",
     .width = width,
     .height = height,
-    .script = plot.script(frame("axial strain [10⁻³]", "cracks per 10⁻³ of strain") +
-                          "set y2label 'released energy [J per 10⁻³ of strain]'\nset border 11\n"
-                          "set y2tics nomirror out\nset yrange [0:*]; set y2range [0:*]\nset boxwidth 1 relative\n")};
+    .script = plot.script(
+      frame("axial strain [10⁻³]", "cracks per 10⁻³ of strain") +
+      "set y2label 'released energy [J per 10⁻³ of strain]'\nset border 11\n"
+      "set y2tics nomirror out\nset xrange [0:*]; set yrange [0:*]; set y2range [0:*]\nset boxwidth 1 relative\n")};
 }
 } // namespace
 

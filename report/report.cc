@@ -138,14 +138,22 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
 
 Table comparison_table(const Findings& findings)
 {
-  // Rows of all series, by their names, in the order in which they come.
+  // Measured curves have tables of their own beside the model, if there is one.
+  const bool any_model = std::any_of(findings.all.begin(), findings.all.end(),
+                                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  std::vector<std::size_t> compared;
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve)
+      compared.push_back(n);
+
+  // Rows of these series, by their names, in the order in which they come.
   std::vector<std::string> properties;
-  for (const auto& rows : findings.comparisons)
-    for (const auto& row : rows)
+  for (const std::size_t n : compared)
+    for (const auto& row : findings.comparisons[n])
       if ((row.ours || row.experiment || row.model) &&
           std::find(properties.begin(), properties.end(), row.property) == properties.end())
         properties.push_back(row.property);
-  const bool one = findings.all.size() == 1;
+  const bool one = compared.size() == 1;
 
   Table table{"comparison",
               "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
@@ -157,9 +165,8 @@ Table comparison_table(const Findings& findings)
   if (findings.reference)
     rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};
   std::vector<std::string> of_series;
-  for (const auto& series : findings.all)
-    append(of_series, {one && series.kind == SeriesKind::specimens ? "model" : series.label,
-                       one ? "model against experiment" : "against experiment", "95 % of the mean"});
+  for (const std::size_t n : compared)
+    append(of_series, {one && any_model ? "model" : findings.all[n].label, "against experiment", "95 % of the mean"});
   table.header = arranged("property", rock, of_series, one);
   for (const auto& property : properties)
     {
@@ -167,8 +174,9 @@ Table comparison_table(const Findings& findings)
       std::vector<std::string> ours;
       std::string experiment = none;
       std::string model = none;
-      for (const auto& rows : findings.comparisons)
+      for (const std::size_t n : compared)
         {
+          const auto& rows = findings.comparisons[n];
           const auto row = std::find_if(rows.begin(), rows.end(),
                                         [&](const ComparisonRow& candidate) { return candidate.property == property; });
           if (row == rows.end())
@@ -303,11 +311,10 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
   Table table{
     name,
     fmt::format(
-      "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa. Measured UCS {}, measured "
-      "σ_t {}",
+      "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa; fitted strengths "
+      "with their deviation from the measured ones, UCS {} and σ_t {}",
       stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
-    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS (from measured)", "fitted σ_t (from measured)",
-     "admissible"},
+    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
     {}};
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
@@ -322,7 +329,7 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
           }
         const HoekBrownFit& fit = *answer->fit;
         table.rows.push_back(
-          {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 2), estimate(fit.s, 1.0, 3),
+          {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
            estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
            number(fit.quality.root_mean_square / mega, 1),
            estimate(fit.uniaxial_compressive_strength, mega, 1) +
