@@ -12,6 +12,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -21,7 +22,7 @@ namespace feldspar
 namespace
 {
 /// A column by its name, with where its number is in a row. `laboratory`: changes sign to be positive in the sense of
-/// the test.
+/// the test; `added`: tables of before it was added do without, and it is 0.
 template <typename Row>
 struct Column
 {
@@ -29,6 +30,7 @@ struct Column
   std::function<double(const Row&)> get;
   std::function<void(Row&, double)> set;
   bool laboratory = false;
+  bool added = false;
 };
 
 /// `part` gives the number's place in a row.
@@ -40,7 +42,7 @@ Column<Row> column(const std::string_view name, const Part& part, const bool lab
             auto& place = part(row);
             place = std::remove_reference_t<decltype(place)>(value);
           },
-          laboratory};
+          laboratory, false};
 }
 
 template <typename Row, typename T>
@@ -61,6 +63,12 @@ Column<Row> coordinate(const std::string_view name, std::array<double, n> Row::*
 {
   return column<Row>(
     name, [=](auto& row) -> auto& { return (row.*member)[c]; });
+}
+
+Column<CurveSample> added(Column<CurveSample> column)
+{
+  column.added = true;
+  return column;
 }
 
 const std::vector<Column<CurveSample>>& curve_columns()
@@ -85,7 +93,7 @@ const std::vector<Column<CurveSample>>& curve_columns()
     energy("slip_energy_J", &Energies::slip),
     energy("released_energy_J", &Energies::released),
     energy("damping_energy_J", &Energies::damping),
-    energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start)};
+    added(energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start))};
   return columns;
 }
 
@@ -155,6 +163,8 @@ public:
     return found->second;
   }
 
+  bool has(const std::string_view name) const { return places.contains(std::string(name)); }
+
   bool next()
   {
     if (!std::getline(stream, line))
@@ -201,21 +211,22 @@ private:
 
 /// Where the columns stand in this table.
 template <typename Row>
-std::vector<std::size_t> places_of(const TableReader& table, const std::vector<Column<Row>>& columns)
+std::vector<std::optional<std::size_t>> places_of(const TableReader& table, const std::vector<Column<Row>>& columns)
 {
-  std::vector<std::size_t> places;
+  std::vector<std::optional<std::size_t>> places;
   for (const auto& one : columns)
-    places.push_back(table.place(one.name));
+    places.push_back(one.added && !table.has(one.name) ? std::nullopt : std::optional(table.place(one.name)));
   return places;
 }
 
 template <typename Row>
-Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns, const std::vector<std::size_t>& places,
-           const double sign)
+Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
+           const std::vector<std::optional<std::size_t>>& places, const double sign)
 {
   Row row{};
   for (std::size_t k = 0; k < columns.size(); ++k)
-    columns[k].set(row, columns[k].laboratory ? sign * table.value(places[k]) : table.value(places[k]));
+    if (places[k])
+      columns[k].set(row, columns[k].laboratory ? sign * table.value(*places[k]) : table.value(*places[k]));
   return row;
 }
 } // namespace
