@@ -16,7 +16,7 @@ struct SampleParameters
   double compression_step = 4e-5;        ///< axial strain between two rows of the curve
   double tension_step = 2e-6;            ///< the same
   double most_broken_share = 0.01;       ///< of all segments in one step; beyond it the step is cut
-  double smallest_step_share = 1.0 / 64; ///< of a step, before there is said to be no equilibrium
+  double smallest_step_share = 1.0 / 16; ///< of a step, before there is said to be no equilibrium
   double newton_tolerance = 1e-5;        ///< unbalanced over internal force
 };
 } // namespace feldspar

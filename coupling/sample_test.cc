@@ -15,18 +15,6 @@
 
 namespace feldspar
 {
-namespace
-{
-fem::SolidParameters solid_parameters(const SampleParameters& sample, const std::uint64_t most_events)
-{
-  fem::SolidParameters parameters;
-  parameters.order = sample.order;
-  parameters.newton_tolerance = sample.newton_tolerance;
-  parameters.most_events = most_events;
-  return parameters;
-}
-} // namespace
-
 struct SampleTest::Parts
 {
   TestCase test;
@@ -54,20 +42,18 @@ struct SampleTest::Parts
     , wanted(parameters)
     , mesh(fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height,
                              {sample.elements_across, sample.elements_along}, 0))
-    , solid(mesh, set_up(segments_a_volume), material)
+    , solid(mesh, set_up(), material)
     , stop_rule(test.kind)
   {
     standing.n_points = solid.material_points().size();
     standing.n_segments = standing.n_points * segments_a_volume;
   }
 
-  fem::SolidParameters set_up(const std::uint64_t segments_a_volume)
+  fem::SolidParameters set_up()
   {
-    const auto n_points =
-      std::uint64_t((sample.order + 1) * (sample.order + 1)) * sample.elements_across * sample.elements_along;
-    auto parameters = solid_parameters(
-      sample,
-      std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(n_points * segments_a_volume))));
+    fem::SolidParameters parameters;
+    parameters.order = sample.order;
+    parameters.newton_tolerance = sample.newton_tolerance;
     parameters.watch = [this](const fem::NewtonReport& report) {
       standing.n_newton_iterations = report.n_iterations;
       standing.n_cascades = report.n_cascades;
@@ -96,10 +82,33 @@ struct SampleTest::Parts
     record.curve.push_back(sample_row());
   }
 
+  /// In steps that break no more than their share; where the smallest still does, it is an avalanche, which no step can
+  /// divide.
   void go(const fem::Load<2>& load)
   {
-    fem::advance<2, 2>(solid, load, fem::StepControl(1.0, sample.smallest_step_share, 1.0),
-                       [&](const fem::NewtonReport&) { gather_cracks(); });
+    fem::StepControl steps(1.0, sample.smallest_step_share, 1.0);
+    const auto most_events =
+      std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(standing.n_segments)));
+    bool avalanche = false;
+    while (!steps.finished())
+      {
+        solid.limit_events(avalanche ? standing.n_segments : most_events);
+        const fem::NewtonReport report = solid.solve(load, (steps.next() - steps.done()) / (1.0 - steps.done()));
+        if (report.converged)
+          {
+            solid.accept();
+            steps.succeeded();
+            gather_cracks();
+            avalanche = false;
+            continue;
+          }
+        solid.reject();
+        if (steps.cut())
+          continue;
+        if (avalanche || report.n_events <= most_events)
+          throw fem::StepFailure(report.failure);
+        avalanche = true;
+      }
   }
 
   void load_to(const double strain) { go(platens().pressing(height_at_seating + strain * sample.height)); }

@@ -66,6 +66,8 @@ public:
   NewtonReport solve(const Load<dim>& load, double fraction = 1.0);
   void accept();
   void reject();
+  /// From the next solve on.
+  void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
 
   /// Force on the body along a coordinate by what holds a boundary's displacement [N], without its own pressure. In
   /// the plane per metre of thickness; in r-z around the whole circle.
