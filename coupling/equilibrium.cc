@@ -172,7 +172,8 @@ Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unkn
 template <int dim>
 template <typename Apply>
 Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const Unknowns& right,
-                                        const std::array<bool, n_voigt<dim>>& strain_is_free, const double tolerance)
+                                        const std::array<bool, n_voigt<dim>>& strain_is_free,
+                                        const double tolerance) const
 {
   const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
     return conjugate_gradients(
@@ -483,7 +484,7 @@ Stiffness<dim> Equilibrium<dim>::affine_tangent() const
 }
 
 template <int dim>
-Stiffness<dim> Equilibrium<dim>::tangent()
+Stiffness<dim> Equilibrium<dim>::tangent() const
 {
   if (active.empty() && present.touches.empty())
     return network.intact_stiffness();

@@ -83,7 +83,7 @@ public:
   unsigned int n_iterations() const { return iterations; }
 
   /// With bonds and open, stick and slip states frozen as they are [Pa].
-  Stiffness<dim> tangent();
+  Stiffness<dim> tangent() const;
   /// The same without the grains' rearrangement [Pa].
   Stiffness<dim> affine_tangent() const;
 
@@ -106,7 +106,7 @@ private:
   Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
   template <typename Apply>
   Unknowns solve_linear(const Apply& apply, const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                        double tolerance);
+                        double tolerance) const;
   ActiveLink<dim> activate(std::uint32_t link) const;
   double slip_energy(const Balance& from, const Balance& to) const;
   void commit();
@@ -120,7 +120,8 @@ private:
   Balance at_event;
   Unknowns position;
   Balance present;
-  std::unique_ptr<FactorisedNetwork<dim>> factorised; ///< with some stiffnesses there were; empty: the intact ones
+  mutable std::unique_ptr<FactorisedNetwork<dim>>
+    factorised; ///< with some stiffnesses there were; empty: the intact ones
   unsigned int iterations = 0;
 };
 } // namespace feldspar

@@ -1,0 +1,132 @@
+#include "coupling/grain_material.h"
+#include "fem/solid.h"
+#include "tests/unit/small_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace feldspar
+{
+namespace
+{
+EquilibriumParameters tight()
+{
+  EquilibriumParameters parameters;
+  parameters.event_tolerance = 1e-11;
+  parameters.final_tolerance = 1e-11;
+  return parameters;
+}
+
+fem::Load<2> uniform_strain(const Voigt<2>& strain)
+{
+  fem::Load<2> load;
+  const Tensor<2> gradient = strain_tensor<2>(strain);
+  for (const char* const side : {"left", "right", "bottom", "top"})
+    for (unsigned int c = 0; c < 2; ++c)
+      load.displacements.push_back(
+        {side, c, [=](const dealii::Point<2>& x) { return gradient(c, 0) * x[0] + gradient(c, 1) * x[1]; }});
+  return load;
+}
+
+// Strained the same way, an element of one realisation in its own axes and the bare volume take the same steps: intact,
+// and through breaks.
+TEST(GrainMaterial, OneElementIsTheBareVolume)
+{
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  RepresentativeVolume<2> bare(network, tight());
+  GrainMaterialParameters parameters;
+  parameters.random_orientation = false;
+  parameters.equilibrium = tight();
+  const auto mesh = fem::plane_sample(MPI_COMM_WORLD, 0.01, 0.01, {1, 1}, 0);
+  fem::Solid<2> element(mesh, {.newton_tolerance = 1e-12}, grain_material<2>({network}, parameters));
+  const Voigt<2> direction(-2e-5, 3e-4, 4e-5);
+  std::size_t n_breaks = 0;
+  constexpr int n_steps = 10;
+  for (int k = 1; k <= n_steps; ++k)
+    {
+      const Voigt<2> strain = double(k) / n_steps * direction;
+      auto trial = bare.trial(strain);
+      ASSERT_TRUE(trial.in_equilibrium);
+      const bool breaks = !trial.breaks.empty();
+      n_breaks += trial.breaks.size();
+      bare.accept(std::move(trial));
+      const auto report = element.solve(uniform_strain(strain));
+      ASSERT_TRUE(report.converged) << report.failure;
+      if (!breaks)
+        {
+          EXPECT_LE(report.n_iterations, 1u);
+        }
+      element.accept();
+      // Round-off of the strain the element interpolates, over the stress of the step before the breaks.
+      EXPECT_LT((element.mean_stress() - bare.state().stress).norm(), 1e-10 * 80e9 * strain.norm()) << k;
+    }
+  EXPECT_GT(n_breaks, 0u); // else nothing but elasticity was compared
+}
+
+// A volume turned by 30° under a strain answers as the volume itself under the strain turned back.
+TEST(GrainMaterial, ATurnedVolumeAnswersInTheAxesOfTheSample)
+{
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  const double angle = std::acos(-1.0) / 6.0;
+  Tensor<2> turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  const GrainPoint<2> point(network, turn, tight());
+  const Voigt<2> strain(2e-5, -3e-5, 1e-5);
+  const auto answer = point.trial(strain);
+  const Tensor<2> in_volume = turn.transpose() * strain_tensor<2>(strain) * turn;
+  const Voigt<2> of_volume = network->intact_stiffness() * strain_voigt<2>(in_volume);
+  const Tensor<2> expected = turn * stress_tensor<2>(of_volume) * turn.transpose();
+  EXPECT_LT((stress_tensor<2>(answer.stress) - expected).norm(), 1e-13 * expected.norm());
+  EXPECT_LT((answer.tangent * strain - answer.stress).norm(), 1e-13 * answer.stress.norm()); // linear so far
+}
+
+TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
+{
+  GrainPoint<2> point(std::make_shared<const Network<2>>(periodic_specimen()), Tensor<2>::Identity(), {});
+  const Voigt<2> strain(0.0, 3e-4, 0.0);
+  point.trial(strain);
+  ASSERT_GT(point.relax(strain), 0u);
+  point.reject();
+  EXPECT_TRUE(point.volume().state().intact);
+  EXPECT_EQ(point.fields(), (std::vector<double>{0.0, 0.0, 0.0}));
+  EXPECT_TRUE(point.cracks_of_last_step().empty());
+
+  // What is accepted is told, once.
+  point.trial(strain);
+  const std::size_t n_events = point.relax(strain);
+  point.accept(strain);
+  EXPECT_EQ(point.cracks_of_last_step().size(), n_events);
+  EXPECT_GT(point.fields()[0], 0.0);
+  point.accept(strain);
+  EXPECT_TRUE(point.cracks_of_last_step().empty());
+}
+
+// Each point draws by itself: the same seed deals the same whatever the order, another seed otherwise.
+TEST(GrainMaterial, VolumesAreDealtByTheSeed)
+{
+  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  for (const std::uint64_t seed : {1, 2, 3})
+    realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
+  const auto dealt = [&](const std::uint64_t seed, const unsigned int q) {
+    GrainMaterialParameters parameters;
+    parameters.seed = seed;
+    const auto point = grain_material<2>(realisations, parameters).make_point({"0_0:", q, {0.0, 0.0}, 0.01});
+    const auto& grains = dynamic_cast<const GrainPoint<2>&>(*point);
+    return std::pair(&grains.volume().network(), grains.orientation()(0, 0));
+  };
+  std::set<const Network<2>*> used;
+  std::set<double> cosines;
+  for (unsigned int q = 0; q < 30; ++q)
+    {
+      EXPECT_EQ(dealt(1, q), dealt(1, q));
+      used.insert(dealt(1, q).first);
+      cosines.insert(dealt(1, q).second);
+    }
+  EXPECT_EQ(used.size(), 3u); // missing one of three in 30 draws has odds of 2e-5
+  EXPECT_EQ(cosines.size(), 30u);
+  EXPECT_NE(dealt(1, 0), dealt(2, 0));
+}
+} // namespace
+} // namespace feldspar
