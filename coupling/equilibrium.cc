@@ -153,33 +153,35 @@ double Equilibrium<dim>::measure(const Balance& of, const Control<dim>& control)
 }
 
 template <int dim>
-Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unknowns) const
+Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unknowns,
+                                         JointStiffness<dim> LinkAnswer<dim>::*const which) const
 {
   const auto& links = network.links();
   Unknowns result = Unknowns::Zero(network.n_unknowns());
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     {
       const auto& stiffness =
-        active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].tangent;
+        active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].*which;
       add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
     }
   for (std::size_t a = 0; a < active.size(); ++a)
     if (const auto& link = links[active[a].link]; !link.has_face)
-      add_forces(link, at.active[a].tangent * link_motion(link, unknowns), result);
+      add_forces(link, at.active[a].*which * link_motion(link, unknowns), result);
   for (const auto& [k, touch] : at.touches)
-    add_forces(links[k], touch.tangent * link_motion(links[k], unknowns), result);
+    add_forces(links[k], touch.*which * link_motion(links[k], unknowns), result);
   return result;
 }
 
-/// Conjugate gradients with what was factorised last; where that takes longer than factorising anew, with the present.
+/// With what was factorised last; where that takes longer than factorising anew, with the present states frozen.
 template <int dim>
 template <typename Apply>
-Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const Unknowns& right,
+Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const bool symmetric, const Unknowns& right,
                                         const std::array<bool, n_voigt<dim>>& strain_is_free, const double tolerance)
 {
   const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
-    return conjugate_gradients(
-      apply, [&](const Unknowns& r) { return with.solve(r, strain_is_free); }, right, tolerance, most_iterations);
+    const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
+    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
+                     : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
   };
   const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
   if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
@@ -222,16 +224,22 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       if (k == parameters.most_iterations)
         return false;
       ++iterations;
+      const auto is_symmetric = [](const LinkAnswer<dim>& answer) {
+        return answer.derivative == answer.derivative.transpose();
+      };
+      const bool symmetric = std::all_of(present.active.begin(), present.active.end(), is_symmetric) &&
+                             std::all_of(present.touches.begin(), present.touches.end(),
+                                         [&](const auto& touch) { return is_symmetric(touch.second); });
       const Unknowns right = unbalanced(present, control);
       const auto apply = [&](const Unknowns& x) {
-        Unknowns y = apply_tangent(present, x) + lent_stiffness * network.lent(x);
+        Unknowns y = apply_tangent(present, x, &LinkAnswer<dim>::derivative) + lent_stiffness * network.lent(x);
         for (int c = 0; c < n_voigt<dim>; ++c)
           if (!control.stress_given[c])
             y[n_own + c] = 0.0;
         return y;
       };
-      const double linear_tolerance = std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error));
-      Unknowns step = step_share > 0.1 ? solve_linear(apply, right, control.stress_given, linear_tolerance)
+      const double precision = std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error));
+      Unknowns step = step_share > 0.1 ? solve_linear(apply, symmetric, right, control.stress_given, precision)
                                        : network.factorised_intact().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
@@ -514,7 +522,7 @@ Stiffness<dim> Equilibrium<dim>::tangent()
       const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
       const double tolerance = 1e-10 * size(affine) / std::max(size(right), 1e-300);
       if (tolerance < 1.0)
-        unit.head(n_own) += solve_linear(apply, right, {}, tolerance).head(n_own);
+        unit.head(n_own) += solve_linear(apply, true, right, {}, tolerance).head(n_own);
       result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
     }
   return 0.5 * (result + result.transpose());

@@ -104,10 +104,11 @@ private:
   Balance balance(const Unknowns& at) const;
   Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
   double measure(const Balance& of, const Control<dim>& control) const;
-  Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
+  Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns,
+                         JointStiffness<dim> LinkAnswer<dim>::*which = &LinkAnswer<dim>::tangent) const;
   template <typename Apply>
-  Unknowns solve_linear(const Apply& apply, const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                        double tolerance);
+  Unknowns solve_linear(const Apply& apply, bool symmetric, const Unknowns& right,
+                        const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);
   ActiveLink<dim> activate(std::uint32_t link) const;
   double slip_energy(const Balance& from, const Balance& to) const;
   void commit();

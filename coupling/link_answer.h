@@ -38,6 +38,8 @@ struct LinkAnswer
 {
   Motion<dim> forces = Motion<dim>::Zero();                  ///< work-conjugate to the link's motion
   JointStiffness<dim> tangent = JointStiffness<dim>::Zero(); ///< bonds and open, stick, slip states frozen
+  /// Derivative of the forces: what slides drags with its pressure, what closes late sticks late. Not symmetric.
+  JointStiffness<dim> derivative = JointStiffness<dim>::Zero();
   std::vector<SegmentAnswer<dim>> segments;
   double stored_energy = 0.0; ///< [J]
 };
