@@ -318,6 +318,35 @@ std::vector<Overload> Equilibrium<dim>::overloads() const
   return result;
 }
 
+template <int dim>
+double Equilibrium<dim>::share_until(const std::vector<Overload>& overloads) const
+{
+  double first = 1.0;
+  for (const Overload& overload : overloads)
+    {
+      const std::uint32_t number = network.link_of_segment(overload.segment);
+      const Link<dim>& link = network.links()[number];
+      const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
+      const Vector<dim> before = rows * network.link_motion(link, position_at_event);
+      const Vector<dim> now = rows * network.link_motion(link, position);
+      const Strength& bond = network.strength(overload.segment);
+      const auto holds = [&](const double share) {
+        const Vector<dim> strain = before + share * (now - before);
+        const double normal = link.normal_stiffness * strain[0];
+        const double shear = link.shear_stiffness * strain.template tail<dim - 1>().norm();
+        return normal <= bond.tensile && shear <= std::max(0.0, bond.cohesion - network.friction_slope() * normal);
+      };
+      double low = 0.0;
+      double high = first;
+      if (holds(high))
+        continue;
+      while (high - low > 1e-3 * high)
+        (holds(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      first = high;
+    }
+  return first;
+}
+
 /// Dissipated between two positions on the way from the last event [J].
 template <int dim>
 double Equilibrium<dim>::slip_energy(const Balance& from, const Balance& to) const

@@ -63,6 +63,9 @@ public:
   /// Segments with bonds that are overloaded, and the worst ratio of all.
   std::vector<Overload> overloads() const;
 
+  /// Of the way since the last event, taken as straight, how much is behind when the first of these is overloaded.
+  double share_until(const std::vector<Overload>& overloads) const;
+
   /// Makes the present position the last event and breaks these.
   void break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events);
 
