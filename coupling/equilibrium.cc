@@ -16,6 +16,7 @@ constexpr double tie = 1e-9; // overloads so near each other are the same; the s
 constexpr double lent_stiffness = 1e-7;
 constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
+constexpr unsigned int most_long_steps = 10; // then the body flies apart
 } // namespace
 
 template <int dim>
@@ -219,6 +220,7 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
 
   double error = measure(present, control);
   double step_share = 1.0;
+  unsigned int n_long_steps = 0;
   for (unsigned int k = 0; !(error <= tolerance); ++k)
     {
       if (k == parameters.most_iterations)
@@ -246,7 +248,11 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       for (std::size_t i = 0; i < network.n_grains(); ++i)
         largest = std::max(largest, step.template segment<dim>(n_motions<dim> * Eigen::Index(i)).norm());
       if (largest > longest)
-        step *= longest / largest;
+        {
+          if (++n_long_steps > most_long_steps)
+            return false;
+          step *= longest / largest;
+        }
 
       // Contacts that open, close or slide on the way change the balance: go no farther than it gets better.
       double share = 1.0;

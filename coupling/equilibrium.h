@@ -46,7 +46,7 @@ struct BreakEvent
 };
 
 /// A network on its way from one equilibrium to the next: relaxes with bonds frozen, breaks what is overloaded, relaxes
-/// again. No rate enters; docs/theory.md §6.3.
+/// again. No rate enters; docs/theory.md §10.3.
 template <int dim>
 class Equilibrium
 {

@@ -4,7 +4,7 @@
 #include "dem/flat_joint_law.h"
 
 /// How a link with unbonded segments answers: the flat-joint law of dem/, in small strains and from one event to the
-/// next; docs/theory.md §6.3.
+/// next; docs/theory.md §10.3.
 namespace feldspar
 {
 /// One segment at the last event.

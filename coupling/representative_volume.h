@@ -39,7 +39,7 @@ struct TrialOptions
   bool provisional = false;
 };
 
-/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §6. Copies share the reference
+/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
 /// network and hold their own state only. Trying is not doing: history changes on accept().
 template <int dim>
 class RepresentativeVolume
