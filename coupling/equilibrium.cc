@@ -17,6 +17,17 @@ constexpr double lent_stiffness = 1e-7;
 constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
 constexpr unsigned int most_long_steps = 10; // then the body flies apart
+
+/// Mean force of a link at a strain so small that nothing is held: a body that has come apart balances at nothing.
+template <int dim>
+double least_force(const Network<dim>& network)
+{
+  constexpr double least_strain = 1e-9;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    sum += network.bonded_stiffness(j)(0, 0) * network.links()[j].branch.norm();
+  return least_strain * sum / double(std::max<std::size_t>(1, network.n_joints()));
+}
 } // namespace
 
 template <int dim>
@@ -123,7 +134,11 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
       largest = std::max({largest, force.template head<dim>().norm(),
                           force.template tail<n_rotations<dim>>().norm() / network.radii()[i]});
     }
-  result.unbalanced_ratio = carried > 0.0 ? largest / (carried / double(n_carrying)) : 0.0;
+  const double least = least_force(network);
+  const double mean_force = n_carrying > 0 ? carried / double(n_carrying) : 0.0;
+  result.unbalanced_ratio = largest / std::max(mean_force, least);
+  result.carried_stress =
+    std::max(result.carried_stress, least * double(network.n_joints()) * network.mean_branch() / network.volume());
   // Forces on grains act against the links' own.
   result.forces.head(network.n_unknowns() - n_voigt<dim>) *= -1.0;
   return result;
