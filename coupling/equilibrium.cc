@@ -348,8 +348,8 @@ double Equilibrium<dim>::share_until(const std::vector<Overload>& overloads) con
       const std::uint32_t number = network.link_of_segment(overload.segment);
       const Link<dim>& link = network.links()[number];
       const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
-      const Vector<dim> before = rows * network.link_motion(link, position_at_event);
-      const Vector<dim> now = rows * network.link_motion(link, position);
+      const Vector<dim> before = rows * link_motion(link, position_at_event);
+      const Vector<dim> now = rows * link_motion(link, position);
       const Strength& bond = network.strength(overload.segment);
       const auto holds = [&](const double share) {
         const Vector<dim> strain = before + share * (now - before);

@@ -250,7 +250,7 @@ TEST(Network, FirstBreakIsThatOfTheFullSolution)
     for (std::size_t j = 0; j < network.n_joints(); ++j)
       {
         const Link<2>& link = network.links()[j];
-        const Motion<2> motion = network.link_motion(link, unknowns);
+        const Motion<2> motion = link_motion(link, unknowns);
         for (std::uint32_t i = 0; i < link.n_segments; ++i)
           {
             const double offset = link.half_length * network.elements()[i].offset[0];

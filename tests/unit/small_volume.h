@@ -79,8 +79,7 @@ struct DirectSolution
         const Unknowns unit = Unknowns::Unit(n, c);
         Unknowns column = Unknowns::Zero(n);
         for (std::size_t k = 0; k < link_stiffnesses.size(); ++k)
-          network.add_forces(network.links()[k], link_stiffnesses[k] * network.link_motion(network.links()[k], unit),
-                             column);
+          add_forces(network.links()[k], link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
         all.col(c) = column;
       }
     const Eigen::Index n_own = n - 3;
