@@ -184,16 +184,20 @@ void check(const Input& input, const std::filesystem::path& file)
     {
       for (const Variant& variant : variants(input))
         {
+          if (variant.input.specimen.dimension != 2)
+            throw InputError("Specimen/Dimension = 3: a representative volume works in the plane yet");
           if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
             throw InputError(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
                                          variant.input.specimen.shape));
-          path_legs<2>(variant.input.strain_path);
+          check(variant.input.strain_path);
         }
     }
   catch (const InputError& error)
     {
       throw InputError(fmt::format("{}: {}", file.string(), error.what()));
     }
+  for (const Variant& variant : variants(input))
+    path_legs<2>(variant.input.strain_path);
 }
 } // namespace
 

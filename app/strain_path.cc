@@ -109,8 +109,7 @@ std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
 }
 } // namespace
 
-template <int dim>
-std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path)
+void check(const StrainPathParameters& path)
 {
   if (path.path_file.empty() && path.direction.empty())
     throw InputError("Strain path/File: is missing; name a CSV file of strains, or a Direction");
@@ -118,6 +117,11 @@ std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path)
     throw InputError("Strain path/Direction: excludes File, which is given too; keep one of them");
   if (!path.path_file.empty() && path.confining_pressure > 0.0)
     throw InputError("Strain path/Confining pressure: goes with a Direction; in a File give the stresses");
+}
+
+template <int dim>
+std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path)
+{
   return path.path_file.empty() ? legs_along_direction<dim>(path) : legs_from_file<dim>(path.path_file);
 }
 

@@ -7,7 +7,10 @@
 
 namespace feldspar
 {
-/// The legs of the path of `feldspar rve`, from its direction or its file. Throws InputError.
+/// Whether the entries go together. Throws InputError.
+void check(const StrainPathParameters& path);
+
+/// The legs of the path of `feldspar rve`, from its direction or its file. Throws InputError with file and line.
 template <int dim>
 std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path);
 } // namespace feldspar

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+
 namespace feldspar
 {
 /// Solves `apply(x) = right` by preconditioned conjugate gradients until the residual's norm, in the preconditioner's
@@ -40,5 +42,40 @@ LinearSolution conjugate_gradients(const Apply& apply, const Precondition& preco
       measure = next;
     }
   return {x, true};
+}
+
+/// The same for an `apply` that is not symmetric, by stabilised bi-conjugate gradients; what is measured is the plain norm
+/// of the preconditioned residual. (van der Vorst 1992.)
+template <typename Apply, typename Precondition>
+LinearSolution bi_conjugate_gradients(const Apply& apply, const Precondition& precondition,
+                                      const Eigen::VectorXd& right, const double tolerance,
+                                      const unsigned int most_iterations)
+{
+  // On P A x = P b, from the left: what is small in forces may be large in motions.
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
+  Eigen::VectorXd residual = precondition(right);
+  const Eigen::VectorXd shadow = residual;
+  Eigen::VectorXd direction = residual;
+  double measure = shadow.dot(residual);
+  const double goal = tolerance * residual.norm();
+  for (unsigned int k = 0; k < most_iterations; ++k)
+    {
+      if (residual.norm() <= goal)
+        return {x, true};
+      const Eigen::VectorXd image = precondition(apply(direction));
+      const double alpha = measure / shadow.dot(image);
+      const Eigen::VectorXd half = residual - alpha * image;
+      const Eigen::VectorXd half_image = precondition(apply(half));
+      const double omega = half_image.dot(half) / half_image.squaredNorm();
+      x += alpha * direction + omega * half;
+      residual = half - omega * half_image;
+      const double next = shadow.dot(residual);
+      const double beta = next / measure * alpha / omega;
+      direction = residual + beta * (direction - omega * image);
+      measure = next;
+      if (!std::isfinite(beta) || !x.allFinite())
+        return {Eigen::VectorXd::Zero(right.size()), false};
+    }
+  return {x, false};
 }
 } // namespace feldspar

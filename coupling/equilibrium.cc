@@ -16,6 +16,18 @@ constexpr double tie = 1e-9; // overloads so near each other are the same; the s
 constexpr double lent_stiffness = 1e-7;
 constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
+constexpr unsigned int most_long_steps = 10; // then the body flies apart
+
+/// Mean force of a link at a strain so small that nothing is held: a body that has come apart balances at nothing.
+template <int dim>
+double least_force(const Network<dim>& network)
+{
+  constexpr double least_strain = 1e-9;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    sum += network.bonded_stiffness(j)(0, 0) * network.links()[j].branch.norm();
+  return least_strain * sum / double(std::max<std::size_t>(1, network.n_joints()));
+}
 } // namespace
 
 template <int dim>
@@ -83,8 +95,10 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
   std::size_t n_carrying = 0;
   const auto add = [&](const Link<dim>& link, const Motion<dim>& forces) {
     add_forces(link, forces, result.forces);
-    carried += forces.template head<dim>().norm();
+    const double force = forces.template head<dim>().norm();
+    carried += force;
     ++n_carrying;
+    result.carried_stress += force * link.branch.norm() / network.volume();
   };
   const auto add_answer = [&](const Link<dim>& link, const LinkAnswer<dim>& answer) {
     add(link, answer.forces);
@@ -120,7 +134,11 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
       largest = std::max({largest, force.template head<dim>().norm(),
                           force.template tail<n_rotations<dim>>().norm() / network.radii()[i]});
     }
-  result.unbalanced_ratio = carried > 0.0 ? largest / (carried / double(n_carrying)) : 0.0;
+  const double least = least_force(network);
+  const double mean_force = n_carrying > 0 ? carried / double(n_carrying) : 0.0;
+  result.unbalanced_ratio = largest / std::max(mean_force, least);
+  result.carried_stress =
+    std::max(result.carried_stress, least * double(network.n_joints()) * network.mean_branch() / network.volume());
   // Forces on grains act against the links' own.
   result.forces.head(network.n_unknowns() - n_voigt<dim>) *= -1.0;
   return result;
@@ -137,12 +155,13 @@ Unknowns Equilibrium<dim>::unbalanced(const Balance& of, const Control<dim>& con
   return forces;
 }
 
-/// The unbalanced ratio, and for given stresses their error over the larger of stress and mean stress of the links.
+/// The unbalanced ratio, and for given stresses their error over what the links carry: of a body that has come apart the
+/// stress itself may be nothing.
 template <int dim>
 double Equilibrium<dim>::measure(const Balance& of, const Control<dim>& control) const
 {
   double worst = of.unbalanced_ratio;
-  const double size = std::max(of.stress.norm(), control.stress.norm());
+  const double size = std::max(of.carried_stress, control.stress.norm());
   for (int k = 0; k < n_voigt<dim>; ++k)
     if (control.stress_given[k] && size > 0.0)
       worst = std::max(worst, std::abs(control.stress[k] - of.stress[k]) / size);
@@ -150,34 +169,35 @@ double Equilibrium<dim>::measure(const Balance& of, const Control<dim>& control)
 }
 
 template <int dim>
-Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unknowns) const
+Unknowns Equilibrium<dim>::apply_tangent(const Balance& at, const Unknowns& unknowns,
+                                         JointStiffness<dim> LinkAnswer<dim>::*const which) const
 {
   const auto& links = network.links();
   Unknowns result = Unknowns::Zero(network.n_unknowns());
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     {
       const auto& stiffness =
-        active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].tangent;
+        active_number[k] == none ? network.bonded_stiffness(k) : at.active[active_number[k]].*which;
       add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
     }
   for (std::size_t a = 0; a < active.size(); ++a)
     if (const auto& link = links[active[a].link]; !link.has_face)
-      add_forces(link, at.active[a].tangent * link_motion(link, unknowns), result);
+      add_forces(link, at.active[a].*which * link_motion(link, unknowns), result);
   for (const auto& [k, touch] : at.touches)
-    add_forces(links[k], touch.tangent * link_motion(links[k], unknowns), result);
+    add_forces(links[k], touch.*which * link_motion(links[k], unknowns), result);
   return result;
 }
 
-/// Conjugate gradients with what was factorised last; where that takes longer than factorising anew, with the present.
+/// With what was factorised last; where that takes longer than factorising anew, with the present states frozen.
 template <int dim>
 template <typename Apply>
-Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const Unknowns& right,
-                                        const std::array<bool, n_voigt<dim>>& strain_is_free,
-                                        const double tolerance) const
+Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const bool symmetric, const Unknowns& right,
+                                        const std::array<bool, n_voigt<dim>>& strain_is_free, const double tolerance)
 {
   const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
-    return conjugate_gradients(
-      apply, [&](const Unknowns& r) { return with.solve(r, strain_is_free); }, right, tolerance, most_iterations);
+    const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
+    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
+                     : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
   };
   const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
   if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
@@ -215,28 +235,39 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
 
   double error = measure(present, control);
   double step_share = 1.0;
+  unsigned int n_long_steps = 0;
   for (unsigned int k = 0; !(error <= tolerance); ++k)
     {
       if (k == parameters.most_iterations)
         return false;
       ++iterations;
+      const auto is_symmetric = [](const LinkAnswer<dim>& answer) {
+        return answer.derivative == answer.derivative.transpose();
+      };
+      const bool symmetric = std::all_of(present.active.begin(), present.active.end(), is_symmetric) &&
+                             std::all_of(present.touches.begin(), present.touches.end(),
+                                         [&](const auto& touch) { return is_symmetric(touch.second); });
       const Unknowns right = unbalanced(present, control);
       const auto apply = [&](const Unknowns& x) {
-        Unknowns y = apply_tangent(present, x) + lent_stiffness * network.lent(x);
+        Unknowns y = apply_tangent(present, x, &LinkAnswer<dim>::derivative) + lent_stiffness * network.lent(x);
         for (int c = 0; c < n_voigt<dim>; ++c)
           if (!control.stress_given[c])
             y[n_own + c] = 0.0;
         return y;
       };
-      const double linear_tolerance = std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error));
-      Unknowns step = step_share > 0.1 ? solve_linear(apply, right, control.stress_given, linear_tolerance)
+      const double precision = std::max(1e-9, std::min(1e-3, 0.1 * tolerance / error));
+      Unknowns step = step_share > 0.1 ? solve_linear(apply, symmetric, right, control.stress_given, precision)
                                        : network.factorised_intact().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)
         largest = std::max(largest, step.template segment<dim>(n_motions<dim> * Eigen::Index(i)).norm());
       if (largest > longest)
-        step *= longest / largest;
+        {
+          if (++n_long_steps > most_long_steps)
+            return false;
+          step *= longest / largest;
+        }
 
       // Contacts that open, close or slide on the way change the balance: go no farther than it gets better.
       double share = 1.0;
@@ -306,6 +337,35 @@ std::vector<Overload> Equilibrium<dim>::overloads() const
   std::erase_if(result,
                 [&](const Overload& overload) { return overload.ratio < near_worst_share * worst * (1.0 - tie); });
   return result;
+}
+
+template <int dim>
+double Equilibrium<dim>::share_until(const std::vector<Overload>& overloads) const
+{
+  double first = 1.0;
+  for (const Overload& overload : overloads)
+    {
+      const std::uint32_t number = network.link_of_segment(overload.segment);
+      const Link<dim>& link = network.links()[number];
+      const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
+      const Vector<dim> before = rows * link_motion(link, position_at_event);
+      const Vector<dim> now = rows * link_motion(link, position);
+      const Strength& bond = network.strength(overload.segment);
+      const auto holds = [&](const double share) {
+        const Vector<dim> strain = before + share * (now - before);
+        const double normal = link.normal_stiffness * strain[0];
+        const double shear = link.shear_stiffness * strain.template tail<dim - 1>().norm();
+        return normal <= bond.tensile && shear <= std::max(0.0, bond.cohesion - network.friction_slope() * normal);
+      };
+      double low = 0.0;
+      double high = first;
+      if (holds(high))
+        continue;
+      while (high - low > 1e-3 * high)
+        (holds(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+      first = high;
+    }
+  return first;
 }
 
 /// Dissipated between two positions on the way from the last event [J].
@@ -484,7 +544,7 @@ Stiffness<dim> Equilibrium<dim>::affine_tangent() const
 }
 
 template <int dim>
-Stiffness<dim> Equilibrium<dim>::tangent() const
+Stiffness<dim> Equilibrium<dim>::tangent()
 {
   if (active.empty() && present.touches.empty())
     return network.intact_stiffness();
@@ -512,7 +572,7 @@ Stiffness<dim> Equilibrium<dim>::tangent() const
       const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
       const double tolerance = 1e-10 * size(affine) / std::max(size(right), 1e-300);
       if (tolerance < 1.0)
-        unit.head(n_own) += solve_linear(apply, right, {}, tolerance).head(n_own);
+        unit.head(n_own) += solve_linear(apply, true, right, {}, tolerance).head(n_own);
       result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
     }
   return 0.5 * (result + result.transpose());

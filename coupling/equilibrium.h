@@ -46,7 +46,7 @@ struct BreakEvent
 };
 
 /// A network on its way from one equilibrium to the next: relaxes with bonds frozen, breaks what is overloaded, relaxes
-/// again. No rate enters; docs/theory.md §6.3.
+/// again. No rate enters; docs/theory.md §10.3.
 template <int dim>
 class Equilibrium
 {
@@ -62,6 +62,9 @@ public:
 
   /// Segments with bonds that are overloaded, and the worst ratio of all.
   std::vector<Overload> overloads() const;
+
+  /// Of the way since the last event, taken as straight, how much is behind when the first of these is overloaded.
+  double share_until(const std::vector<Overload>& overloads) const;
 
   /// Makes the present position the last event and breaks these.
   void break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events);
@@ -83,7 +86,7 @@ public:
   unsigned int n_iterations() const { return iterations; }
 
   /// With bonds and open, stick and slip states frozen as they are [Pa].
-  Stiffness<dim> tangent() const;
+  Stiffness<dim> tangent();
   /// The same without the grains' rearrangement [Pa].
   Stiffness<dim> affine_tangent() const;
 
@@ -94,6 +97,7 @@ private:
     Unknowns forces; ///< on grains as they act, then volume × stress
     Voigt<dim> stress;
     double unbalanced_ratio = 0.0;
+    double carried_stress = 0.0; ///< Σ |f| |l| / V over the links [Pa]
     double stored_energy = 0.0;
     std::vector<LinkAnswer<dim>> active;                            ///< of each active link
     std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
@@ -103,10 +107,11 @@ private:
   Balance balance(const Unknowns& at) const;
   Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
   double measure(const Balance& of, const Control<dim>& control) const;
-  Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns) const;
+  Unknowns apply_tangent(const Balance& at, const Unknowns& unknowns,
+                         JointStiffness<dim> LinkAnswer<dim>::*which = &LinkAnswer<dim>::tangent) const;
   template <typename Apply>
-  Unknowns solve_linear(const Apply& apply, const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                        double tolerance) const;
+  Unknowns solve_linear(const Apply& apply, bool symmetric, const Unknowns& right,
+                        const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);
   ActiveLink<dim> activate(std::uint32_t link) const;
   double slip_energy(const Balance& from, const Balance& to) const;
   void commit();
@@ -120,8 +125,7 @@ private:
   Balance at_event;
   Unknowns position;
   Balance present;
-  mutable std::unique_ptr<FactorisedNetwork<dim>>
-    factorised; ///< with some stiffnesses there were; empty: the intact ones
+  std::unique_ptr<FactorisedNetwork<dim>> factorised; ///< with some stiffnesses there were; empty: the intact ones
   unsigned int iterations = 0;
 };
 } // namespace feldspar

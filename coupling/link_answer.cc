@@ -1,9 +1,14 @@
 #include "coupling/link_answer.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace feldspar
 {
 namespace
 {
+constexpr double closure_width_ratio = 1e-6; // over the half length of the face: 20 kPa between grains of rock
+
 template <int dim>
 double shear_squared(const std::array<double, dim - 1>& shear)
 {
@@ -25,6 +30,44 @@ Pressing pressing_part(const flat_joint::Segment<2, double>& face, const double 
   const double length = flat_joint::closed_part(face, gap, slope).length;
   return {length / face.length, (slope < 0.0 ? -0.5 : 0.5) * (face.length - length)};
 }
+
+/// How far a segment counts as closed to shear: wholly at a gap of -width, not at all at +width. The law of dem/ has a
+/// jump there, and no equilibrium may be found where one lies on it.
+class Closure
+{
+public:
+  explicit Closure(const double of_width)
+    : width(of_width)
+  {
+  }
+
+  double at(const double gap) const { return std::clamp(0.5 - 0.5 * gap / width, 0.0, 1.0); }
+
+  /// Mean on a straight way from gap to gap.
+  double mean(const double from, const double to) const
+  {
+    return is_short(from, to) ? at(0.5 * (from + to)) : (integral(to) - integral(from)) / (to - from);
+  }
+
+  /// Of the mean, per change of the gap at the end [1/m].
+  double mean_rate(const double from, const double to) const
+  {
+    if (is_short(from, to))
+      return std::abs(to) < width ? -0.25 / width : 0.0;
+    return (at(to) - mean(from, to)) / (to - from);
+  }
+
+private:
+  bool is_short(const double from, const double to) const { return std::abs(to - from) < 1e-6 * width; }
+
+  double integral(const double gap) const
+  {
+    const double within = std::clamp(gap, -width, width);
+    return std::min(gap, -width) + 0.5 * (within + width) - 0.25 * (within * within - width * width) / width;
+  }
+
+  double width; ///< [m]
+};
 } // namespace
 
 template <int dim>
@@ -61,17 +104,23 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
             bonded_element_stiffness(link, rows, area, element.second_moment * r * r * r * network.thickness());
           result.forces += stiffness * motion;
           result.tangent += stiffness;
+          result.derivative += stiffness;
           result.stored_energy += 0.5 * motion.dot(stiffness * motion);
           continue;
         }
 
+      // One return map from the last event: first as if nothing slid.
+      const Closure closure(closure_width_ratio * r);
       flat_joint::SegmentMotion<dim, double> step;
       step.gap_before = link.opening + before[0];
       step.gap = link.opening + now[0];
       step.slope = slope;
+      const double share = closure.mean(step.gap_before, step.gap);
+      std::array<double, dim - 1> trial;
       for (int c = 0; c < dim - 1; ++c)
-        step.shear_increment[c] = now[c + 1] - before[c + 1];
-      const auto update = flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {old.shear_stress, false}, step);
+        trial[c] = old.shear_stress[c] - k_s * share * (now[c + 1] - before[c + 1]);
+      step.shear_increment = {};
+      const auto update = flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {trial, false}, step);
       segment.normal_stress = mean_stress(face, update.normal);
       segment.shear_stress = update.state.shear_stress;
 
@@ -85,12 +134,10 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       result.stored_energy += flat_joint::normal_energy(face, step.gap, step.slope, false) +
                               0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
       bool sticks = true;
-      const double share = flat_joint::closed_share(step.gap_before, step.gap);
       for (int c = 0; c < dim - 1; ++c)
         {
-          const double trial = old.shear_stress[c] - k_s * share * step.shear_increment[c];
-          segment.slip[c] = (trial - segment.shear_stress[c]) / k_s;
-          sticks = sticks && trial == segment.shear_stress[c];
+          segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s;
+          sticks = sticks && trial[c] == segment.shear_stress[c];
         }
 
       const Pressing part = pressing_part(face, step.gap, step.slope);
@@ -102,10 +149,22 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       const double part_length = part.share * face.length;
       const double second_moment =
         link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
-      result.tangent += k_n * part.share * area * part_rows.row(0).transpose() * part_rows.row(0);
-      result.tangent(2, 2) += k_n * second_moment;
-      if (sticks && step.gap < 0.0)
-        result.tangent += k_s * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
+      const Eigen::Matrix<double, 1, n_motions<dim>> stress_rate = k_n * part.share * part_rows.row(0);
+      JointStiffness<dim> normal = area * part_rows.row(0).transpose() * stress_rate;
+      normal(2, 2) += k_n * second_moment;
+      result.tangent += normal;
+      result.derivative += normal;
+      if (sticks)
+        result.tangent +=
+          k_s * closure.at(step.gap) * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
+
+      Eigen::Matrix<double, 1, n_motions<dim>> shear_rate; // of -τ
+      if (sticks)
+        shear_rate = k_s * (share * rows.row(1) +
+                            (now[1] - before[1]) * closure.mean_rate(step.gap_before, step.gap) * rows.row(0));
+      else
+        shear_rate = std::copysign(link.friction, segment.shear_stress[0]) * stress_rate; // |τ| = -μσ̂
+      result.derivative += area * rows.row(1).transpose() * shear_rate;
     }
   return result;
 }

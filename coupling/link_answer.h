@@ -4,7 +4,7 @@
 #include "dem/flat_joint_law.h"
 
 /// How a link with unbonded segments answers: the flat-joint law of dem/, in small strains and from one event to the
-/// next; docs/theory.md §6.3.
+/// next; docs/theory.md §10.3.
 namespace feldspar
 {
 /// One segment at the last event.
@@ -38,6 +38,8 @@ struct LinkAnswer
 {
   Motion<dim> forces = Motion<dim>::Zero();                  ///< work-conjugate to the link's motion
   JointStiffness<dim> tangent = JointStiffness<dim>::Zero(); ///< bonds and open, stick, slip states frozen
+  /// Derivative of the forces: what slides drags with its pressure, what closes late sticks late. Not symmetric.
+  JointStiffness<dim> derivative = JointStiffness<dim>::Zero();
   std::vector<SegmentAnswer<dim>> segments;
   double stored_energy = 0.0; ///< [J]
 };

@@ -8,7 +8,7 @@
 #include <vector>
 
 /// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
-/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §6.
+/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §10.
 namespace feldspar
 {
 /// Bond of one segment.

@@ -106,20 +106,37 @@ void PathRun<dim>::begin_leg()
 }
 
 template <int dim>
-void PathRun<dim>::advance()
+Control<dim> PathRun<dim>::control_at(const std::uint64_t place) const
 {
-  const std::uint64_t increment = std::uint64_t(1) << (parameters.most_cuts - cuts);
-  const double share = double(position + increment) / double(length);
+  const double share = double(place) / double(length);
   Control<dim> control = target;
   control.strain = start.strain + share * (target.strain - start.strain);
   control.stress = start.stress + share * (target.stress - start.stress);
+  return control;
+}
 
-  Trial<dim> trial = body.trial(control);
+template <int dim>
+void PathRun<dim>::advance()
+{
+  // To the next mark of its own kind, also from where a break was found between two.
+  const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
+  std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
+  next_is_short = false;
+  Trial<dim> trial = body.trial(control_at(position + increment));
+  if (trial.in_equilibrium && !trial.breaks.empty() && increment > 1)
+    {
+      // As far as nothing breaks; the break itself is then within one of the smallest cuts.
+      const auto until_break = std::uint64_t(std::ceil(trial.share_until_break * double(increment)));
+      increment = std::clamp(until_break > 1 ? until_break - 1 : 1, std::uint64_t(1), increment - 1);
+      trial = body.trial(control_at(position + increment));
+      next_is_short = trial.breaks.empty();
+    }
   if (!trial.in_equilibrium)
     {
       if (cuts == parameters.most_cuts)
-        path_record.failure = fmt::format("no equilibrium was found at {}; the path ends before it, at {}",
-                                          describe(control), describe(strain_control<dim>(body.state().strain)));
+        path_record.failure =
+          fmt::format("no equilibrium was found at {}; the path ends before it, at {}",
+                      describe(control_at(position + increment)), describe(strain_control<dim>(body.state().strain)));
       else
         ++cuts;
       return;
@@ -137,7 +154,7 @@ void PathRun<dim>::advance()
   add_sample(before, unbalanced_ratio);
 
   position += increment;
-  if (cuts > 0 && position % (2 * increment) == 0)
+  if (cuts > 0 && position % (2 * longest) == 0)
     --cuts;
   if (position == length)
     {
@@ -196,6 +213,7 @@ void PathRun<dim>::transfer(Archive& archive)
     }
   archive.value("position", position);
   archive.value("cuts", cuts);
+  transfer_flag(archive, "next_is_short", next_is_short);
   archive.bytes("samples", path_record.samples);
   archive.bytes("cracks", path_record.cracks);
   archive.text("failure", path_record.failure);

@@ -74,7 +74,8 @@ public:
           const PathParameters& parameters);
 
   bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
-  /// One increment, or one more cut of it.
+  /// One increment, or one more cut of it. One in which segments break goes no farther than to the first break, within
+  /// the smallest cut.
   void advance();
   /// Share of the path that is behind, 0 … 1.
   double progress() const;
@@ -90,6 +91,7 @@ public:
 
 private:
   void begin_leg();
+  Control<dim> control_at(std::uint64_t place) const;
   void add_sample(const NetworkState<dim>& before, double unbalanced_ratio);
   template <typename Archive>
   void transfer(Archive& archive);
@@ -106,5 +108,6 @@ private:
   std::uint64_t position = 0; ///< on the leg, in the smallest increments
   std::uint64_t length = 1;   ///< of the leg, in the same
   std::uint32_t cuts = 0;     ///< of the increment
+  bool next_is_short = false; ///< a break is near
 };
 } // namespace feldspar

@@ -68,6 +68,8 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
         }
       if (overloads.empty())
         break;
+      if (trial.breaks.empty())
+        trial.share_until_break = equilibrium.share_until(overloads);
       equilibrium.break_segments(overloads, trial.breaks);
     }
   if (options.with_tangent)

@@ -15,6 +15,7 @@ struct Trial
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
   NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
   std::vector<BreakEvent<dim>> breaks;
+  double share_until_break = 1.0;        ///< of the way from the state before, about; 1: nothing broke
   std::optional<Stiffness<dim>> tangent; ///< on request [Pa]
   double unbalanced_ratio = 0.0;         ///< largest unbalanced over mean contact force
 };
@@ -38,7 +39,7 @@ struct TrialOptions
   bool provisional = false;
 };
 
-/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §6. Copies share the reference
+/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
 /// network and hold their own state only. Trying is not doing: history changes on accept().
 template <int dim>
 class RepresentativeVolume

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
     Mistake{"subsection Flat joint\nset Bond friction angle = 95 deg\nend",
             "bad.prm:5: Flat joint/Bond friction angle = 95 deg: must lie in [0 deg, 90 deg)"},
     Mistake{"subsection Specimen\nset Height = 4 mm\nend", "bad.prm:5: Specimen/Height = 4 mm: must be at least"},
-    Mistake{"subsection Specimen\nset Dimension = 3\nend", "bad.prm:5: Specimen/Dimension = 3: must be 2"},
+    Mistake{"subsection Specimen\nset Dimension = 4\nend", "bad.prm:5: Specimen/Dimension = 4: must be 2 or 3"},
     Mistake{"subsection Flat joint\nset Segmnts = 3\nend", "bad.prm:5: Flat joint/Segmnts: no such entry"},
     Mistake{"subsection Contact path\nset File = path.csv\nend",
             "bad.prm:5: Contact path/File: is given twice, first in bad.prm:2"},

@@ -95,6 +95,19 @@ end
 subsection Contact path
   set File = path.csv
 end
+subsection Strain path
+  set File = path.csv
+  set Direction = free, -1, 0.5
+  set Size = 2e-3
+  set Confining pressure = 20 MPa
+  set Largest step = 3e-6
+end
+subsection Representative volume
+  set Event tolerance = 1e-4
+  set Final tolerance = 1e-8
+  set Break rule = only worst
+  set Most iterations = 50
+end
 subsection Report
   set Reference file = rock.json
 end
@@ -208,6 +221,15 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.contact.radius_1, 0.002);
   EXPECT_DOUBLE_EQ(input.contact.radius_2, 0.003);
   EXPECT_EQ(input.contact.path_file, (folder.path() / "path.csv").string());
+  EXPECT_EQ(input.strain_path.path_file, (folder.path() / "path.csv").string());
+  EXPECT_EQ(input.strain_path.direction, (std::vector<std::optional<double>>{std::nullopt, -1.0, 0.5}));
+  EXPECT_EQ(input.strain_path.size, 2e-3);
+  EXPECT_EQ(input.strain_path.confining_pressure, 20e6);
+  EXPECT_EQ(input.strain_path.largest_step, 3e-6);
+  EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
+  EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
+  EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
+  EXPECT_EQ(input.equilibrium.most_iterations, 50u);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
 }
 
@@ -222,6 +244,12 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
   EXPECT_NE(error_of_entry("Tests", "Grip ratio = 0").find("must lie in (0, 0.4]"), std::string::npos);
   EXPECT_NE(error_of_entry("Tests", "Steps between checkpoints = 0").find("integer > 0"), std::string::npos);
   EXPECT_NE(error_of_entry("Seeds", "Seeds = 1.5").find("1.5"), std::string::npos);
+  EXPECT_NE(error_of_entry("Strain path", "Direction = 0, 1").find("there must be 3: xx, yy, xy"), std::string::npos);
+  EXPECT_NE(error_of_entry("Strain path", "Direction = free, 0, free").find("other than 0"), std::string::npos);
+  EXPECT_NE(error_of_entry("Strain path", "Direction = 0, nan, 0").find("not a decimal number"), std::string::npos);
+  EXPECT_NE(error_of_entry("Strain path", "Largest step = 0").find("must lie in (0, 0.1]"), std::string::npos);
+  EXPECT_NE(error_of_entry("Representative volume", "Break rule = worst").find("near worst or only worst"),
+            std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments").find("go together"), std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Segments").find("Section/Entry"), std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments\n  set Values = 2; 0").find("integer in [1, 32]"),

@@ -111,7 +111,7 @@ TEST_P(Tangent, IsThatOfADirectSolution)
     {
       if (pressed)
         strain_to(volume, pressing(volume), 10);
-      const Equilibrium<2> equilibrium(volume.network(), volume.state(), sharp);
+      Equilibrium<2> equilibrium(volume.network(), volume.state(), sharp);
       const DirectSolution direct(volume.network(), equilibrium.link_tangents());
       const Stiffness<2> tangent = equilibrium.tangent();
       EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);

@@ -1,0 +1,212 @@
+// A representative volume as a user strains it.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Some fifty grains.
+const std::string small_cell = R"(subsection Specimen
+  set Shape = periodic
+  set Width = 12 mm
+  set Height = 12 mm
+end
+)";
+
+const std::string along_file = "subsection Strain path\n  set File = path.csv\nend\n";
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
+
+/// A table by columns.
+std::map<std::string, std::vector<double>> read_table(const fs::path& file)
+{
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  std::vector<std::string> names;
+  std::istringstream header(line);
+  for (std::string name; std::getline(header, name, ',');)
+    names.push_back(name);
+  std::map<std::string, std::vector<double>> columns;
+  while (std::getline(stream, line))
+    {
+      std::istringstream cells(line);
+      std::size_t k = 0;
+      for (std::string cell; std::getline(cells, cell, ',');)
+        columns[names.at(k++)].push_back(std::strtod(cell.c_str(), nullptr));
+    }
+  return columns;
+}
+
+TEST(Rve, AnswersAnIntactStrainByItsStiffness)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + along_file);
+  folder.write("path.csv", "strain_xx,strain_yy,strain_xy\n1e-5,0,0\n1e-5,3e-5,0\n1e-5,3e-5,-2e-5\n0,0,0\n");
+  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.output.find("nearest isotropic body"), std::string::npos) << outcome.output;
+  for (const char* file : {"summary.json", "cracks.csv", "log.txt", "specimen.h5", "curves/rve.csv"})
+    EXPECT_GT(fs::file_size(folder.path() / "out" / file), 50u) << file;
+
+  const auto json = summary(folder.path() / "out");
+  const auto& stiffness = json["stiffness_Pa"];
+  auto table = read_table(folder.path() / "out/curves/rve.csv");
+  // Steps of 1e-5 at most: 1 + 3 + 2 + 3, and the rest before them.
+  ASSERT_EQ(table["strain_xx"].size(), 10u);
+  const std::array<const char*, 3> names{"xx", "yy", "xy"};
+  for (std::size_t row = 0; row < 10; ++row)
+    for (std::size_t i = 0; i < 3; ++i)
+      {
+        double expected = 0.0;
+        for (std::size_t j = 0; j < 3; ++j)
+          expected += stiffness[i][j].get<double>() * (j < 2 ? 1.0 : 2.0) * // stiffness takes engineering shear
+                      table[std::string("strain_") + names[j]][row];
+        EXPECT_NEAR(table[std::string("stress_") + names[i] + "_Pa"][row], expected, 1e-3); // of some 1e6 Pa
+      }
+  EXPECT_EQ(table["n_tension_cracks"].back(), 0.0);
+  EXPECT_EQ(table["boundary_work_J"].back(), 0.0);
+  EXPECT_EQ(json["volumes"][0]["n_grains"], 54);
+}
+
+TEST(Rve, GoesAlongMixedPaths)
+{
+  const TemporaryFolder folder;
+  // The same pull by a direction and by a file, both with the sides free.
+  folder.write("direction.prm", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n"
+                                             "  set Size = 3e-4\nend\nsubsection Seeds\n  set Seeds = 2, 1\nend\n");
+  folder.write("file.prm", small_cell + along_file);
+  folder.write("path.csv", "stress_xx_Pa,strain_yy,stress_xy_Pa\n0,3e-4,0\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "rve direction.prm --output direction").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "rve file.prm --output file").exit_code, 0);
+  EXPECT_EQ(content(folder.path() / "direction/curves/rve_seed_1.csv"), content(folder.path() / "file/curves/rve.csv"));
+  auto table = read_table(folder.path() / "file/curves/rve.csv");
+  const double peak = *std::max_element(table["stress_yy_Pa"].begin(), table["stress_yy_Pa"].end());
+  EXPECT_GT(peak, 5e6);
+  EXPECT_GT(table["n_tension_cracks"].back(), 5.0);
+  EXPECT_LT(table["stress_yy_Pa"].back(), 0.5 * peak);
+  for (std::size_t row = 0; row < table["stress_xx_Pa"].size(); ++row)
+    EXPECT_LE(std::abs(table["stress_xx_Pa"][row]), 1e-5 * peak); // the final tolerance, over what the grains carry
+  const std::string cracks = content(folder.path() / "file/cracks.csv");
+  EXPECT_EQ(std::count(cracks.begin(), cracks.end(), '\n') - 1,
+            int(table["n_tension_cracks"].back() + table["n_shear_cracks"].back()));
+}
+
+TEST(Rve, IsConfinedBeforeItIsStrained)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + "subsection Strain path\n  set Direction = free, -1, free\n  set Size = 1e-4\n"
+                                        "  set Confining pressure = 20 MPa\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output out").exit_code, 0);
+  auto table = read_table(folder.path() / "out/curves/rve.csv");
+  // The pressure first on both sides, then the strain beside it.
+  std::size_t confined = 0;
+  while (std::abs(table["stress_xx_Pa"][confined] + 20e6) > 20.0)
+    ASSERT_LT(++confined, table["stress_xx_Pa"].size());
+  EXPECT_NEAR(table["stress_yy_Pa"][confined], -20e6, 20.0);
+  EXPECT_NEAR(table["strain_yy"].back() - table["strain_yy"][confined], -1e-4, 1e-15);
+  EXPECT_NEAR(table["stress_xx_Pa"].back(), -20e6, 20.0);
+  EXPECT_LT(table["stress_yy_Pa"].back(), -26e6);
+}
+
+TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
+{
+  const std::string free_sides = "subsection Strain path\n  set Direction = free, 1, free\nend\n";
+  const auto expect = [&](const std::string& command, const std::string& prm, const std::string& csv,
+                          const std::string& error) {
+    const TemporaryFolder folder;
+    folder.write("bad.prm", prm);
+    folder.write("path.csv", csv);
+    const auto outcome = run_feldspar(folder.path(), command + " bad.prm --output out");
+    EXPECT_EQ(outcome.exit_code, 2) << prm;
+    EXPECT_EQ(outcome.error.find("feldspar: " + error), 0u) << "found: " << outcome.error << "wanted: " << error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(fs::exists(folder.path() / "out"));
+  };
+  const std::string bad_header = "path.csv:1: the header is \"";
+  expect("rve", small_cell + along_file, "strain_xx,strain_yy\n0,1e-4\n", bad_header);
+  expect("rve", small_cell + along_file, "strain_yy,strain_xx,strain_xy\n0,1e-4,0\n", bad_header);
+  expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,1e-4\n", "path.csv:2: there must be 3");
+  expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,inf,0\n",
+         "path.csv:2: strain_yy: \"inf\" is not a decimal number");
+  expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,0.2,0\n",
+         "path.csv: point 1: strain_yy = 0.2: must lie in [-0.1, 0.1]");
+  expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy,stress_yy_Pa\n0,0,0,0\n",
+         "path.csv:1: strain_yy and stress_yy_Pa are both given");
+  expect("rve", small_cell, "", "bad.prm: Strain path/File: is missing");
+  expect("rve", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set File = path.csv\nend\n",
+         "", "bad.prm: Strain path/Direction: excludes File");
+  expect("rve", free_sides, "", "bad.prm: Specimen/Shape = box: a representative volume needs Shape = periodic");
+  expect("rve", "subsection Specimen\n  set Shape = periodic\n  set Width = 4 mm\nend\n" + free_sides, "",
+         "bad.prm:3: Specimen/Width = 4 mm: must be at least 4.1168 mm");
+  expect("lab", small_cell, "", "bad.prm: Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
+}
+
+TEST(Rve, TakesSpecimensOfItsKindOnly)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell);
+  folder.write("box.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 12 mm\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen cell.prm --output cell").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen box.prm --output box").exit_code, 0);
+  const std::string path = "subsection Strain path\n  set Direction = 0, 1, 0\n  set Size = 1e-5\nend\n";
+  const auto with = [&](const std::string& file) {
+    return "subsection Specimen\n  set Specimen file = " + file + "/specimen.h5\nend\n" + path;
+  };
+  folder.write("with_cell.prm", with("cell"));
+  folder.write("with_box.prm", with("box"));
+  EXPECT_EQ(run_feldspar(folder.path(), "rve with_cell.prm --output good").exit_code, 0);
+  for (const auto& [arguments, error] :
+       {std::pair("rve with_box.prm --output bad", "is a specimen between walls; a representative volume needs"),
+        std::pair("lab with_cell.prm --output bad", "is a periodic cell; a laboratory test needs")})
+    {
+      const auto outcome = run_feldspar(folder.path(), arguments);
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_NE(outcome.error.find(error), std::string::npos) << outcome.error;
+      EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+      EXPECT_FALSE(fs::exists(folder.path() / "bad"));
+    }
+}
+
+TEST(Rve, PulledBeyondItsStrengthByStressSaysSoAndKeepsWhatWasBefore)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + along_file);
+  folder.write("path.csv", "stress_xx_Pa,stress_yy_Pa,stress_xy_Pa\n0,40e6,0\n");
+  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.error.find("feldspar: rve: no equilibrium was found at stress_xx = 0 MPa, stress_yy = "), 0u)
+    << outcome.error;
+  auto table = read_table(folder.path() / "out/curves/rve.csv");
+  // The last state held is one in equilibrium, near the strength.
+  EXPECT_GT(table["stress_yy_Pa"].back(), 5e6);
+  EXPECT_LT(table["stress_yy_Pa"].back(), 20e6);
+  EXPECT_LT(table["unbalanced_force_ratio"].back(), 1e-6);
+  EXPECT_NE(summary(folder.path() / "out")["volumes"][0]["ended_early"], "");
+}
+} // namespace
+} // namespace feldspar::tests

@@ -1,0 +1,103 @@
+#include "tests/unit/small_volume.h"
+
+#include "coupling/path_run.h"
+#include "dem/input_error.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+/// Paths: interrupted and taken up, controlled in mixed ways, and led where there is no equilibrium.
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+PathRun<2> pull(const double strain = 3e-4)
+{
+  Control<2> control;
+  control.stress_given = {true, false, true};
+  control.strain[1] = strain;
+  return {std::make_shared<const Network<2>>(periodic_specimen()), {{control, true}}, {}};
+}
+
+bool same(const PathSample<2>& a, const PathSample<2>& b)
+{
+  return a.strain == b.strain && a.stress == b.stress && a.work.boundary == b.work.boundary &&
+         a.work.slip == b.work.slip && a.work.released == b.work.released && a.work.settled == b.work.settled &&
+         a.stored_energy == b.stored_energy && a.hill_mandel_residual == b.hill_mandel_residual &&
+         a.boundary_stress_error == b.boundary_stress_error && a.crack_density == b.crack_density;
+}
+
+TEST(PathRun, TakenUpGivesTheBitsOfTheUnbrokenRun)
+{
+  PathRun<2> whole = pull();
+  while (!whole.has_ended())
+    whole.advance();
+  EXPECT_GT(whole.record().cracks.size(), 5u);
+
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  PathRun<2> broken = pull();
+  for (unsigned int k = 0; !broken.has_ended(); ++k)
+    {
+      broken.advance();
+      if (k % 4 == 3)
+        {
+          broken.write_checkpoint(file, "the same");
+          PathRun<2> next = pull();
+          next.read_checkpoint(file, "the same");
+          broken = next;
+        }
+    }
+  ASSERT_EQ(broken.record().samples.size(), whole.record().samples.size());
+  for (std::size_t k = 0; k < whole.record().samples.size(); ++k)
+    EXPECT_TRUE(same(broken.record().samples[k], whole.record().samples[k])) << k;
+  ASSERT_EQ(broken.record().cracks.size(), whole.record().cracks.size());
+  for (std::size_t k = 0; k < whole.record().cracks.size(); ++k)
+    EXPECT_EQ(broken.record().cracks[k].segment, whole.record().cracks[k].segment);
+  EXPECT_EQ(broken.volume().state().motions, whole.volume().state().motions);
+
+  PathRun<2> other = pull();
+  EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
+}
+
+TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)
+{
+  // Pulled by a stress beyond all strength.
+  Control<2> control;
+  control.stress_given.fill(true);
+  control.stress[1] = 60e6;
+  PathRun<2> run(std::make_shared<const Network<2>>(periodic_specimen()), {{control, false}}, {});
+  while (!run.has_ended())
+    run.advance();
+  EXPECT_EQ(run.record().failure.find("no equilibrium was found at stress_xx = 0 MPa, stress_yy = "), 0u);
+  const auto& last = run.record().samples.back();
+  EXPECT_GT(last.stress[1], 4e6);
+  EXPECT_LE(last.unbalanced_ratio, EquilibriumParameters{}.final_tolerance);
+  const NetworkState<2>& state = run.volume().state();
+  EXPECT_EQ(state.stress[1], last.stress[1]);
+  EXPECT_TRUE(run.volume().trial(state.strain).in_equilibrium);
+}
+
+TEST(PathRun, EqualOverloadsBreakInTheOrderOfTheirNumbers)
+{
+  // All bonds the same and one joint's segments alike but for their turn: the worst is the first among equals.
+  Specimen<2> specimen = periodic_specimen();
+  std::fill(specimen.joints.tensile_strength.begin(), specimen.joints.tensile_strength.end(), 0.0);
+  std::fill(specimen.joints.cohesion.begin(), specimen.joints.cohesion.end(), 1e12);
+  const EquilibriumParameters one_by_one{.event_tolerance = 1e-3,
+                                         .final_tolerance = 1e-6,
+                                         .break_rule = BreakRule::only_worst,
+                                         .most_iterations = 200};
+  const Network<2> network(specimen);
+  Equilibrium<2> equilibrium(network, {}, one_by_one);
+  equilibrium.relax(strain_control<2>(Voigt<2>(0.0, 1e-6, 0.0)), 1e-3);
+  // Without any strength every overload is infinite.
+  const auto worst = equilibrium.overloads();
+  ASSERT_EQ(worst.size(), 1u);
+  for (std::uint32_t segment = 0; segment < worst.front().segment; ++segment)
+    EXPECT_LE(network.unit_response(segment)(0, 1), 0.0);
+}
+} // namespace
+} // namespace feldspar
