@@ -16,7 +16,7 @@ constexpr double tie = 1e-9; // overloads so near each other are the same; the s
 constexpr double lent_stiffness = 1e-7;
 constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
-constexpr unsigned int most_long_steps = 10; // then the body flies apart
+constexpr unsigned int most_long_steps = 40; // then the body flies apart
 
 /// Mean force of a link at a strain so small that nothing is held: a body that has come apart balances at nothing.
 template <int dim>
