@@ -145,6 +145,15 @@ double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 }
 
 template <int dim>
+void Dynamics<dim>::apply_forces(const Components<dim>& forces)
+{
+  for (int c = 0; c < dim; ++c)
+    for (std::size_t i = 0; i < forces[c].size(); ++i)
+      body.grains.force[c][i] += forces[c][i] - (applied_force[c].empty() ? 0.0 : applied_force[c][i]);
+  applied_force = forces;
+}
+
+template <int dim>
 std::vector<Break> Dynamics<dim>::step()
 {
   if (!started)
@@ -561,6 +570,12 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
   update_touches(step);
   sum_forces();
   press_walls(step);
+  for (int c = 0; c < dim; ++c)
+    for (std::size_t i = 0; i < applied_force[c].size(); ++i)
+      {
+        body.grains.force[c][i] += applied_force[c][i];
+        boundary_work += step * applied_force[c][i] * body.grains.velocity[c][i];
+      }
   return breaks;
 }
 
@@ -902,6 +917,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("spin", grains.spin);
   all_of("force", grains.force);
   all_of("couple", grains.couple);
+  all_of("applied_force", applied_force);
   all_of("position_at_search", position_at_search);
   all_of("position_at_start", position_at_start);
   archive.array("damping_work", damping_work);

@@ -137,7 +137,8 @@ struct TestRecord
   TestKind kind;
   double confining_pressure = 0.0; ///< compression positive [Pa]
   std::uint64_t seed = 0;
-  double strain_rate = 0.0;     ///< magnitude [1/s]
+  double strain_rate = 0.0; ///< magnitude [1/s]
+  int dimension = 2;
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]
   SpecimenReport specimen;
   std::vector<CurveSample> curve;

@@ -4,6 +4,8 @@
 #include "dem/fragments.h"
 #include "dem/hdf5_archive.h"
 
+#include <Eigen/Geometry>
+
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -85,6 +87,7 @@ LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const
   record.confining_pressure = test.confining_pressure;
   record.seed = tested.seed;
   record.strain_rate = std::abs(set_up.protocol.strain_rate);
+  record.dimension = dim;
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
@@ -93,7 +96,8 @@ LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const
 template <int dim>
 void LabTest<dim>::start_gauge()
 {
-  gauge = StrainGauge<dim>(set_up.dynamics.specimen().size, gauge_positions);
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, gauge_positions);
 }
 
 template <int dim>
@@ -243,4 +247,5 @@ void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std:
 }
 
 template class LabTest<2>;
+template class LabTest<3>;
 } // namespace feldspar
