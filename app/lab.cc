@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/field_output.h"
 #include "app/input.h"
 #include "app/interrupt.h"
 #include "app/lab_run.h"
@@ -92,6 +93,9 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
 
   // Report.
   write_result_folder(provenance(input, input_file), tests, folder);
+  std::filesystem::create_directories(folder / "fields");
+  for (const auto& test : tests)
+    write_fields(test, folder / "fields");
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);

@@ -269,10 +269,10 @@ void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, T
       const double modulus = *results.youngs_modulus_initial.value;
       // Of a thin plate in the plane, of the bulk in space.
       const double stiffness =
-        record.dimension == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        record.dimension() == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
       const double wave_speed = std::sqrt(stiffness / record.bulk_density);
       results.p_wave_transits_to_peak =
-        known(branch.rows.back().time * wave_speed / record.size[std::size_t(record.dimension) - 1]);
+        known(branch.rows.back().time * wave_speed / record.size[std::size_t(record.dimension()) - 1]);
     }
 }
 
@@ -317,7 +317,7 @@ void evaluate_fragments(const TestRecord& record, TestResults& results)
     {
       auto& [n_grains, size] = fragments[grain.fragment];
       ++n_grains;
-      const double volume = std::pow(grain.radius, record.dimension);
+      const double volume = std::pow(grain.radius, record.dimension());
       size += volume;
       all += volume;
     }
