@@ -15,19 +15,23 @@ namespace feldspar
 {
 namespace
 {
-/// One array of the HDF5 file as XDMF points to it: `n` values, or the first `n` rows of a longer one.
+/// One array of the HDF5 file as XDMF points to it: all `n_stored` rows, or the first `n` of them.
 std::string data_item(const std::string& path, const std::size_t n, const std::size_t n_stored,
                       const unsigned int n_components, const bool is_real)
 {
   const std::string type = is_real ? R"(NumberType="Float" Precision="8")" : R"(NumberType="UInt" Precision="4")";
+  const auto shape = [&](const std::size_t rows) {
+    return n_components > 1 ? fmt::format("{} {}", rows, n_components) : std::to_string(rows);
+  };
   const std::string stored =
-    fmt::format(R"(<DataItem Dimensions="{} {}" {} Format="HDF">{}</DataItem>)", n_stored, n_components, type, path);
+    fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">{}</DataItem>)", shape(n_stored), type, path);
   if (n == n_stored)
     return stored;
-  return fmt::format(
-    R"(<DataItem ItemType="HyperSlab" Dimensions="{0} {1}" Type="HyperSlab">)"
-    R"(<DataItem Dimensions="3 2" NumberType="Int" Format="XML">0 0 1 1 {0} {1}</DataItem>{2}</DataItem>)",
-    n, n_components, stored);
+  const std::string start_stride_count =
+    n_components > 1 ? fmt::format("0 0 1 1 {} {}", n, n_components) : fmt::format("0 1 {}", n);
+  return fmt::format(R"(<DataItem ItemType="HyperSlab" Dimensions="{}" Type="HyperSlab">)"
+                     R"(<DataItem Dimensions="3 {}" NumberType="Int" Format="XML">{}</DataItem>{}</DataItem>)",
+                     shape(n), n_components > 1 ? 2 : 1, start_stride_count, stored);
 }
 
 /// Points with their attributes at one time.
@@ -103,8 +107,8 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
         std::transform(position.begin(), position.end(), start.begin(), displacement.begin(), std::minus<>());
         std::vector<std::uint32_t> fragment = snapshot.fragment;
         std::vector<std::uint32_t> n_broken = snapshot.n_broken_segments;
-        group.array("position_m", position);
-        group.array("displacement_m", displacement);
+        group.array("position_m", position, 3);
+        group.array("displacement_m", displacement, 3);
         group.array("fragment", fragment);
         group.array("n_broken_segments", n_broken);
       }
@@ -121,8 +125,8 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
         is_shear.push_back(crack.kind == CrackKind::shear);
         step.push_back(std::uint32_t(crack.step));
       }
-    cracks.array("centroid_m", centroid);
-    cracks.array("normal", normal);
+    cracks.array("centroid_m", centroid, 3);
+    cracks.array("normal", normal, 3);
     cracks.array("size_m", size);
     cracks.array("released_energy_J", energy);
     cracks.array("is_shear", is_shear);
