@@ -34,7 +34,6 @@ template <int dim>
 std::vector<PlannedTest<dim>> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
                                    const std::vector<Specimen<dim>>& specimens)
 {
-  template <int dim>
   std::vector<PlannedTest<dim>> planned;
   const auto add_tests = [&](const std::size_t v, const Specimen<dim>& specimen) {
     const Variant& variant = variants[v];
