@@ -144,6 +144,8 @@ public:
   explicit Ahead(Joints<dim>& joints)
     : n_joints(joints.size())
   {
+    if (n_joints == 0)
+      return;
     const auto follow = [&](const std::string&, std::vector<double>& values) {
       for (std::size_t row = 0; row + n_joints <= values.size(); row += n_joints)
         arrays.push_back(&values[row]);
