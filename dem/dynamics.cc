@@ -598,6 +598,8 @@ void Dynamics<dim>::update_touches(const double step)
           }
         if (squared >= touch.zero_distance * touch.zero_distance)
           {
+            if (!touch.touching)
+              continue; // as it was; most of those that are kept in mind never touch
             // Sliding apart dissipates the shear that was stored.
             for (const double shear : touch.shear_force)
               touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
@@ -670,6 +672,8 @@ void Dynamics<dim>::sum_forces()
           {
             const std::uint32_t entry = touch_incidence.entries[e];
             const Touch& touch = touches[entry / 2];
+            if (!touch.touching)
+              continue;
             const double direction = entry % 2 ? 1.0 : -1.0;
             for (int c = 0; c < dim; ++c)
               force[c] += direction * touch.force[c];
