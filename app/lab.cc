@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/field_output.h"
 #include "app/input.h"
 #include "app/interrupt.h"
 #include "app/lab_run.h"
@@ -33,7 +34,8 @@ std::optional<Reference> reference_of(const Input& input)
 }
 
 /// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
-std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<2>>& specimens,
+template <int dim>
+std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<dim>>& specimens,
                          const std::vector<FinishedTest>& tests, const std::vector<std::string>& missing)
 {
   std::string text;
@@ -64,6 +66,7 @@ void say_how_to_resume(const std::filesystem::path& folder)
 }
 
 /// Specimens, tests and report of a run in its folder, from wherever it stands.
+template <int dim>
 int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
            const bool quiet)
 {
@@ -73,7 +76,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   // Make the rock.
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
-  const auto specimens = provide_specimens<2>(all_variants, orders, folder, progress);
+  const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
   for (const auto& specimen : specimens)
     if (specimen.periodic)
       throw InputError(fmt::format("{}: Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen "
@@ -90,6 +93,9 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
 
   // Report.
   write_result_folder(provenance(input, input_file), tests, folder);
+  std::filesystem::create_directories(folder / "fields");
+  for (const auto& test : tests)
+    write_fields(test, folder / "fields");
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
@@ -120,7 +126,8 @@ int run_lab(const CommonOptions& options)
   const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
     try
       {
-        return run_in(folder, input, input_file, options.quiet);
+        return input.specimen.dimension == 2 ? run_in<2>(folder, input, input_file, options.quiet)
+                                             : run_in<3>(folder, input, input_file, options.quiet);
       }
     catch (const Interrupted&)
       {
@@ -145,9 +152,6 @@ int run_lab(const CommonOptions& options)
     }
 
   const Input input = read_input(options.input);
-  if (input.specimen.dimension != 2)
-    throw InputError(
-      fmt::format("{}: Specimen/Dimension = 3: only `contact` works in three dimensions yet", options.input.string()));
   for (const Variant& variant : variants(input))
     if (variant.input.specimen.shape == "periodic")
       throw InputError(

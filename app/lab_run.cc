@@ -19,21 +19,23 @@ namespace feldspar
 namespace
 {
 /// What one test of the programme is.
+template <int dim>
 struct PlannedTest
 {
   TestCase test;
   const Variant* variant;
-  const Specimen<2>* specimen;
+  const Specimen<dim>* specimen;
   std::string group;
   std::string name;
   std::string identity; ///< of its checkpoints: program, input and test
 };
 
-std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
-                              const std::vector<Specimen<2>>& specimens)
+template <int dim>
+std::vector<PlannedTest<dim>> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                                   const std::vector<Specimen<dim>>& specimens)
 {
-  std::vector<PlannedTest> planned;
-  const auto add_tests = [&](const std::size_t v, const Specimen<2>& specimen) {
+  std::vector<PlannedTest<dim>> planned;
+  const auto add_tests = [&](const std::size_t v, const Specimen<dim>& specimen) {
     const Variant& variant = variants[v];
     const auto add = [&](const TestCase& test, const std::string& test_name) {
       const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, v + 1) : test_name;
@@ -55,7 +57,8 @@ std::vector<PlannedTest> plan(const std::vector<Variant>& variants, const std::v
 }
 
 /// The order in which the tests are begun: the longest first, so that none is left alone at the end.
-std::vector<std::size_t> longest_first(const std::vector<PlannedTest>& planned)
+template <int dim>
+std::vector<std::size_t> longest_first(const std::vector<PlannedTest<dim>>& planned)
 {
   const auto length = [&](const std::size_t k) {
     const TestCase& test = planned[k].test;
@@ -68,10 +71,11 @@ std::vector<std::size_t> longest_first(const std::vector<PlannedTest>& planned)
 }
 
 /// Tells the progress how all running tests stand.
+template <int dim>
 class Board
 {
 public:
-  Board(Progress& shown, const std::vector<PlannedTest>& planned)
+  Board(Progress& shown, const std::vector<PlannedTest<dim>>& planned)
     : progress(shown)
   {
     for (const auto& test : planned)
@@ -108,7 +112,7 @@ public:
 private:
   struct Entry
   {
-    const PlannedTest* planned;
+    const PlannedTest<dim>* planned;
     PeakWatch peak;
     CurveSample row{};
     double strain_at_peak = 0.0;
@@ -141,17 +145,18 @@ private:
 };
 
 /// The two last checkpoints of a test.
+template <int dim>
 class Checkpoints
 {
 public:
-  Checkpoints(const std::filesystem::path& folder, const PlannedTest& of_test)
+  Checkpoints(const std::filesystem::path& folder, const PlannedTest<dim>& of_test)
     : planned(of_test)
     , newest(folder / (of_test.name + ".h5"))
     , one_before(folder / (of_test.name + ".previous.h5"))
   {
   }
 
-  void write(LabTest<2>& test) const
+  void write(LabTest<dim>& test) const
   {
     if (std::filesystem::exists(newest))
       std::filesystem::rename(newest, one_before);
@@ -159,14 +164,14 @@ public:
   }
 
   /// The test as its last good checkpoint has it, else from the start.
-  LabTest<2> open() const
+  LabTest<dim> open() const
   {
     const Input& input = planned.variant->input;
     for (const auto& file : {newest, one_before})
       if (std::filesystem::exists(file))
         try
           {
-            LabTest<2> test(planned.test, *planned.specimen, input.tests, input.dynamics);
+            LabTest<dim> test(planned.test, *planned.specimen, input.tests, input.dynamics);
             test.read_checkpoint(file, planned.identity);
             return test;
           }
@@ -176,20 +181,21 @@ public:
                        file == newest && std::filesystem::exists(one_before) ? "the one before it"
                                                                              : "the start of this test");
           }
-    return LabTest<2>(planned.test, *planned.specimen, input.tests, input.dynamics);
+    return LabTest<dim>(planned.test, *planned.specimen, input.tests, input.dynamics);
   }
 
 private:
-  const PlannedTest& planned;
+  const PlannedTest<dim>& planned;
   std::filesystem::path newest;
   std::filesystem::path one_before;
 };
 
 /// Runs a test from where it stands to its end or to Ctrl-C.
-TestRecord run(const PlannedTest& planned, const Checkpoints& checkpoints,
+template <int dim>
+TestRecord run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
                const std::function<void(const CurveSample&)>& show)
 {
-  LabTest<2> test = checkpoints.open();
+  LabTest<dim> test = checkpoints.open();
   const std::uint64_t interval = planned.variant->input.steps_between_checkpoints;
   std::uint64_t next_checkpoint = test.n_steps() + interval;
   while (!test.has_ended() && !interrupted())
@@ -206,16 +212,17 @@ TestRecord run(const PlannedTest& planned, const Checkpoints& checkpoints,
 }
 } // namespace
 
+template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
-                                        const std::vector<Specimen<2>>& specimens, const std::filesystem::path& folder,
-                                        Progress& progress)
+                                        const std::vector<Specimen<dim>>& specimens,
+                                        const std::filesystem::path& folder, Progress& progress)
 {
   const auto planned = plan(variants, orders, specimens);
   const auto order = longest_first(planned);
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   std::filesystem::create_directories(checkpoint_folder);
 
-  Board board(progress, planned);
+  Board<dim> board(progress, planned);
   std::vector<std::optional<FinishedTest>> slots(planned.size());
   for_each_job(planned.size(), [&](const std::size_t position) {
     const std::size_t k = order[position];
@@ -227,14 +234,14 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     test.variant = planned[k].variant->label;
     try
       {
-        test.record = run(planned[k], Checkpoints(checkpoint_folder, planned[k]),
+        test.record = run(planned[k], Checkpoints<dim>(checkpoint_folder, planned[k]),
                           [&](const CurveSample& row) { board.update(k, row); });
       }
     catch (const InputError& error)
       {
         // One test that cannot be made must not cost the others.
-        test.record = LabTest<2>(planned[k].test, *planned[k].specimen, planned[k].variant->input.tests,
-                                 planned[k].variant->input.dynamics)
+        test.record = LabTest<dim>(planned[k].test, *planned[k].specimen, planned[k].variant->input.tests,
+                                   planned[k].variant->input.dynamics)
                         .finish(true);
         test.record.failure = error.what();
       }
@@ -250,4 +257,11 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   progress.finish(fmt::format("{} of {} done", finished.size(), planned.size()));
   return finished;
 }
+
+template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                    const std::vector<Specimen<2>>&, const std::filesystem::path&,
+                                                    Progress&);
+template std::vector<FinishedTest> run_programme<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                    const std::vector<Specimen<3>>&, const std::filesystem::path&,
+                                                    Progress&);
 } // namespace feldspar

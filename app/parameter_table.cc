@@ -131,6 +131,28 @@ struct Section
       [](const std::optional<double>& value) { return value ? format_number(*value) : std::string(none); });
   }
 
+  Parameter optional_quantity(const std::string_view entry, std::optional<double> Part::*const member,
+                              const Dimension& dimension, const std::string_view unit, const Range& range,
+                              const std::string_view meaning) const
+  {
+    const std::string spaced_unit = fmt::format(" {}", unit);
+    return make(
+      entry, std::string(unit), fmt::format("none, or {}", range.text(spaced_unit)), meaning, member,
+      [=](const std::string_view text) -> std::optional<double> {
+        if (text == none)
+          return std::nullopt;
+        const double value = parse_quantity(text, dimension);
+        const Range si_range{range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension),
+                             range.right};
+        if (!si_range.contains(value))
+          throw InputError(fmt::format("{}, or be none", range.demand(spaced_unit)));
+        return value;
+      },
+      [=](const std::optional<double>& value) {
+        return value ? format_quantity(*value, unit, dimension) : std::string(none);
+      });
+  }
+
   Parameter integer(const std::string_view entry, unsigned int Part::*const member, const Range& range,
                     const std::string_view meaning) const
   {
@@ -443,6 +465,16 @@ std::vector<Parameter> make_parameter_table()
     tests.number("Platen friction", &T::platen_friction, from_zero, "coefficient of the platens in compression"),
     tests.number("Seating transits", &T::seating_transits, above_zero,
                  "travel times of a wave along the specimen over which the confinement is raised"),
+    tests.choice<LateralBoundary>("Lateral boundary", &T::lateral_boundary,
+                                  {{"wall", LateralBoundary::wall}, {"membrane", LateralBoundary::membrane}},
+                                  "of a cylinder in triaxial compression: a rigid wall held at the pressure, or the "
+                                  "pressure itself on the outer grains"),
+    tests.optional_quantity(
+      "Intermediate stress", &T::intermediate_stress, stress, "MPa", above_zero,
+      "on the second pair of sides of a box in three dimensions (true triaxial compression); none: the "
+      "confinement"),
+    tests.number("Brazilian length ratio", &T::brazilian_length_ratio, above_zero,
+                 "length of the disc over its diameter, in three dimensions"),
     tests.number("Grip ratio", &T::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen"),
     tests.number("Stop strain over peak strain", &T::stop_strain_over_peak_strain, {'(', 1.0, infinity, ')'},
                  "a test stops at this many times its strain at peak"),

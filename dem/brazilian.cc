@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace feldspar
 {
@@ -16,9 +18,34 @@ namespace
 /// the few grains that stand out crushes those and nothing else.
 constexpr double loaded_half_angle = 10.0 * std::numbers::pi / 180.0;
 
-/// The grains that lie wholly within a circle as wide as the specimen about its middle, with the joints between them.
+/// In space a disc lies across the axis of the specimen it comes from: turns the specimen, so that the last axis runs
+/// across it and the second along it.
 template <int dim>
-Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter)
+Specimen<dim> laid_down(Specimen<dim> specimen)
+{
+  if constexpr (dim == 3)
+    {
+      // (x, y, z) -> (x, z, W - y), a quarter turn about x.
+      const double width = specimen.size[1];
+      const auto turn = [](Components<3>& components) {
+        std::swap(components[1], components[2]);
+        for (double& value : components[2])
+          value = -value;
+      };
+      turn(specimen.grains.position);
+      for (double& z : specimen.grains.position[2])
+        z += width;
+      turn(specimen.joints.normal);
+      turn(specimen.joints.tangent);
+      std::swap(specimen.size[1], specimen.size[2]);
+    }
+  return specimen;
+}
+
+/// The grains that lie within a circle as wide as the specimen about its middle (wholly, unless the circle is the
+/// specimen's own side), in space from the middle of its length, with the joints between them.
+template <int dim>
+Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, const double length)
 {
   const auto& grains = specimen.grains;
   constexpr auto outside = std::numeric_limits<std::uint32_t>::max();
@@ -28,7 +55,14 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter)
   std::vector<double> masses, inertias;
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
-      if ((at<dim>(grains.position, i) - 0.5 * specimen.size).norm() + grains.radius[i] > 0.5 * diameter)
+      Vector<dim> from_middle = at<dim>(grains.position, i) - 0.5 * specimen.size;
+      if constexpr (dim == 3)
+        {
+          if (std::abs(from_middle[1]) > 0.5 * length)
+            continue;
+          from_middle[1] = 0.0;
+        }
+      if (!specimen.round && from_middle.norm() + grains.radius[i] > 0.5 * diameter)
         continue;
       new_number[i] = std::uint32_t(radii.size());
       radii.push_back(grains.radius[i]);
@@ -57,7 +91,7 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter)
   disc.report.mean_radius = disc.grains.mean_radius();
   disc.report.resolution = diameter / (2.0 * disc.report.mean_radius);
   disc.report.porosity =
-    1.0 - disc.grains.volume(disc.thickness) / (0.25 * std::numbers::pi * diameter * diameter * disc.thickness);
+    1.0 - disc.grains.volume(disc.thickness) / (0.25 * std::numbers::pi * diameter * diameter * length);
   disc.report.coordination_number = 2.0 * double(disc.joints.size()) / double(disc.grains.size());
   return disc;
 }
@@ -68,15 +102,17 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParamet
                                 const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  const double diameter = specimen.size.minCoeff();
-  const Specimen<dim> disc = cut_disc(specimen, diameter);
+  const Specimen<dim> lying = laid_down(specimen);
+  const double diameter = dim == 2 ? lying.size.minCoeff() : lying.size[0];
+  const double length = dim == 2 ? lying.thickness : std::min(wanted.brazilian_length_ratio * diameter, lying.size[1]);
+  const Specimen<dim> disc = cut_disc(lying, diameter, length);
   // A pad of grains at either end, one grain deep, is held as by a stiff cushion and moved as one.
   const double half_width = 0.5 * diameter * std::sin(loaded_half_angle);
   const double inner_face = 0.5 * diameter * std::cos(loaded_half_angle) - 2.0 * specimen.report.mean_radius;
   std::vector<std::uint32_t> lower_pad, upper_pad;
   for (std::uint32_t i = 0; i < disc.grains.size(); ++i)
     {
-      const Vector<dim> from_middle = at<dim>(disc.grains.position, i) - 0.5 * specimen.size;
+      const Vector<dim> from_middle = at<dim>(disc.grains.position, i) - 0.5 * disc.size;
       if (std::abs(from_middle[0]) < half_width && std::abs(from_middle[axis]) > inner_face)
         (from_middle[axis] < 0.0 ? lower_pad : upper_pad).push_back(i);
     }
@@ -92,7 +128,7 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParamet
   test.protocol.strain_rate = -wanted.brazilian_strain_rate;
   test.protocol.sampling_strain = wanted.brazilian_sampling_strain;
   // σ_t = 2P/(πDt), the tension across the loaded diameter of an elastic disc.
-  const double load_to_stress = 2.0 / (std::numbers::pi * diameter * specimen.thickness);
+  const double load_to_stress = 2.0 / (std::numbers::pi * diameter * length);
   test.protocol.stress = [=](const Dynamics<dim>& state) {
     return BoundaryStress{load_to_stress * state.grip_force(lower)[axis],
                           -load_to_stress * state.grip_force(upper)[axis], 0.0};
@@ -101,4 +137,5 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParamet
 }
 
 template SetUpTest<2> set_up_brazilian<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
+template SetUpTest<3> set_up_brazilian<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
 } // namespace feldspar

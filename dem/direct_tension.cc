@@ -42,4 +42,5 @@ SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestPa
 }
 
 template SetUpTest<2> set_up_direct_tension<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
+template SetUpTest<3> set_up_direct_tension<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
 } // namespace feldspar

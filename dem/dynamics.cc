@@ -145,6 +145,15 @@ double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 }
 
 template <int dim>
+void Dynamics<dim>::apply_forces(const Components<dim>& forces)
+{
+  for (int c = 0; c < dim; ++c)
+    for (std::size_t i = 0; i < forces[c].size(); ++i)
+      body.grains.force[c][i] += forces[c][i] - (applied_force[c].empty() ? 0.0 : applied_force[c][i]);
+  applied_force = forces;
+}
+
+template <int dim>
 std::vector<Break> Dynamics<dim>::step()
 {
   if (!started)
@@ -561,6 +570,12 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
   update_touches(step);
   sum_forces();
   press_walls(step);
+  for (int c = 0; c < dim; ++c)
+    for (std::size_t i = 0; i < applied_force[c].size(); ++i)
+      {
+        body.grains.force[c][i] += applied_force[c][i];
+        boundary_work += step * applied_force[c][i] * body.grains.velocity[c][i];
+      }
   return breaks;
 }
 
@@ -583,6 +598,8 @@ void Dynamics<dim>::update_touches(const double step)
           }
         if (squared >= touch.zero_distance * touch.zero_distance)
           {
+            if (!touch.touching)
+              continue; // as it was; most of those that are kept in mind never touch
             // Sliding apart dissipates the shear that was stored.
             for (const double shear : touch.shear_force)
               touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
@@ -655,6 +672,8 @@ void Dynamics<dim>::sum_forces()
           {
             const std::uint32_t entry = touch_incidence.entries[e];
             const Touch& touch = touches[entry / 2];
+            if (!touch.touching)
+              continue;
             const double direction = entry % 2 ? 1.0 : -1.0;
             for (int c = 0; c < dim; ++c)
               force[c] += direction * touch.force[c];
@@ -902,6 +921,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("spin", grains.spin);
   all_of("force", grains.force);
   all_of("couple", grains.couple);
+  all_of("applied_force", applied_force);
   all_of("position_at_search", position_at_search);
   all_of("position_at_start", position_at_start);
   archive.array("damping_work", damping_work);

@@ -62,6 +62,10 @@ public:
   /// Adds to the velocity of a grain from outside [m/s]; the energy this gives counts as there from the start.
   void push(std::uint32_t grain, const Vector<dim>& velocity);
 
+  /// Forces on the grains from outside [N], from the next step on until they are set anew; their work counts as boundary
+  /// work.
+  void apply_forces(const Components<dim>& forces);
+
   /// Advances by one step and returns what broke in it.
   std::vector<Break> step();
 
@@ -187,6 +191,7 @@ private:
   Tensor<dim> cell;                                            ///< edges of a periodic body's box, as columns [m]
   Tensor<dim> cell_rate = Tensor<dim>::Zero();
   std::vector<Wall> wall_list;
+  Components<dim> applied_force; ///< [N]; empty where none is
   std::vector<Grip> grips;
   std::vector<std::uint8_t> held; ///< grains that belong to a grip
 

@@ -41,4 +41,5 @@ std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_
 }
 
 template std::vector<std::uint32_t> fragments<2>(const Joints<2>&, std::size_t);
+template std::vector<std::uint32_t> fragments<3>(const Joints<3>&, std::size_t);
 } // namespace feldspar

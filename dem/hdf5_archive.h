@@ -57,18 +57,20 @@ public:
     group.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, stored);
   }
 
-  /// With a checksum: what a disk or a broken write changed is seen when it is read.
+  /// With a checksum: what a disk or a broken write changed is seen when it is read. `n_columns` values make a row.
   template <typename T>
-  void array(const std::string& name, std::vector<T>& values)
+  void array(const std::string& name, std::vector<T>& values, const std::size_t n_columns = 1)
   {
-    const hsize_t n = values.size();
+    const std::array<hsize_t, 2> shape{values.size() / n_columns, n_columns};
+    const int rank = n_columns > 1 ? 2 : 1;
     H5::DSetCreatPropList checked;
-    if (n > 0)
+    if (!values.empty())
       {
-        checked.setChunk(1, &n);
+        checked.setChunk(rank, shape.data());
         checked.setFletcher32();
       }
-    group.createDataSet(name, stored_type<T>(), H5::DataSpace(1, &n), checked).write(values.data(), stored_type<T>());
+    group.createDataSet(name, stored_type<T>(), H5::DataSpace(rank, shape.data()), checked)
+      .write(values.data(), stored_type<T>());
   }
 
   /// Plain structs as they lie in memory, for files that return to the same program.

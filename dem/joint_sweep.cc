@@ -4,6 +4,7 @@
 #include "dem/parallel.h"
 
 #include <algorithm>
+#include <string>
 
 namespace feldspar
 {
@@ -133,16 +134,61 @@ template <typename Real, int dim>
   store<Real, n_turns>(answer.couple_1, joints.couple_1, j);
   store<Real, n_turns>(answer.couple_2, joints.couple_2, j);
 }
+
+/// Where each array that a sweep walks through begins: some twenty for the joint and five for each segment. They are more
+/// than a processor follows by itself, so the sweep asks for what it will need, a few packs ahead.
+template <int dim>
+class Ahead
+{
+public:
+  explicit Ahead(Joints<dim>& joints)
+    : n_joints(joints.size())
+  {
+    if (n_joints == 0)
+      return;
+    const auto follow = [&](const std::string&, std::vector<double>& values) {
+      for (std::size_t row = 0; row + n_joints <= values.size(); row += n_joints)
+        arrays.push_back(&values[row]);
+    };
+    joints.visit_per_joint(follow);
+    joints.visit_per_segment(follow);
+    for (auto& component : joints.force)
+      follow("", component);
+    for (auto* components : {&joints.couple_1, &joints.couple_2})
+      for (auto& component : *components)
+        follow("", component);
+    // What stays in the caches is near anyway.
+    constexpr std::size_t largest_near = 8u << 20;
+    if (arrays.size() * n_joints * sizeof(double) < largest_near)
+      arrays.clear();
+  }
+
+  void ask(const std::size_t joint) const
+  {
+    constexpr std::size_t distance = 4 * simd::width<simd::Pack>;
+    if (joint + distance < n_joints)
+      for (const double* const array : arrays)
+        __builtin_prefetch(array + joint + distance);
+  }
+
+private:
+  std::size_t n_joints;
+  std::vector<const double*> arrays;
+};
 } // namespace
 
 template <int dim>
 std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, const double dt)
 {
   std::vector<std::vector<Break>> breaks(n_blocks(joints.size()));
+  const Ahead<dim> ahead(joints);
   for_each_block(joints.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
     std::size_t j = begin;
     for (; j + simd::width<simd::Pack> <= end; j += simd::width<simd::Pack>)
-      update_joint<simd::Pack>(joints, grains, dt, j, breaks[block]);
+      {
+        ahead.ask(j);
+        update_joint<simd::Pack>(joints, grains, dt, j, breaks[block]);
+      }
     for (; j < end; ++j)
       update_joint<double>(joints, grains, dt, j, breaks[block]);
   });

@@ -266,9 +266,13 @@ void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, T
   if (results.youngs_modulus_initial.value && results.poissons_ratio_initial.value)
     {
       const double nu = *results.poissons_ratio_initial.value;
-      const double wave_speed =
-        std::sqrt(*results.youngs_modulus_initial.value / ((1.0 - nu * nu) * record.bulk_density));
-      results.p_wave_transits_to_peak = known(branch.rows.back().time * wave_speed / record.size[1]);
+      const double modulus = *results.youngs_modulus_initial.value;
+      // Of a thin plate in the plane, of the bulk in space.
+      const double stiffness =
+        record.dimension() == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+      const double wave_speed = std::sqrt(stiffness / record.bulk_density);
+      results.p_wave_transits_to_peak =
+        known(branch.rows.back().time * wave_speed / record.size[std::size_t(record.dimension()) - 1]);
     }
 }
 
@@ -307,14 +311,15 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
 
 void evaluate_fragments(const TestRecord& record, TestResults& results)
 {
-  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and their radii squared
+  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and volume
   double all = 0.0;
   for (const auto& grain : record.grains_at_end)
     {
       auto& [n_grains, size] = fragments[grain.fragment];
       ++n_grains;
-      size += grain.radius * grain.radius;
-      all += grain.radius * grain.radius;
+      const double volume = std::pow(grain.radius, record.dimension());
+      size += volume;
+      all += volume;
     }
   for (const auto& [number, fragment] : fragments)
     results.n_fragments += fragment.first > 1;

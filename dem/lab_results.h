@@ -114,6 +114,17 @@ struct GrainPicture
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
 };
 
+/// The grains at one row of the curve.
+struct Snapshot
+{
+  std::uint64_t step = 0;
+  double axial_strain = 0.0;
+  double axial_stress = 0.0;                    ///< [Pa]
+  std::array<std::vector<double>, 3> position;  ///< of each grain [m]; the last is empty in the plane
+  std::vector<std::uint32_t> fragment;          ///< of each grain, as in GrainPicture
+  std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints since the start
+};
+
 /// How the specimen came out.
 struct SpecimenReport
 {
@@ -137,19 +148,23 @@ struct TestRecord
   TestKind kind;
   double confining_pressure = 0.0; ///< compression positive [Pa]
   std::uint64_t seed = 0;
-  double strain_rate = 0.0;     ///< magnitude [1/s]
-  std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]
-  SpecimenReport specimen;
-  std::vector<CurveSample> curve;
-  std::vector<Crack> cracks;
-  std::vector<GrainPicture> grains_at_end;
-  std::uint64_t steps = 0;
-  double time_step = 0.0;    ///< the last one [s]
-  double bulk_density = 0.0; ///< [kg/m³]
-  double wall_time = 0.0;    ///< [s]
-  bool interrupted = false;
-  std::string failure; ///< why the test could not be made; empty if it could
-};
+  double strain_rate = 0.0; ///< magnitude [1/s]
+  std::array<double, 3> size{int dimension() const {return size[2] > 0.0 ? 3 : 2;
+}
+}; // namespace feldspar
+SpecimenReport specimen;
+std::vector<CurveSample> curve;
+std::vector<Crack> cracks;
+std::vector<GrainPicture> grains_at_end;
+std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
+std::uint64_t steps = 0;
+double time_step = 0.0;    ///< the last one [s]
+double bulk_density = 0.0; ///< [kg/m³]
+double wall_time = 0.0;    ///< [s]
+bool interrupted = false;
+std::string failure; ///< why the test could not be made; empty if it could
+}
+;
 
 /// A figure, or the reason why it could not be had.
 struct Figure

@@ -4,6 +4,8 @@
 #include "dem/fragments.h"
 #include "dem/hdf5_archive.h"
 
+#include <Eigen/Geometry>
+
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -88,12 +90,14 @@ LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
+  n_broken_segments.assign(tested.grains.size(), 0);
 }
 
 template <int dim>
 void LabTest<dim>::start_gauge()
 {
-  gauge = StrainGauge<dim>(set_up.dynamics.specimen().size, gauge_positions);
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, gauge_positions);
 }
 
 template <int dim>
@@ -111,6 +115,7 @@ bool LabTest<dim>::advance()
       time_at_start = dynamics.time();
       seated = true;
       record.curve.push_back(sample());
+      take_snapshot();
     }
 
   const double next_strain = double(record.curve.size()) * protocol.sampling_strain;
@@ -127,10 +132,14 @@ bool LabTest<dim>::advance()
         {
           record.cracks.push_back(crack(dynamics, event, strain));
           ++(event.in_tension ? n_tension : n_shear);
+          ++n_broken_segments[dynamics.specimen().joints.grain_1[event.joint]];
+          ++n_broken_segments[dynamics.specimen().joints.grain_2[event.joint]];
         }
     }
   record.curve.push_back(sample());
   record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
+  if ((record.curve.size() - 1) % rows_between_snapshots == 0)
+    take_snapshot();
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
   return !ended;
@@ -161,6 +170,30 @@ CurveSample LabTest<dim>::sample() const
   row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();
   row.energies = dynamics.energies();
   return row;
+}
+
+/// How long the curve will be is not known: when there are too many, every second one goes.
+template <int dim>
+void LabTest<dim>::take_snapshot()
+{
+  constexpr std::size_t most_snapshots = 32;
+  const auto& specimen = set_up.dynamics.specimen();
+  Snapshot now;
+  now.step = set_up.dynamics.n_steps();
+  now.axial_strain = record.curve.back().axial_strain;
+  now.axial_stress = record.curve.back().axial_stress;
+  for (int c = 0; c < dim; ++c)
+    now.position[c] = specimen.grains.position[c];
+  now.fragment = fragments(specimen.joints, specimen.grains.size());
+  now.n_broken_segments = n_broken_segments;
+  record.snapshots.push_back(std::move(now));
+  if (record.snapshots.size() < most_snapshots)
+    return;
+  std::vector<Snapshot> kept;
+  for (std::size_t k = 0; k < record.snapshots.size(); k += 2)
+    kept.push_back(std::move(record.snapshots[k]));
+  record.snapshots = std::move(kept);
+  rows_between_snapshots *= 2;
 }
 
 template <int dim>
@@ -201,6 +234,23 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("ended", has_ended);
   ended = has_ended;
   archive.value("strain_at_peak", stop_rule.strain_at_peak);
+  archive.array("n_broken_segments", n_broken_segments);
+  archive.value("rows_between_snapshots", rows_between_snapshots);
+  std::uint64_t n_snapshots = record.snapshots.size();
+  archive.value("n_snapshots", n_snapshots);
+  record.snapshots.resize(n_snapshots);
+  for (std::size_t k = 0; k < n_snapshots; ++k)
+    {
+      Snapshot& snapshot = record.snapshots[k];
+      auto group = archive.subgroup(fmt::format("snapshot_{}", k));
+      group.value("step", snapshot.step);
+      group.value("axial_strain", snapshot.axial_strain);
+      group.value("axial_stress", snapshot.axial_stress);
+      for (int c = 0; c < dim; ++c)
+        group.array(fmt::format("position_{}", "xyz"[c]), snapshot.position[c]);
+      group.array("fragment", snapshot.fragment);
+      group.array("n_broken_segments", snapshot.n_broken_segments);
+    }
 }
 
 namespace
@@ -243,4 +293,5 @@ void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std:
 }
 
 template class LabTest<2>;
+template class LabTest<3>;
 } // namespace feldspar

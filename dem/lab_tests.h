@@ -87,6 +87,7 @@ private:
   template <typename Archive>
   void transfer(Archive& archive);
   CurveSample sample() const;
+  void take_snapshot();
   void start_gauge();
 
   TestParameters wanted;
@@ -100,5 +101,7 @@ private:
   double time_at_start = 0.0;      ///< of the loading, after seating [s]
   std::uint64_t n_tension = 0;
   std::uint64_t n_shear = 0;
+  std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints
+  std::uint64_t rows_between_snapshots = 1;
 };
 } // namespace feldspar

@@ -67,6 +67,13 @@ struct DynamicsParameters
   double time_step_safety = 0.8; ///< share of √(m/k) taken as step
 };
 
+/// What presses the side of a cylinder in a triaxial test.
+enum class LateralBoundary
+{
+  wall,    ///< a rigid cylinder that shrinks and widens
+  membrane ///< a pressure on the outer grains, each by its share of the side
+};
+
 /// The laboratory tests and when they end.
 struct TestParameters
 {
@@ -78,7 +85,10 @@ struct TestParameters
   double brazilian_sampling_strain = 2e-6;
   double platen_friction = 0.0;
   double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
-  double grip_ratio = 0.1;        ///< height of each grip over the specimen's
+  LateralBoundary lateral_boundary = LateralBoundary::wall;
+  std::optional<double> intermediate_stress; ///< σ_2 on a box in space, compression positive [Pa]; none: σ_3
+  double brazilian_length_ratio = 0.5;       ///< length of the disc over its diameter, in space
+  double grip_ratio = 0.1;                   ///< height of each grip over the specimen's
   double stop_strain_over_peak_strain = 1.6;
   std::optional<double> stop_strain;           ///< stop at this axial strain instead
   std::optional<double> stop_stress_over_peak; ///< or when the deviator has fallen to this share of its peak

@@ -21,4 +21,5 @@ void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double
 }
 
 template void hold_pressure<2>(Dynamics<2>&, std::size_t, double, double, double);
+template void hold_pressure<3>(Dynamics<3>&, std::size_t, double, double, double);
 } // namespace feldspar

@@ -8,7 +8,7 @@
 namespace feldspar
 {
 template <int dim>
-StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const Components<dim>& undeformed)
+StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const bool round, const Components<dim>& undeformed)
 {
   const Vector<dim> centre = 0.5 * size;
   Vector<dim> reach = 0.4 * size;
@@ -17,7 +17,9 @@ StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const Components<dim>& un
   for (std::uint32_t i = 0; i < undeformed[0].size(); ++i)
     {
       const Vector<dim> x = at<dim>(undeformed, i);
-      if (((x - centre).array().abs() < reach.array()).all())
+      const Vector<dim> from_centre = x - centre;
+      const bool inside = !round || from_centre.template head<dim - 1>().norm() < reach[0];
+      if (inside && (from_centre.array().abs() < reach.array()).all())
         {
           members.push_back(i);
           start.push_back(x);
@@ -44,4 +46,5 @@ Tensor<dim> StrainGauge<dim>::displacement_gradient(const Grains<dim>& grains) c
 }
 
 template class StrainGauge<2>;
+template class StrainGauge<3>;
 } // namespace feldspar

@@ -23,4 +23,6 @@ SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, const 
 
 template SetUpTest<2> set_up_uniaxial_compression<2>(const Specimen<2>&, const TestParameters&,
                                                      const DynamicsParameters&);
+template SetUpTest<3> set_up_uniaxial_compression<3>(const Specimen<3>&, const TestParameters&,
+                                                     const DynamicsParameters&);
 } // namespace feldspar

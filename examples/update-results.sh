@@ -8,12 +8,13 @@
 set -euo pipefail
 feldspar=$(realpath "$1")
 shift
-cd "$(dirname "${BASH_SOURCE[0]}")/beishan-granite"
+cd "$(dirname "${BASH_SOURCE[0]}")"
 studies=("$@")
-((${#studies[@]})) || studies=(beishan ensemble radius-as-diameter rate-study)
+((${#studies[@]})) || studies=(beishan ensemble radius-as-diameter rate-study beishan-cylinder)
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)
-  "$feldspar" lab "$study.prm" --output "$run" --force
-  cp "$run/summary.json" "results/$study.json"
+  input=$(ls ./*/"$study.prm")
+  "$feldspar" lab "$input" --output "$run" --force
+  cp "$run/summary.json" "$(dirname "$input")/results/$study.json"
   rm --recursive "$run"
 done

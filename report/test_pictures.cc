@@ -1,6 +1,7 @@
 #include "report/test_pictures.h"
 
 #include "report/crack_pictures.h"
+#include "report/plane_view.h"
 #include "report/plot_style.h"
 #include "report/test_groups.h"
 
@@ -94,18 +95,19 @@ std::string curve_plot(const FinishedTest& test)
   return text + "\nunset y2tics; unset y2label\n";
 }
 
-std::string map_plot(const FinishedTest& test)
+/// upwards: the name of the axis.
+std::string map_plot(const FinishedTest& test, const char upwards)
 {
   const auto& size = test.record.size;
   std::string text =
     fmt::format("set title '{}, seed {}: cracks at the end' noenhanced\n"
                 "set size ratio -1\n"
-                "set xlabel 'x [mm]'; set ylabel 'y [mm]'\n"
+                "set xlabel 'x [mm]'; set ylabel '{} [mm]'\n"
                 "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
                 "set xrange [{}:{}]; set yrange [{}:{}]\n"
                 "set bmargin 7\n"
                 "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
-                title_of(test), test.record.seed, -0.08 * size[0] / milli, 1.08 * size[0] / milli,
+                title_of(test), test.record.seed, upwards, -0.08 * size[0] / milli, 1.08 * size[0] / milli,
                 -0.02 * size[1] / milli, 1.02 * size[1] / milli);
   const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
@@ -119,8 +121,12 @@ std::string map_plot(const FinishedTest& test)
       text +=
         fmt::format(", {} with vectors nohead lw 2 lc rgb '{}' title '{}: {}'", block(what, test), colour, what, n);
   };
-  cracks("tension", tension_colour, test.results.n_tension_cracks);
-  cracks("shear", shear_colour, test.results.n_shear_cracks);
+  const auto n_drawn = [&](const CrackKind kind) {
+    return std::uint64_t(std::count_if(test.record.cracks.begin(), test.record.cracks.end(),
+                                       [kind](const Crack& crack) { return crack.kind == kind; }));
+  };
+  cracks("tension", tension_colour, n_drawn(CrackKind::tension));
+  cracks("shear", shear_colour, n_drawn(CrackKind::shear));
   return text + "\n";
 }
 
@@ -154,11 +160,13 @@ std::vector<Picture> overview_picture(const Series& series)
   std::string maps;
   int n_columns = 0;
   for (const auto& group : shown(groups_of(series)))
-    if (const FinishedTest& test = *group.tests.front(); !test.record.curve.empty())
+    if (FinishedTest test = *group.tests.front(); !test.record.curve.empty())
       {
+        const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
+        test.record = plane_view(std::move(test.record));
         data += curve_data(test) + map_data(test);
         curves += curve_plot(test);
-        maps += map_plot(test);
+        maps += map_plot(test, upwards);
         ++n_columns;
       }
   if (n_columns == 0)

@@ -169,5 +169,20 @@ TEST(Example, TheInputsAreValid)
       EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     }
 }
+
+TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/";
+  const std::string readme = content(folder + "README.md");
+  const auto study = nlohmann::json::parse(content(folder + "results/beishan-cylinder.json"));
+  auto shown = rows;
+  shown.push_back({"strength at 10 MPa [MPa]", "triaxial_compression_10_MPa", "peak_stress_Pa", 1e6, 1});
+  shown.push_back({"strength at 40 MPa [MPa]", "triaxial_compression_40_MPa", "peak_stress_Pa", 1e6, 1});
+  for (const auto& [name, kind, key, scale, decimals] : shown)
+    {
+      const std::string row = fmt::format("| {} | {} |", name, mean_and_deviation(study, kind, key, scale, decimals));
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+    }
+}
 } // namespace
 } // namespace feldspar::tests

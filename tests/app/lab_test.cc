@@ -260,6 +260,68 @@ TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
   EXPECT_FALSE(fs::exists(folder.path() / "none"));
 }
 
+TEST(Lab, TestsACylinderInThreeDimensions)
+{
+  // Some sixty spheres; what is asked is that every part of a run takes them.
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Dimension = 3
+  set Shape = cylinder
+  set Width = 6 mm
+  set Height = 8 mm
+  set Porosity = 0.42
+end
+subsection Tests
+  set List = direct_tension, triaxial_compression, brazilian
+  set Confinements = 10 MPa
+  set Lateral boundary = membrane
+  set Brazilian length ratio = 0.8
+  set Compression strain rate = 8 1/s
+  set Tension strain rate = 2 1/s
+  set Brazilian strain rate = 2 1/s
+  set Compression sampling strain = 1e-4
+  set Stop strain over peak strain = 1.1
+end
+)");
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen rock.prm --output made --quiet").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder.path() / "made/specimen.h5"));
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const fs::path out = folder.path() / "out";
+  const auto json = summary(out);
+  ASSERT_EQ(json["tests"].size(), 3u);
+  for (const auto& test : json["tests"])
+    EXPECT_TRUE(test["peak_stress_Pa"].is_number()) << test["name"];
+  EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Dimension"], "3");
+  // For ParaView: the time series point into the file beside them.
+  for (const char* name : {"direct_tension_seed_1", "triaxial_compression_10_MPa_seed_1", "brazilian_seed_1"})
+    {
+      EXPECT_TRUE(fs::exists(out / "fields" / (std::string(name) + ".h5"))) << name;
+      for (const char* what : {"_grains.xdmf", "_cracks.xdmf"})
+        EXPECT_NE(content(out / "fields" / (std::string(name) + what)).find(std::string(name) + ".h5:/"),
+                  std::string::npos)
+          << name << what;
+    }
+  EXPECT_TRUE(fs::exists(out / "figures/overview.png"));
+  // A box by three stresses.
+  folder.write("box.prm", R"(subsection Specimen
+  set Dimension = 3
+  set Width = 6 mm
+  set Height = 8 mm
+  set Porosity = 0.42
+end
+subsection Tests
+  set List = triaxial_compression
+  set Confinements = 5 MPa
+  set Intermediate stress = 15 MPa
+  set Stop strain = 1e-3
+  set Compression strain rate = 8 1/s
+  set Compression sampling strain = 1e-4
+end
+)");
+  EXPECT_EQ(run_feldspar(folder.path(), "lab box.prm --output box --quiet").exit_code, 0);
+}
+
 TEST(Lab, RunsVariantsOfOneEntry)
 {
   const TemporaryFolder folder;

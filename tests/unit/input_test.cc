@@ -76,6 +76,9 @@ subsection Tests
   set Steps between checkpoints = 500
   set Compression sampling strain = 2e-5
   set Tension sampling strain = 2e-6
+  set Lateral boundary = membrane
+  set Intermediate stress = 15 MPa
+  set Brazilian length ratio = 0.4
   set Grip ratio = 0.2
   set Stop strain over peak strain = 1.5
   set Stop strain = 0.004
@@ -203,6 +206,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.tension_strain_rate, 0.082);
   EXPECT_EQ(input.tests.compression_sampling_strain, 2e-5);
   EXPECT_EQ(input.tests.tension_sampling_strain, 2e-6);
+  EXPECT_EQ(input.tests.lateral_boundary, LateralBoundary::membrane);
+  EXPECT_EQ(input.tests.intermediate_stress, 15e6);
+  EXPECT_EQ(input.tests.brazilian_length_ratio, 0.4);
   EXPECT_EQ(input.tests.grip_ratio, 0.2);
   EXPECT_EQ(input.tests.stop_strain_over_peak_strain, 1.5);
   EXPECT_EQ(input.tests.stop_strain, 0.004);
@@ -372,6 +378,10 @@ TEST(Input, ChecksEveryRange)
     {"Tests", "Compression sampling strain = 0"},
     {"Tests", "Tension sampling strain = 0"},
     {"Tests", "Grip ratio = 0.41"},
+    {"Tests", "Lateral boundary = oil"},
+    {"Tests", "Intermediate stress = 0 MPa"},
+    {"Tests", "Brazilian length ratio = 0"},
+    {"Specimen", "Shape = cylinder"},
     {"Tests", "Stop strain over peak strain = 1"},
     {"Tests", "Stop strain = 0"},
     {"Tests", "Stop stress over peak = 1"},

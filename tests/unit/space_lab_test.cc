@@ -1,0 +1,178 @@
+// Laboratory tests on cylinders.
+
+#include "dem/lab_tests.h"
+#include "dem/membrane.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double pi = std::numbers::pi;
+
+TEST(Membrane, LiesAroundTheCylinderAndPressesOuterGrainsOnly)
+{
+  const auto specimen = small_cylinder();
+  const auto surface = lateral_surface(specimen, 0.0, specimen.size[2]);
+  double area = 0.0;
+  Vector<3> sum = Vector<3>::Zero();
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    {
+      const Vector<3> a = at<3>(surface.inward_area, i);
+      const Vector<3> x = at<3>(specimen.grains.position, i);
+      area += a.norm();
+      sum += a;
+      if (a.norm() == 0.0)
+        continue;
+      EXPECT_EQ(a[2], 0.0);
+      // Inwards, and from the side: no grain that lies two mean diameters in gets a share.
+      const Vector<2> from_axis = (x - 0.5 * specimen.size).head<2>();
+      EXPECT_LT(a.head<2>().dot(from_axis), 0.0);
+      EXPECT_GT(from_axis.norm() + specimen.grains.radius[i], 4e-3 - 4.0 * specimen.report.mean_radius);
+    }
+  // The membrane sags between the grains: some 10 % inside the cylinder that touches them all.
+  const double side = pi * 8e-3 * 12e-3;
+  EXPECT_LT(area, side);
+  EXPECT_GT(area, 0.85 * side);
+  EXPECT_LT(surface.cross_section, 0.25 * pi * 64e-6);
+  EXPECT_GT(surface.cross_section, 0.75 * 0.25 * pi * 64e-6);
+  // A closed surface has no area vector; each row of the raster closes but for its different distances.
+  EXPECT_LT(sum.norm(), 0.03 * side);
+}
+
+TestParameters quick()
+{
+  TestParameters wanted;
+  wanted.compression_strain_rate = 4.0;
+  wanted.tension_strain_rate = 1.0;
+  wanted.compression_sampling_strain = 5e-5;
+  wanted.tension_sampling_strain = 5e-6;
+  wanted.brazilian_strain_rate = 1.0;
+  wanted.brazilian_sampling_strain = 2e-5;
+  wanted.stop_strain_over_peak_strain = 1.1;
+  return wanted;
+}
+
+TestRecord run(LabTest<3>& test)
+{
+  while (test.advance())
+    ;
+  return test.finish(false);
+}
+
+TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
+{
+  const auto specimen = small_cylinder();
+  LabTest<3> tension({TestKind::direct_tension}, specimen, quick(), {});
+  const auto pulled = evaluate(run(tension));
+  LabTest<3> compression({TestKind::uniaxial_compression}, specimen, quick(), {});
+  const auto record = run(compression);
+  const auto crushed = evaluate(record);
+  ASSERT_TRUE(pulled.peak_stress.value && crushed.peak_stress.value) << pulled.peak_stress.reason;
+  // Below the strength of its bonds in tension; several times stronger in compression, as rock is.
+  EXPECT_LT(*pulled.peak_stress.value, 22e6);
+  EXPECT_GT(*crushed.peak_stress.value, 4.0 * *pulled.peak_stress.value);
+  EXPECT_EQ(pulled.n_shear_cracks, 0u);
+  EXPECT_LT(crushed.energy_imbalance, 0.01);
+  EXPECT_GT(*crushed.youngs_modulus_initial.value, 10e9);
+  // What the pictures need: of every grain, from the start to the end.
+  ASSERT_GT(record.snapshots.size(), 4u);
+  EXPECT_EQ(record.snapshots.front().position[2], specimen.grains.position[2]);
+  std::size_t n_broken = 0;
+  for (const auto n : record.snapshots.back().n_broken_segments)
+    n_broken += n;
+  EXPECT_GT(n_broken, 0u);
+  EXPECT_LE(n_broken, 2 * record.cracks.size()); // each crack lies at two grains
+}
+
+TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
+{
+  const auto specimen = small_cylinder();
+  TestParameters wanted = quick();
+  LabTest<3> uniaxial({TestKind::uniaxial_compression}, specimen, wanted, {});
+  const double alone = *evaluate(run(uniaxial)).peak_stress.value;
+  for (const auto boundary : {LateralBoundary::wall, LateralBoundary::membrane})
+    {
+      wanted.lateral_boundary = boundary;
+      LabTest<3> test({TestKind::triaxial_compression, 20e6}, specimen, wanted, {});
+      const auto record = run(test);
+      const auto results = evaluate(record);
+      ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+      EXPECT_GT(*results.peak_stress.value, alone + 20e6);
+      EXPECT_LT(results.energy_imbalance, 0.01);
+      // The platens begin at the confinement, within the tolerance of the seating and the membrane's sag.
+      EXPECT_NEAR(record.curve.front().axial_stress, -20e6, 0.01 * 20e6);
+      EXPECT_LT(*results.servo_error.value, 0.01);
+    }
+}
+
+TEST(SpaceLab, PressesABoxByThreeStresses)
+{
+  auto wanted = quick();
+  wanted.intermediate_stress = 30e6;
+  wanted.stop_strain = 1e-4;
+  auto set_up = set_up_triaxial_compression<3>(small_cylinder(1, 1e3, "box"), 10e6, wanted, {});
+  set_up.protocol.seat(set_up.dynamics);
+  const Tensor<3> stress = set_up.dynamics.mean_stress();
+  // Pressures on the walls are within 0.5 %; what the walls cut off the body is of the order of its overlaps.
+  EXPECT_NEAR(stress(0, 0), -10e6, 0.03 * 30e6);
+  EXPECT_NEAR(stress(1, 1), -30e6, 0.03 * 30e6);
+  EXPECT_NEAR(stress(2, 2), -10e6, 0.03 * 30e6);
+}
+
+TEST(SpaceLab, SplitsADiscAlongTheLoad)
+{
+  SpecimenParameters parameters;
+  parameters.dimension = 3;
+  parameters.shape = "cylinder";
+  parameters.width = 0.010;
+  parameters.height = 0.008;
+  parameters.porosity = 0.40;
+  FlatJointParameters flat_joint;
+  flat_joint.installation_gap_ratio = 0.05;
+  const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
+  LabTest<3> test({TestKind::brazilian}, specimen, quick(), {});
+  const auto record = run(test);
+  const auto results = evaluate(record);
+  ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_GT(*results.peak_stress.value, 2e6);
+  EXPECT_LT(*results.peak_stress.value, 60e6);
+  // Lying across: half as long as wide, about the middle of the specimen's height, and only that part is tested.
+  EXPECT_LT(record.specimen.n_grains, specimen.grains.size());
+  for (const auto& grain : record.grains_at_end)
+    EXPECT_LT(std::abs(grain.position[1] - 0.004), 0.0026);
+}
+
+TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
+{
+  const auto specimen = small_cylinder();
+  TestParameters wanted = quick();
+  wanted.lateral_boundary = LateralBoundary::membrane;
+  const tests::TemporaryFolder folder;
+  const TestCase test_case{TestKind::triaxial_compression, 10e6};
+  LabTest<3> whole(test_case, specimen, wanted, {});
+  for (int k = 0; k < 8; ++k)
+    whole.advance();
+  whole.write_checkpoint(folder.path() / "test.h5", "one");
+  LabTest<3> again(test_case, specimen, wanted, {});
+  again.read_checkpoint(folder.path() / "test.h5", "one");
+  for (int k = 0; k < 8; ++k)
+    {
+      whole.advance();
+      again.advance();
+    }
+  const auto one = whole.finish(true);
+  const auto two = again.finish(true);
+  EXPECT_EQ(one.curve.back().axial_stress, two.curve.back().axial_stress);
+  EXPECT_EQ(one.curve.back().energies.boundary_work, two.curve.back().energies.boundary_work);
+  ASSERT_EQ(one.snapshots.size(), two.snapshots.size());
+  EXPECT_EQ(one.snapshots.back().position, two.snapshots.back().position);
+}
+} // namespace
+} // namespace feldspar
