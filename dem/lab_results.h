@@ -148,23 +148,22 @@ struct TestRecord
   TestKind kind;
   double confining_pressure = 0.0; ///< compression positive [Pa]
   std::uint64_t seed = 0;
-  double strain_rate = 0.0; ///< magnitude [1/s]
-  std::array<double, 3> size{int dimension() const {return size[2] > 0.0 ? 3 : 2;
-}
-}; // namespace feldspar
-SpecimenReport specimen;
-std::vector<CurveSample> curve;
-std::vector<Crack> cracks;
-std::vector<GrainPicture> grains_at_end;
-std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
-std::uint64_t steps = 0;
-double time_step = 0.0;    ///< the last one [s]
-double bulk_density = 0.0; ///< [kg/m³]
-double wall_time = 0.0;    ///< [s]
-bool interrupted = false;
-std::string failure; ///< why the test could not be made; empty if it could
-}
-;
+  double strain_rate = 0.0;     ///< magnitude [1/s]
+  std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane
+  SpecimenReport specimen;
+  std::vector<CurveSample> curve;
+  std::vector<Crack> cracks;
+  std::vector<GrainPicture> grains_at_end;
+  std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
+  std::uint64_t steps = 0;
+  double time_step = 0.0;    ///< the last one [s]
+  double bulk_density = 0.0; ///< [kg/m³]
+  double wall_time = 0.0;    ///< [s]
+  bool interrupted = false;
+  std::string failure; ///< why the test could not be made; empty if it could
+
+  int dimension() const { return size[2] > 0.0 ? 3 : 2; }
+};
 
 /// A figure, or the reason why it could not be had.
 struct Figure
