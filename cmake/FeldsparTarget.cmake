@@ -5,9 +5,10 @@ target_compile_features(feldspar_settings INTERFACE cxx_std_20)
 target_include_directories(feldspar_settings INTERFACE ${CMAKE_SOURCE_DIR})
 # No fused multiply-add behind our back: the same source gives the same bits with every compiler and processor.
 target_compile_options(feldspar_settings INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow)
-# One alignment and one allocator for Eigen, whatever the processor: the libraries of the distribution were built so, and
-# functions of both are linked into one program.
-target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+# Eigen without its own vectors. With them the order of a sum depends on the processor and on where the numbers happen to
+# lie; and alignment and allocator would differ from those of the distribution's libraries, whose functions are linked
+# into the same program.
+target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
 if(FELDSPAR_NATIVE)
   target_compile_options(feldspar_settings INTERFACE -march=native)
 endif()

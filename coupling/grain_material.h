@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-/// The law made of grains: a representative volume at every point of a sample; docs/theory.md §10.
+/// The law made of grains: a representative volume at every point of a sample; docs/theory.md §11.
 namespace feldspar
 {
 /// A broken segment of the volume at a point, in the axes of the sample.

@@ -26,7 +26,7 @@ struct SampleStanding
 };
 
 /// A laboratory test on a plane sample of finite elements with a representative volume at every point; docs/theory.md
-/// §10. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
+/// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
 class SampleTest
 {

@@ -111,6 +111,21 @@ subsection Representative volume
   set Break rule = only worst
   set Most iterations = 50
 end
+subsection Sample
+  set Width = 40 mm
+  set Height = 80 mm
+  set Elements across = 3
+  set Elements along = 6
+  set Order = 2
+  set Platens = rough
+  set Realisations = 5
+  set Orientation = fixed
+  set Compression step = 3e-5
+  set Tension step = 1e-6
+  set Most broken share = 0.02
+  set Smallest step share = 0.25
+  set Newton tolerance = 1e-7
+end
 subsection Report
   set Reference file = rock.json
 end
@@ -235,6 +250,19 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
   EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
+  EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
+  EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
+  EXPECT_EQ(input.sample.elements_across, 3u);
+  EXPECT_EQ(input.sample.elements_along, 6u);
+  EXPECT_EQ(input.sample.order, 2u);
+  EXPECT_TRUE(input.sample.rough_platens);
+  EXPECT_EQ(input.sample.n_realisations, 5u);
+  EXPECT_FALSE(input.sample.random_orientation);
+  EXPECT_EQ(input.sample.compression_step, 3e-5);
+  EXPECT_EQ(input.sample.tension_step, 1e-6);
+  EXPECT_EQ(input.sample.most_broken_share, 0.02);
+  EXPECT_EQ(input.sample.smallest_step_share, 0.25);
+  EXPECT_EQ(input.sample.newton_tolerance, 1e-7);
   EXPECT_EQ(input.equilibrium.most_iterations, 50u);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
 }
