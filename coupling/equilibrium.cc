@@ -270,6 +270,8 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
         largest = std::max(largest, step.template segment<dim>(n_motions<dim> * Eigen::Index(i)).norm());
       if (largest > longest)
         {
+          if (error <= tolerance) // a loose grain: there is nothing to refine
+            return true;
           if (++n_long_steps > most_long_steps)
             return false;
           step *= longest / largest;
