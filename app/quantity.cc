@@ -9,6 +9,7 @@
 #include <charconv>
 #include <clocale>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <system_error>
 
@@ -144,6 +145,14 @@ Owner<ut_system> read_unit_system()
   return system;
 }
 
+/// UDUNITS is not made for several threads at once: its parser keeps its place in global variables.
+std::mutex& units_mutex()
+{
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Under the lock.
 Owner<ut_unit> parse_unit(const std::string_view text)
 {
   const CLocale c_locale;
@@ -163,6 +172,12 @@ bool are_of_one_dimension(ut_unit* unit, ut_unit* si_unit)
          std::string_view(definition.data()).find("rad") == std::string_view::npos;
 }
 
+bool is_known_unit(const std::string_view text)
+{
+  const std::lock_guard lock(units_mutex());
+  return is_unit_expression(text) && parse_unit(text);
+}
+
 std::string advice(const Dimension& dimension)
 {
   return fmt::format("write {}, e.g. \"{}\"", dimension.name, dimension.example);
@@ -173,7 +188,7 @@ std::size_t find_space(const std::string_view text, const Dimension& dimension)
 {
   const std::size_t space = text.find(' ');
   const std::string_view number = text.substr(0, space);
-  if (text.empty() || (space == std::string_view::npos && is_unit_expression(text) && parse_unit(text)))
+  if (text.empty() || (space == std::string_view::npos && is_known_unit(text)))
     throw InputError(fmt::format("a number is missing; {}", advice(dimension)));
   if (!is_decimal_number(number))
     throw InputError(fmt::format("\"{}\" is not a decimal number; {}", number, advice(dimension)));
@@ -208,6 +223,7 @@ std::vector<std::string_view> split_at_commas(std::string_view text)
 
 double to_si(const double value, const std::string_view unit, const Dimension& dimension)
 {
+  const std::lock_guard lock(units_mutex());
   const Owner<ut_unit> from = parse_unit(unit);
   const Owner<ut_unit> si = parse_unit(dimension.si_unit);
   if (!from)

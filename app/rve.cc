@@ -1,6 +1,7 @@
 #include "app/commands.h"
 #include "app/input.h"
 #include "app/interrupt.h"
+#include "app/jobs.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/provenance.h"
@@ -22,14 +23,6 @@ namespace feldspar
 {
 namespace
 {
-/// One after the other: two at a time were seen to crash.
-template <typename Job>
-void for_each_in_turn(const std::size_t n, const Job& job)
-{
-  for (std::size_t k = 0; k < n; ++k)
-    job(k);
-}
-
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds time_between_checkpoints{20};
 
@@ -151,7 +144,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
                           (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
   std::vector<FinishedVolume<dim>> volumes(runs.size());
   Board board(progress, runs.size());
-  for_each_in_turn(runs.size(), [&](const std::size_t k) {
+  for_each_job(runs.size(), [&](const std::size_t k) {
     const auto& [variant, specimen, name] = runs[k];
     volumes[k] =
       run_volume<dim>(all_variants[variant], name, specimens[specimen], folder, [&](const PathRun<dim>& run) {

@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <clocale>
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace feldspar
 {
@@ -154,6 +157,26 @@ TEST(Quantity, ReadsTheSameWhereTheDecimalSignIsAComma)
   EXPECT_DOUBLE_EQ(inches, 0.0381);
   EXPECT_NE(refused, "");
   EXPECT_EQ(written, "22.5 MPa");
+}
+/// The library behind it keeps its place in global variables; inputs are read by independent tests at the same time.
+TEST(Quantity, IsReadByManyThreadsAtOnce)
+{
+  constexpr int n_threads = 8;
+  constexpr int n_readings = 500;
+  std::atomic<int> n_wrong = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < n_threads; ++t)
+      threads.emplace_back([&] {
+        for (int i = 0; i < n_readings; ++i)
+          if (error_of([&] {
+                if (parse_quantity("2 kg/m^3", density) != 2.0)
+                  ++n_wrong;
+              }) != "")
+            ++n_wrong;
+      });
+  }
+  EXPECT_EQ(n_wrong, 0);
 }
 } // namespace
 } // namespace feldspar
