@@ -38,7 +38,7 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   , active_number(of.links().size(), none)
   , last(state)
 {
-  position_at_event = unknowns_of(state);
+  position_at_event = unknowns_of(network, state);
   for (const auto& unbonded : state.unbonded)
     {
       const std::uint32_t link = network.link_of_segment(unbonded.segment);
@@ -57,19 +57,9 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
 }
 
 template <int dim>
-Unknowns Equilibrium<dim>::unknowns_of(const NetworkState<dim>& state) const
-{
-  if (state.motions.empty())
-    return network.intact_unknowns(state.strain);
-  Unknowns unknowns(network.n_unknowns());
-  unknowns << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())), state.strain;
-  return unknowns;
-}
-
-template <int dim>
 void Equilibrium<dim>::begin_at(const NetworkState<dim>& nearby)
 {
-  position = unknowns_of(nearby);
+  position = unknowns_of(network, nearby);
   present = balance(position);
 }
 

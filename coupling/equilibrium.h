@@ -103,7 +103,6 @@ private:
     std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
   };
 
-  Unknowns unknowns_of(const NetworkState<dim>& state) const;
   Balance balance(const Unknowns& at) const;
   Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
   double measure(const Balance& of, const Control<dim>& control) const;

@@ -9,16 +9,6 @@ namespace feldspar
 {
 namespace
 {
-template <int dim>
-Unknowns unknowns_of(const Network<dim>& network, const NetworkState<dim>& state)
-{
-  if (state.motions.empty())
-    return network.intact_unknowns(state.strain);
-  Unknowns unknowns(network.n_unknowns());
-  unknowns << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())), state.strain;
-  return unknowns;
-}
-
 /// Broken since the start, ascending.
 template <int dim>
 std::vector<std::uint32_t> broken_segments(const Network<dim>& network, const NetworkState<dim>& state)

@@ -38,4 +38,14 @@ struct NetworkState
   std::uint32_t n_shear_breaks = 0;
   NetworkWork work;
 };
+
+template <int dim>
+Unknowns unknowns_of(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  if (state.motions.empty())
+    return network.intact_unknowns(state.strain);
+  Unknowns unknowns(network.n_unknowns());
+  unknowns << Eigen::Map<const Eigen::VectorXd>(state.motions.data(), Eigen::Index(state.motions.size())), state.strain;
+  return unknowns;
+}
 } // namespace feldspar
