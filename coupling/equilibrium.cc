@@ -14,9 +14,13 @@ constexpr double near_worst_share = 0.98;
 constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
 // Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.
 constexpr double lent_stiffness = 1e-7;
-constexpr unsigned int n_work_intervals = 8; // trapezoids for the way between two events
+constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
+constexpr unsigned int most_work_intervals = 512;
+constexpr double work_tolerance = 1e-3;      // imbalance over what was moved between two events
+constexpr double least_work = 1e-8;          // below this share of what is stored nothing is refined
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
 constexpr unsigned int most_long_steps = 40; // then the body flies apart
+constexpr unsigned int most_rounds = 12;     // of damped motion and Newton's method after it
 
 /// Mean force of a link at a strain so small that nothing is held: a body that has come apart balances at nothing.
 template <int dim>
@@ -223,6 +227,73 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       present = balance(position);
     }
 
+  const auto is_small = [&] { return position.template tail<n_voigt<dim>>().cwiseAbs().maxCoeff() <= largest_strain; };
+  for (unsigned int round = 0;; ++round)
+    {
+      const Unknowns before = position;
+      if (relax_by_newton(control, tolerance))
+        return is_small();
+      if (round == most_rounds)
+        return false;
+      position = before;
+      present = balance(position);
+      relax_by_motion(control, tolerance);
+      if (!is_small()) // it flies apart
+        return false;
+    }
+}
+
+/// Damped motion from the present position, with the intact network's stiffness as mass, so that no mode is faster than a
+/// step (FIRE: Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201). Where contacts open, close and slide by turns
+/// Newton's method may go in circles; what loses its energy comes nearer to rest.
+template <int dim>
+void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double tolerance)
+{
+  constexpr unsigned int most_steps = 1000;
+  constexpr double first_step = 0.3;
+  constexpr double longest_step = 1.0; // over the inverse frequency of the stiffest modes
+  constexpr double first_turn = 0.1;   // share of the velocity that is turned towards the force
+  constexpr unsigned int n_steps_before_faster = 5;
+  Unknowns velocity = Unknowns::Zero(network.n_unknowns());
+  Unknowns momentum = velocity;
+  double step = first_step;
+  double turn = first_turn;
+  unsigned int n_downhill = 0;
+  for (unsigned int k = 0; k < most_steps && !(measure(present, control) <= tolerance); ++k)
+    {
+      ++iterations;
+      const Unknowns force = unbalanced(present, control);
+      const Unknowns acceleration = network.factorised_intact().solve(force, control.stress_given);
+      if (force.dot(velocity) > 0.0)
+        {
+          const double speed = std::sqrt(velocity.dot(momentum) / acceleration.dot(force));
+          velocity = (1.0 - turn) * velocity + turn * speed * acceleration;
+          momentum = (1.0 - turn) * momentum + turn * speed * force;
+          if (++n_downhill > n_steps_before_faster)
+            {
+              step = std::min(1.1 * step, longest_step);
+              turn *= 0.99;
+            }
+        }
+      else
+        {
+          velocity.setZero();
+          momentum.setZero();
+          n_downhill = 0;
+          step *= 0.5;
+          turn = first_turn;
+        }
+      velocity += step * acceleration;
+      momentum += step * force;
+      position += step * velocity;
+      present = balance(position);
+    }
+}
+
+template <int dim>
+bool Equilibrium<dim>::relax_by_newton(const Control<dim>& control, const double tolerance)
+{
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   double error = measure(present, control);
   double step_share = 1.0;
   unsigned int n_long_steps = 0;
@@ -397,26 +468,47 @@ double Equilibrium<dim>::slip_energy(const Balance& from, const Balance& to) con
   return sum;
 }
 
-/// The way since the last event, taken as straight, into the energies; then the present becomes the last event.
+/// Along the way since the last event, taken as straight, by trapezoids.
 template <int dim>
-void Equilibrium<dim>::commit()
+NetworkWork Equilibrium<dim>::work_since_event(const unsigned int n_intervals) const
 {
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   const Unknowns way = position - position_at_event;
-  const auto add_work = [&](const Balance& at, const double share) {
-    last.work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
-    last.work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
+  NetworkWork work;
+  const auto add = [&](const Balance& at, const double share) {
+    work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
+    work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
   };
-  const unsigned int n_intervals = active.empty() ? 1 : n_work_intervals;
   Balance before = at_event;
   for (unsigned int k = 1; k <= n_intervals; ++k)
     {
       Balance after = k == n_intervals ? present : balance(position_at_event + double(k) / n_intervals * way);
-      add_work(before, 0.5 / n_intervals);
-      add_work(after, 0.5 / n_intervals);
-      last.work.slip += slip_energy(before, after);
+      add(before, 0.5 / n_intervals);
+      add(after, 0.5 / n_intervals);
+      work.slip += slip_energy(before, after);
       before = std::move(after);
     }
+  return work;
+}
+
+/// The work since the last event into the energies; then the present becomes the last event.
+template <int dim>
+void Equilibrium<dim>::commit()
+{
+  // On a long way contacts open, close and slide: as many intervals as the balance of what was summed apart asks for.
+  const auto is_fine_enough = [&](const NetworkWork& work) {
+    const double stored = present.stored_energy - at_event.stored_energy;
+    const double moved = std::abs(work.boundary) + std::abs(work.settled) + std::abs(work.slip) + std::abs(stored);
+    return std::abs(work.boundary - work.settled - work.slip - stored) <=
+           std::max(work_tolerance * moved, least_work * present.stored_energy);
+  };
+  unsigned int n_intervals = active.empty() ? 1 : least_work_intervals;
+  NetworkWork work = work_since_event(n_intervals);
+  while (!active.empty() && n_intervals < most_work_intervals && !is_fine_enough(work))
+    work = work_since_event(n_intervals *= 4);
+  last.work.boundary += work.boundary;
+  last.work.settled += work.settled;
+  last.work.slip += work.slip;
 
   for (std::size_t a = 0; a < active.size(); ++a)
     {

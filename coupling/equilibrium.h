@@ -103,6 +103,8 @@ private:
     std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
   };
 
+  bool relax_by_newton(const Control<dim>& control, double tolerance);
+  void relax_by_motion(const Control<dim>& control, double tolerance);
   Balance balance(const Unknowns& at) const;
   Unknowns unbalanced(const Balance& of, const Control<dim>& control) const;
   double measure(const Balance& of, const Control<dim>& control) const;
@@ -113,12 +115,13 @@ private:
                         const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);
   ActiveLink<dim> activate(std::uint32_t link) const;
   double slip_energy(const Balance& from, const Balance& to) const;
+  NetworkWork work_since_event(unsigned int n_intervals) const;
   void commit();
 
   const Network<dim>& network;
   EquilibriumParameters parameters;
-  std::vector<ActiveLink<dim>> active;      ///< ascending
-  std::vector<std::uint32_t> active_number; ///< of each joint in `active`, or none
+  std::vector<ActiveLink<dim>> active;      ///< in the order of their first break or touch
+  std::vector<std::uint32_t> active_number; ///< of each link in `active`, or none
   NetworkState<dim> last;                   ///< at the last event, but for what `active` holds
   Unknowns position_at_event;
   Balance at_event;

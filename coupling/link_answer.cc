@@ -136,7 +136,9 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       bool sticks = true;
       for (int c = 0; c < dim - 1; ++c)
         {
-          segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s;
+          // Of a face an edge may press while the middle is open: what the shear does not follow there is slip too.
+          const double left_open = link.has_face ? 1.0 - share : 0.0;
+          segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s - left_open * (now[c + 1] - before[c + 1]);
           sticks = sticks && trial[c] == segment.shear_stress[c];
         }
 

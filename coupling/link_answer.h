@@ -30,7 +30,7 @@ struct SegmentAnswer
 {
   double normal_stress;                     ///< σ̂ [Pa]
   std::array<double, dim - 1> shear_stress; ///< τ [Pa]
-  std::array<double, dim - 1> slip{};       ///< that friction let go since the last event, along τ [m]
+  std::array<double, dim - 1> slip{};       ///< shear since the last event that τ did not follow, along τ [m]
 };
 
 template <int dim>

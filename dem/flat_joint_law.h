@@ -88,7 +88,7 @@ struct SegmentUpdate
   NormalResponse<Real> normal;
   decltype(Real() < Real()) tension_break;
   decltype(Real() < Real()) shear_break;
-  Real slip_energy;     ///< dissipated by friction in this step [J]
+  Real slip_energy;     ///< of shear that the shear stress did not follow, in this step [J]
   Real released_energy; ///< stored energy lost at a break in this step [J]
 };
 
@@ -260,15 +260,16 @@ SegmentUpdate<dim, Real> update(const Segment<dim, Real>& segment, const Bond<Re
       Real kept(1.0);
       if (simd::any(slides))
         kept = select(slides, limit / select(slides, size, Real(1.0)), kept);
-      // Slip under the mean of the stresses before and after: the trapezoid by which the contact does its work.
+      // Slip is what shear the stress did not follow, by friction or because the middle is open while an edge presses;
+      // under the mean of the stresses before and after, the trapezoid by which the contact does its work.
       Real slip_work(0.0);
       for (int c = 0; c < dim - 1; ++c)
         {
-          const Real trial = tau[c];
-          tau[c] = kept * trial;
-          slip_work += 0.5 * (old.shear_stress[c] + tau[c]) * (trial - tau[c]);
+          tau[c] = kept * tau[c];
+          slip_work +=
+            0.5 * (old.shear_stress[c] + tau[c]) * (old.shear_stress[c] - k_s * motion.shear_increment[c] - tau[c]);
         }
-      result.slip_energy = select(slides, slip_work * segment.area() / k_s, Real(0.0));
+      result.slip_energy = select(unbonded, slip_work * segment.area() / k_s, Real(0.0));
     }
 
   // A break leaves no shear, and lets go at once what it stored.

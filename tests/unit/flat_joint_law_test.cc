@@ -276,6 +276,21 @@ TEST(Friction, GathersShearOnlyWhileClosed)
               1e-9 * face.shear_stiffness * slip);
 }
 
+TEST(Friction, ShearUnderAnEdgeWhileTheMiddleIsOpenIsSlip)
+{
+  // Under half of a shear stress that friction could bear; tilted, so that the middle is open and an edge presses.
+  const double limit = face.friction * 50e6;
+  const double slip = 0.5 * limit / face.shear_stiffness;
+  const double gap = 1e-9;
+  const double slope = 20.0 * 50e6 / face.normal_stiffness / segment.length;
+  const SegmentState<2, double> old{{-0.5 * limit}, false};
+  const auto update = flat_joint::update<2, double>(segment, strong, old, {gap, gap, slope, {slip}});
+  // The stress stays, and over all of the way it does work: -τ ΔU_s per area.
+  EXPECT_GT(update.normal.force, 0.0);
+  EXPECT_EQ(update.state.shear_stress[0], -0.5 * limit);
+  EXPECT_NEAR(update.slip_energy, 0.5 * limit * slip * segment.area(), 1e-12 * limit * slip);
+}
+
 TEST(Law, AnswersAPackAsItsMembers)
 {
   // Bit for bit: the sweep's vector lanes and the single contact are the same arithmetic.
