@@ -190,6 +190,22 @@ private:
   std::filesystem::path one_before;
 };
 
+/// Of a test that could not be made.
+template <int dim>
+TestRecord record_of_failure(const PlannedTest<dim>& planned, const std::string& why)
+{
+  TestRecord record;
+  record.kind = planned.test.kind;
+  record.confining_pressure = planned.test.confining_pressure;
+  record.seed = planned.specimen->seed;
+  record.size = in_space<dim>(planned.specimen->size);
+  record.specimen = planned.specimen->report;
+  record.bulk_density = planned.specimen->bulk_density;
+  record.interrupted = true;
+  record.failure = why;
+  return record;
+}
+
 /// Runs a test from where it stands to its end or to Ctrl-C.
 template <int dim>
 TestRecord run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
@@ -240,10 +256,7 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     catch (const InputError& error)
       {
         // One test that cannot be made must not cost the others.
-        test.record = LabTest<dim>(planned[k].test, *planned[k].specimen, planned[k].variant->input.tests,
-                                   planned[k].variant->input.dynamics)
-                        .finish(true);
-        test.record.failure = error.what();
+        test.record = record_of_failure(planned[k], error.what());
       }
     test.results = evaluate(test.record);
     board.finish(k);

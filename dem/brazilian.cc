@@ -129,9 +129,8 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParamet
   test.protocol.sampling_strain = wanted.brazilian_sampling_strain;
   // σ_t = 2P/(πDt), the tension across the loaded diameter of an elastic disc.
   const double load_to_stress = 2.0 / (std::numbers::pi * diameter * length);
-  test.protocol.stress = [=](const Dynamics<dim>& state) {
-    return BoundaryStress{load_to_stress * state.grip_force(lower)[axis],
-                          -load_to_stress * state.grip_force(upper)[axis], 0.0};
+  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+    return EndStress{load_to_stress * state.grip_force(lower)[axis], -load_to_stress * state.grip_force(upper)[axis]};
   };
   return test;
 }

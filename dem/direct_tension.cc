@@ -35,8 +35,8 @@ SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestPa
   test.protocol.strain_rate = wanted.tension_strain_rate;
   test.protocol.sampling_strain = wanted.tension_sampling_strain;
   const double area = specimen.volume() / height;
-  test.protocol.stress = [=](const Dynamics<dim>& state) {
-    return BoundaryStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area, 0.0};
+  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+    return EndStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area};
   };
   return test;
 }

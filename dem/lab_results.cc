@@ -294,7 +294,7 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
   results.unbalanced_force_ratio = known(unbalanced / n_rows);
 
   results.servo_error = results.servo_error_largest = unknown("the test has no servo");
-  if (record.kind == TestKind::triaxial_compression)
+  if (record.has_servo)
     {
       double sum = 0.0;
       double largest = 0.0;

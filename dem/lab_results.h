@@ -147,6 +147,7 @@ struct TestRecord
 {
   TestKind kind;
   double confining_pressure = 0.0; ///< compression positive [Pa]
+  bool has_servo = false;          ///< which holds it; else it is applied as it is
   std::uint64_t seed = 0;
   double strain_rate = 0.0;     ///< magnitude [1/s]
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane

@@ -15,15 +15,6 @@ namespace feldspar
 namespace
 {
 template <int dim>
-std::array<double, 3> in_space(const Vector<dim>& vector)
-{
-  std::array<double, 3> point{};
-  for (int c = 0; c < dim; ++c)
-    point[c] = vector[c];
-  return point;
-}
-
-template <int dim>
 SetUpTest<dim> set_up_test(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
                            const DynamicsParameters& dynamics)
 {
@@ -86,6 +77,7 @@ LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const
   record.kind = test.kind;
   record.confining_pressure = test.confining_pressure;
   record.seed = tested.seed;
+  record.has_servo = bool(set_up.protocol.servo_stress);
   record.strain_rate = std::abs(set_up.protocol.strain_rate);
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
@@ -126,7 +118,7 @@ bool LabTest<dim>::advance()
       if (protocol.drive)
         protocol.drive(dynamics);
       const auto breaks = dynamics.step();
-      lateral_stress_over_time += dynamics.time_step() * protocol.stress(dynamics).lateral;
+      lateral_stress_over_time += dynamics.time_step() * lateral_stress();
       strain = protocol.strain_rate * (dynamics.time() - time_at_start);
       for (const auto& event : breaks)
         {
@@ -146,6 +138,12 @@ bool LabTest<dim>::advance()
 }
 
 template <int dim>
+double LabTest<dim>::lateral_stress() const
+{
+  return record.has_servo ? set_up.protocol.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
+}
+
+template <int dim>
 CurveSample LabTest<dim>::sample() const
 {
   constexpr int axis = dim - 1;
@@ -155,10 +153,10 @@ CurveSample LabTest<dim>::sample() const
   row.step = dynamics.n_steps();
   row.time = dynamics.time() - time_at_start;
   row.axial_strain = set_up.protocol.strain_rate * row.time;
-  const BoundaryStress stress = set_up.protocol.stress(dynamics);
+  const EndStress stress = set_up.protocol.end_stress(dynamics);
   row.axial_stress = 0.5 * (stress.lower + stress.upper);
   row.end_stress_difference = stress.upper - stress.lower;
-  row.lateral_stress = stress.lateral;
+  row.lateral_stress = lateral_stress();
   const double area = specimen.volume() / specimen.size[axis];
   row.mid_stress = -dynamics.force_across(0.5 * specimen.size[axis]) / area; // pulled down from below: tension
   const Tensor<dim> gradient = gauge.displacement_gradient(specimen.grains);

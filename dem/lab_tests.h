@@ -12,12 +12,11 @@
 
 namespace feldspar
 {
-/// Stresses at the ends and sides of a specimen [Pa], tension positive.
-struct BoundaryStress
+/// Stresses at the ends of a specimen [Pa], tension positive.
+struct EndStress
 {
-  double lower = 0.0;
-  double upper = 0.0;
-  double lateral = 0.0;
+  double lower;
+  double upper;
 };
 
 /// What tells one laboratory test from another once its walls or grips stand; it keeps no state of its own.
@@ -28,7 +27,8 @@ struct Protocol
   double sampling_strain = 0.0;              ///< between two rows of the curve
   std::function<void(Dynamics<dim>&)> seat;  ///< brings the specimen to where the strain is zero; may be empty
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
-  std::function<BoundaryStress(const Dynamics<dim>&)> stress;
+  std::function<EndStress(const Dynamics<dim>&)> end_stress;
+  std::function<double(const Dynamics<dim>&)> servo_stress; ///< on the sides [Pa]; empty where no servo holds it
 };
 
 /// A specimen between walls or grips, ready to be loaded.
@@ -86,6 +86,7 @@ public:
 private:
   template <typename Archive>
   void transfer(Archive& archive);
+  double lateral_stress() const;
   CurveSample sample() const;
   void take_snapshot();
   void start_gauge();

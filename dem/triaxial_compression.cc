@@ -190,20 +190,17 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
 
   test.protocol.strain_rate = -wanted.compression_strain_rate;
   test.protocol.sampling_strain = wanted.compression_sampling_strain;
-  test.protocol.stress = [=](const Dynamics<dim>& state) {
+  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
     const double end_area = around.end_area(state);
-    double lateral = membrane ? -confining_pressure : 0.0;
-    if (!membrane)
-      {
-        const auto& side = around.sides.front();
-        double force = 0.0;
-        for (const std::size_t wall : side.walls)
-          force += state.wall_force(wall) / double(side.walls.size());
-        lateral = -force / side.area(state);
-      }
-    return BoundaryStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area,
-                          lateral};
+    return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
   };
+  if (!membrane)
+    test.protocol.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
+      double force = 0.0;
+      for (const std::size_t wall : side.walls)
+        force += state.wall_force(wall) / double(side.walls.size());
+      return -force / side.area(state);
+    };
   return test;
 }
 

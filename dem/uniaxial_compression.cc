@@ -15,8 +15,8 @@ SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, const 
   test.protocol.strain_rate = -wanted.compression_strain_rate;
   test.protocol.sampling_strain = wanted.compression_sampling_strain;
   const double area = specimen.volume() / specimen.size[dim - 1];
-  test.protocol.stress = [=](const Dynamics<dim>& state) {
-    return BoundaryStress{-state.wall_force(platens.lower) / area, -state.wall_force(platens.upper) / area, 0.0};
+  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+    return EndStress{-state.wall_force(platens.lower) / area, -state.wall_force(platens.upper) / area};
   };
   return test;
 }

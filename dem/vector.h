@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace feldspar
 {
 /// Number of rotations of a rigid grain: 1 in the plane, 3 in space.
@@ -19,4 +21,14 @@ using Rotation = Eigen::Matrix<double, n_rotations<dim>, 1>;
 /// A second-order tensor; [dim × dim].
 template <int dim>
 using Tensor = Eigen::Matrix<double, dim, dim>;
+
+/// Of a plane vector the last entry is 0.
+template <int dim>
+std::array<double, 3> in_space(const Vector<dim>& vector)
+{
+  std::array<double, 3> point{};
+  for (int c = 0; c < dim; ++c)
+    point[c] = vector[c];
+  return point;
+}
 } // namespace feldspar

@@ -35,12 +35,15 @@ public:
       size = std::min(1.5 * size, largest);
   }
 
-  /// False when the step cannot be cut any more.
+  /// False when the step cannot be cut any more; then it stays as it is.
   bool cut()
   {
     n_in_a_row = 0;
-    size = 0.5 * (next() - where);
-    return size >= smallest;
+    const double half = 0.5 * (next() - where);
+    if (half < smallest)
+      return false;
+    size = half;
+    return true;
   }
 
 private:

@@ -1,7 +1,8 @@
 #include "report/fit.h"
 
+#include "report/statistics.h"
+
 #include <Eigen/QR>
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -86,8 +87,7 @@ std::vector<Figure> half_widths(const Eigen::MatrixXd& jacobian, const double su
   const Eigen::MatrixXd root =
     qr.matrixR().topLeftCorner(p, p).triangularView<Eigen::Upper>().transpose().solve(permuted);
 
-  const boost::math::students_t student{double(degrees_of_freedom)};
-  const double t = boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - 0.95)));
+  const double t = student_factor_95(degrees_of_freedom);
   const double deviation = std::sqrt(sum_of_squares / double(degrees_of_freedom));
   std::vector<Figure> result;
   for (Eigen::Index i = 0; i < root.cols(); ++i)

@@ -295,11 +295,15 @@ std::string name(const HoekBrownForm form)
   return "";
 }
 
+double hoek_brown_sigma_1(const double sigma_3, const double sigma_ci, const double m, const double s, const double a)
+{
+  const double bracket = m * sigma_3 / sigma_ci + s;
+  return bracket < 0.0 ? std::numeric_limits<double>::quiet_NaN() : sigma_3 + sigma_ci * std::pow(bracket, a);
+}
+
 double HoekBrownFit::sigma_1(const double sigma_3) const
 {
-  const double bracket = m.value * sigma_3 / sigma_ci.value + s.value;
-  return bracket < 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                       : sigma_3 + sigma_ci.value * std::pow(bracket, a.value);
+  return hoek_brown_sigma_1(sigma_3, sigma_ci.value, m.value, s.value, a.value);
 }
 
 FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, const HoekBrownForm form,

@@ -17,6 +17,9 @@ enum class HoekBrownForm
 /// The name used in result files.
 std::string name(HoekBrownForm form);
 
+/// sigma_3 + sigma_ci (m sigma_3/sigma_ci + s)^a (16); NaN beyond the tensile cut-off.
+double hoek_brown_sigma_1(double sigma_3, double sigma_ci, double m, double s, double a);
+
 /// sigma_1 = sigma_3 + sigma_ci (m sigma_3/sigma_ci + s)^a (16).
 struct HoekBrownFit
 {

@@ -1,6 +1,7 @@
 #include "report/reference.h"
 
 #include "dem/input_error.h"
+#include "report/hoek_brown.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -50,11 +51,7 @@ ReferenceSource source(const Json& json, const char* key, const std::string& lab
 }
 } // namespace
 
-double PrintedEnvelope::sigma_1(const double sigma_3) const
-{
-  const double bracket = m * sigma_3 / sigma_ci + s;
-  return bracket < 0.0 ? std::numeric_limits<double>::quiet_NaN() : sigma_3 + sigma_ci * std::pow(bracket, a);
-}
+double PrintedEnvelope::sigma_1(const double sigma_3) const { return hoek_brown_sigma_1(sigma_3, sigma_ci, m, s, a); }
 
 std::optional<ReferenceValue> ReferenceSource::find(const std::string& key, const double scale) const
 {

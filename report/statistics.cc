@@ -6,6 +6,12 @@
 
 namespace feldspar
 {
+double student_factor_95(const std::size_t degrees_of_freedom)
+{
+  const boost::math::students_t student{double(degrees_of_freedom)};
+  return boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - 0.95)));
+}
+
 std::optional<Statistics> statistics(const std::vector<double>& values)
 {
   if (values.empty())
@@ -21,9 +27,7 @@ std::optional<Statistics> statistics(const std::vector<double>& values)
         squares += (value - result.mean) * (value - result.mean);
       result.standard_deviation = std::sqrt(squares / double(result.n - 1));
       result.standard_error = *result.standard_deviation / std::sqrt(double(result.n));
-      const boost::math::students_t student{double(result.n - 1)};
-      result.confidence_95 =
-        boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - 0.95))) * *result.standard_error;
+      result.confidence_95 = student_factor_95(result.n - 1) * *result.standard_error;
     }
   return result;
 }

@@ -15,6 +15,9 @@ struct Statistics
   std::optional<double> confidence_95;      ///< half-width of the interval of the mean, by Student's t
 };
 
+/// Student's t: half-width of the 95 % interval over the standard error.
+double student_factor_95(std::size_t degrees_of_freedom);
+
 /// None for no values.
 std::optional<Statistics> statistics(const std::vector<double>& values);
 } // namespace feldspar

@@ -427,6 +427,27 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   EXPECT_NE(json["tests"][3]["peak_stress_Pa_reason"].get<std::string>().find("cannot hold"), std::string::npos);
 }
 
+TEST(Lab, ATestThatCannotEvenBeSetUpDoesNotCostTheOthers)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width = 8 mm
+  set Height = 12 mm
+end
+subsection Tests
+  set List = uniaxial_compression, direct_tension
+  set Grip ratio = 0.001
+end
+)");
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("grip"), std::string::npos) << outcome.error;
+  const auto json = summary(folder.path() / "out");
+  ASSERT_EQ(json["tests"].size(), 2u);
+  EXPECT_TRUE(json["tests"][0]["peak_stress_Pa"].is_number());
+  EXPECT_NE(json["tests"][1]["peak_stress_Pa_reason"].get<std::string>().find("grip"), std::string::npos);
+}
+
 TEST(Lab, EndsEvenWhereNothingBreaks)
 {
   // Slit joints have no bonds to break, and friction has no peak: the test ends at its largest strain and says so.

@@ -108,7 +108,10 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
       EXPECT_LT(results.energy_imbalance, 0.01);
       // The platens begin at the confinement, within the tolerance of the seating and the membrane's sag.
       EXPECT_NEAR(record.curve.front().axial_stress, -20e6, 0.01 * 20e6);
-      EXPECT_LT(*results.servo_error.value, 0.01);
+      if (boundary == LateralBoundary::wall)
+        EXPECT_LT(*results.servo_error.value, 0.01);
+      else
+        EXPECT_EQ(results.servo_error.reason, "the test has no servo");
     }
 }
 

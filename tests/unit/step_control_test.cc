@@ -48,6 +48,7 @@ TEST(StepControl, GivesUpBelowTheSmallestStepWhereItStands)
   EXPECT_TRUE(steps.cut());  // 0.25
   EXPECT_TRUE(steps.cut());  // 0.125
   EXPECT_FALSE(steps.cut()); // 0.0625
+  EXPECT_DOUBLE_EQ(steps.next(), 0.625); // as it was: not even smaller
   EXPECT_DOUBLE_EQ(steps.done(), 0.5);
 }
 
