@@ -39,12 +39,11 @@ class PointGrid
 {
 public:
   PointGrid(const double time, const std::size_t n, const std::string& positions)
-    : n_points(n)
-  {
-    text = fmt::format("<Grid GridType=\"Uniform\"><Time Value=\"{0}\"/>\n"
+    : text(fmt::format("<Grid GridType=\"Uniform\"><Time Value=\"{0}\"/>\n"
                        "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{1}\" NodesPerElement=\"1\"/>\n"
                        "<Geometry GeometryType=\"XYZ\">{2}</Geometry>\n",
-                       time, n, positions);
+                       time, n, positions))
+  {
   }
 
   void attribute(const std::string& name, const bool is_vector, const std::string& data)
@@ -55,8 +54,6 @@ public:
   }
 
   std::string finish() const { return text + "</Grid>\n"; }
-
-  const std::size_t n_points;
 
 private:
   std::string text;

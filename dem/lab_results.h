@@ -196,7 +196,7 @@ struct TestResults
   double energy_imbalance = 0.0;
   double energy_imbalance_over_work = 0.0;
   Figure kinetic_to_strain_energy; ///< largest from 5 % of the peak to the peak
-  Figure end_stress_difference;    ///< largest share of the peak stress, from 5 % of the peak to the peak
+  Figure end_stress_difference;    ///< largest share of the peak deviator, from 5 % of the peak to the peak
   Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
   Figure p_wave_transits_to_peak;
   Figure servo_error;                  ///< mean |lateral stress / pressure - 1| from seating to the peak

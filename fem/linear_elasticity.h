@@ -21,14 +21,6 @@ StiffnessMatrix<dim> isotropic_stiffness(const double youngs_modulus, const doub
   return stiffness;
 }
 
-/// Isotropic stiffness of a thin plate, free of stress across it.
-inline StiffnessMatrix<2> plane_stress_stiffness(const double youngs_modulus, const double poissons_ratio)
-{
-  // Plane strain with E (1 + 2ν)/(1 + ν)² and ν/(1 + ν) is plane stress with E and ν.
-  const double nu = poissons_ratio;
-  return isotropic_stiffness<2>(youngs_modulus * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu));
-}
-
 /// σ = C ε.
 template <int dim>
 class LinearElasticPoint : public MaterialPoint<dim>

@@ -17,7 +17,7 @@ namespace feldspar
 std::vector<Picture> envelope_pictures(const std::vector<Series>& all, std::size_t which,
                                        const StrengthEnvelopes& envelopes, const std::optional<Reference>& reference);
 
-/// All series in one, each with its general envelope. Nothing where there is only one.
+/// All series in one, each with the envelope of intact rock. Nothing where there is only one.
 std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
                                                const std::vector<StrengthEnvelopes>& envelopes,
                                                const std::optional<Reference>& reference);

@@ -163,11 +163,16 @@ TEST(Documentation, ParametersAreThoseOfTheCommand)
 TEST(Example, TheInputsAreValid)
 {
   const TemporaryFolder folder;
-  for (const char* name : {"beishan", "ensemble", "radius-as-diameter", "rate-study"})
-    {
-      const auto outcome = run_feldspar(folder.path(), "parameters --check '" + example + name + ".prm'");
-      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-    }
+  std::size_t n_inputs = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::string(FELDSPAR_SOURCE_DIR) + "/examples"))
+    if (entry.path().extension() == ".prm")
+      {
+        const auto outcome = run_feldspar(folder.path(), "parameters --check '" + entry.path().string() + "'");
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+        ++n_inputs;
+      }
+  EXPECT_GT(n_inputs, 8u);
 }
 
 TEST(Example, TheCylindersReadmeShowsTheCommittedResults)

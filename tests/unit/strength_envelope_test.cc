@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(EveryForm, SyntheticPoints,
                                          SyntheticCase{HoekBrownForm::general, true, {160 * MPa, 20.0, 1.0, 0.42}},
                                          SyntheticCase{HoekBrownForm::general, false, {160 * MPa, 20.0, 1.0, 0.42}}));
 
-/// The independent program with the same law (physics.md §5 and the acceptance figures of the programme).
+/// What an independent program with the same law gives for this rock.
 StrengthData independent_program(const double tensile_strength)
 {
   StrengthData data;
