@@ -159,7 +159,7 @@ TEST(Granite, BalancesHoldInCompressionWithFreeSides)
 
 TEST(GraniteInSpace, CoordinationAndStiffnessAreThoseOfIndependentPrograms)
 {
-  // Of one cell of 400; the mean of three of 800, gap by gap, is a study: examples/rve-beishan/networks-3d.prm.
+  // Of one cell of 400; the mean of three of 800, gap by gap, is a study: benchmarks/networks_in_space.cc.
   const Specimen<3> specimen = granite_in_space(1, 0.0116);
   const Network<3> network(specimen);
   EXPECT_GT(network.n_grains(), 390u);
