@@ -186,6 +186,15 @@ void check_specimen(const Input& input, const GivenValues& values)
   if (specimen.height < least)
     throw values.error("Specimen", "Height", demand);
 }
+
+void check_strain_path(const Input& input, const GivenValues& values)
+{
+  const std::size_t n = input.strain_path.direction.size();
+  if (n != 0 && n != (input.specimen.dimension == 2 ? 3u : 6u))
+    throw values.error("Strain path", "Direction",
+                       fmt::format("has {} components; in {} dimensions there must be {}", n, input.specimen.dimension,
+                                   input.specimen.dimension == 2 ? "3: xx, yy, xy" : "6: xx, yy, zz, yz, xz, xy"));
+}
 } // namespace
 
 std::vector<Variant> variants(const Input& input)
@@ -235,6 +244,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
     {
       check_fractions(variant.input, values);
       check_specimen(variant.input, values);
+      check_strain_path(variant.input, values);
     }
   return input;
 }

@@ -336,8 +336,10 @@ std::vector<std::optional<double>> read_direction(const std::string_view text)
     return direction;
   for (const std::string_view piece : split_at_commas(text))
     direction.push_back(piece == free_component ? std::nullopt : std::optional(parse_number(piece)));
-  if (direction.size() != 3)
-    throw InputError(fmt::format("{} component(s); there must be 3: xx, yy, xy", direction.size()));
+  if (direction.size() != 3 && direction.size() != 6)
+    throw InputError(fmt::format("{} component(s); there must be 3: xx, yy, xy; in three dimensions 6: xx, yy, zz, yz, "
+                                 "xz, xy",
+                                 direction.size()));
   if (std::none_of(direction.begin(), direction.end(), [](const auto& entry) { return entry.value_or(0.0) != 0.0; }))
     throw InputError("at least one component must be a number other than 0");
   return direction;
@@ -515,9 +517,10 @@ std::vector<Parameter> make_parameter_table()
 
     strain_path.file(
       "File", &R::path_file,
-      "points of the path of `feldspar rve`, a CSV with a column for each of xx,yy,xy: strain_xx (tensor "
-      "shear) or stress_xx_Pa, tension positive; straight ways between; instead of Direction"),
-    {"Strain path", "Direction", "", "none, or a number or free for each of xx, yy, xy",
+      "points of the path of `feldspar rve`, a CSV with a column for each of xx,yy,xy (in three dimensions "
+      "xx,yy,zz,yz,xz,xy): strain_xx (tensor shear) or stress_xx_Pa, tension positive; straight ways between; instead "
+      "of Direction"),
+    {"Strain path", "Direction", "", "none, or a number or free for each of xx, yy, xy (or xx, yy, zz, yz, xz, xy)",
      "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement",
      [](Input& input, const std::string_view text) { input.strain_path.direction = read_direction(text); },
      [](const Input& input) { return write_direction(input.strain_path.direction); }},

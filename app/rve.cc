@@ -184,8 +184,6 @@ void check(const Input& input, const std::filesystem::path& file)
     {
       for (const Variant& variant : variants(input))
         {
-          if (variant.input.specimen.dimension != 2)
-            throw InputError("Specimen/Dimension = 3: a representative volume works in the plane yet");
           if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
             throw InputError(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
                                          variant.input.specimen.shape));
@@ -197,7 +195,17 @@ void check(const Input& input, const std::filesystem::path& file)
       throw InputError(fmt::format("{}: {}", file.string(), error.what()));
     }
   for (const Variant& variant : variants(input))
-    path_legs<2>(variant.input.strain_path);
+    if (variant.input.specimen.dimension == 2)
+      path_legs<2>(variant.input.strain_path);
+    else
+      path_legs<3>(variant.input.strain_path);
+}
+
+int run_in_dimension(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
+                     const bool quiet)
+{
+  return input.specimen.dimension == 2 ? run_in<2>(folder, input, input_file, quiet)
+                                       : run_in<3>(folder, input, input_file, quiet);
 }
 } // namespace
 
@@ -213,7 +221,7 @@ int run_rve(const CommonOptions& options)
           fmt::print("{}: this run is complete\n", options.resume->string());
           return 0;
         }
-      return run_in<2>(*options.resume, run.input, run.input_file, options.quiet);
+      return run_in_dimension(*options.resume, run.input, run.input_file, options.quiet);
     }
   const Input input = read_input(options.input);
   check(input, options.input);
@@ -222,7 +230,7 @@ int run_rve(const CommonOptions& options)
   write_run_record("rve", options.input, folder.path());
   try
     {
-      return run_in<2>(folder.path(), input, options.input, options.quiet);
+      return run_in_dimension(folder.path(), input, options.input, options.quiet);
     }
   catch (const InputError&)
     {

@@ -262,4 +262,6 @@ std::string describe(const FinishedVolume<dim>& volume)
 
 template void write_results<2>(const Provenance&, const std::vector<FinishedVolume<2>>&, const std::filesystem::path&);
 template std::string describe<2>(const FinishedVolume<2>&);
+template void write_results<3>(const Provenance&, const std::vector<FinishedVolume<3>>&, const std::filesystem::path&);
+template std::string describe<3>(const FinishedVolume<3>&);
 } // namespace feldspar

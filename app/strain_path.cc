@@ -126,4 +126,5 @@ std::vector<PathLeg<dim>> path_legs(const StrainPathParameters& path)
 }
 
 template std::vector<PathLeg<2>> path_legs<2>(const StrainPathParameters&);
+template std::vector<PathLeg<3>> path_legs<3>(const StrainPathParameters&);
 } // namespace feldspar

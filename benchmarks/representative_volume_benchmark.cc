@@ -5,32 +5,46 @@
 
 #include <memory>
 
-/// A representative volume of Table 1, some 400 discs, on one core: what an update costs before and after its first
-/// crack, and what a copy remembers.
+/// A representative volume of Table 1, some 400 discs or 600 spheres, on one core: what an update costs before and after its
+/// first crack, and what a copy remembers.
 namespace feldspar
 {
 namespace
 {
-std::shared_ptr<const Network<2>> network()
+template <int dim>
+Specimen<dim> specimen()
 {
-  static const auto shared = [] {
-    SpecimenParameters wanted;
-    wanted.shape = "periodic";
-    wanted.width = wanted.height = 0.0325;
-    FlatJointParameters joint;
+  SpecimenParameters wanted;
+  wanted.shape = "periodic";
+  wanted.width = wanted.height = dim == 2 ? 0.0325 : 0.0133;
+  FlatJointParameters joint;
+  if constexpr (dim == 2)
     joint.coordination_number = 4.2;
-    return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, 1, [](std::string_view, double) {}));
-  }();
+  else
+    {
+      wanted.dimension = 3;
+      wanted.porosity = 0.36;
+      joint.installation_gap_ratio = 0.05;
+    }
+  return make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {});
+}
+
+template <int dim>
+std::shared_ptr<const Network<dim>> network()
+{
+  static const auto shared = std::make_shared<const Network<dim>>(specimen<dim>());
   return shared;
 }
 
-std::size_t bytes(const NetworkState<2>& state)
+template <int dim>
+std::size_t bytes(const NetworkState<dim>& state)
 {
-  return sizeof(RepresentativeVolume<2>) + state.motions.capacity() * sizeof(double) +
-         state.unbonded.capacity() * sizeof(UnbondedSegment<2>);
+  return sizeof(RepresentativeVolume<dim>) + state.motions.capacity() * sizeof(double) +
+         state.unbonded.capacity() * sizeof(UnbondedSegment<dim>);
 }
 
-void note_size(benchmark::State& state, const RepresentativeVolume<2>& volume)
+template <int dim>
+void note_size(benchmark::State& state, const RepresentativeVolume<dim>& volume)
 {
   state.counters["grains"] = double(volume.network().n_grains());
   state.counters["bytes"] = double(bytes(volume.state()));
@@ -38,39 +52,45 @@ void note_size(benchmark::State& state, const RepresentativeVolume<2>& volume)
 }
 
 /// Stress and the check for the first break, at `range` per cent of the strain at it.
+template <int dim>
 void intact_update(benchmark::State& state)
 {
-  RepresentativeVolume<2> volume(network());
-  const Voigt<2> direction(0.0, 1.0, 0.0);
-  const Voigt<2> strain = 0.01 * double(state.range(0)) * volume.network().first_break(direction).factor * direction;
+  RepresentativeVolume<dim> volume(network<dim>());
+  const Voigt<dim> direction = Voigt<dim>::Unit(dim - 1);
+  const Voigt<dim> strain = 0.01 * double(state.range(0)) * volume.network().first_break(direction).factor * direction;
   for (auto _ : state)
     benchmark::DoNotOptimize(volume.trial(strain));
   note_size(state, volume);
 }
-BENCHMARK(intact_update)->Arg(10)->Arg(50)->Arg(99)->Unit(benchmark::kMicrosecond);
+BENCHMARK(intact_update<2>)->Arg(10)->Arg(50)->Arg(99)->Unit(benchmark::kMicrosecond);
+BENCHMARK(intact_update<3>)->Arg(10)->Arg(50)->Arg(99)->Unit(benchmark::kMicrosecond);
 
 /// With the sides free, pulled to `range` per cent of the strain at its first break in steps of 2e-6; then the next.
-RepresentativeVolume<2> pulled(const std::int64_t percent, Control<2>& next)
+template <int dim>
+RepresentativeVolume<dim> pulled(const std::int64_t percent, Control<dim>& next)
 {
-  RepresentativeVolume<2> volume(network());
-  Control<2> control;
-  control.stress_given = {true, false, true};
+  constexpr int axis = dim - 1;
+  RepresentativeVolume<dim> volume(network<dim>());
+  Control<dim> control;
+  control.stress_given.fill(true);
+  control.stress_given[axis] = false;
   constexpr double step = 2e-6;
-  const double end = 0.01 * double(percent) * volume.network().first_break(Voigt<2>(0.0, 1.0, 0.0)).factor;
-  while (control.strain[1] + step < end)
+  const double end = 0.01 * double(percent) * volume.network().first_break(Voigt<dim>::Unit(axis)).factor;
+  while (control.strain[axis] + step < end)
     {
-      control.strain[1] += step;
+      control.strain[axis] += step;
       volume.accept(volume.trial(control));
     }
   next = control;
-  next.strain[1] += step;
+  next.strain[axis] += step;
   return volume;
 }
 
+template <int dim>
 void damaged_increment(benchmark::State& state)
 {
-  Control<2> next;
-  const RepresentativeVolume<2> volume = pulled(state.range(0), next);
+  Control<dim> next;
+  const RepresentativeVolume<dim> volume = pulled<dim>(state.range(0), next);
   std::size_t n_breaks = 0;
   for (auto _ : state)
     {
@@ -80,31 +100,31 @@ void damaged_increment(benchmark::State& state)
   note_size(state, volume);
   state.counters["breaks"] = double(n_breaks);
 }
-BENCHMARK(damaged_increment)->Arg(120)->Arg(150)->Arg(200)->Arg(250)->Unit(benchmark::kMillisecond);
+BENCHMARK(damaged_increment<2>)->Arg(120)->Arg(150)->Arg(200)->Arg(250)->Unit(benchmark::kMillisecond);
+BENCHMARK(damaged_increment<3>)->Arg(110)->Arg(120)->Arg(150)->Unit(benchmark::kMillisecond);
 
+template <int dim>
 void damaged_tangent(benchmark::State& state)
 {
-  Control<2> next;
-  const RepresentativeVolume<2> volume = pulled(state.range(0), next);
+  Control<dim> next;
+  const RepresentativeVolume<dim> volume = pulled<dim>(state.range(0), next);
   for (auto _ : state)
-    benchmark::DoNotOptimize(Equilibrium<2>(volume.network(), volume.state(), {}).tangent());
+    benchmark::DoNotOptimize(Equilibrium<dim>(volume.network(), volume.state(), {}).tangent());
   note_size(state, volume);
 }
-BENCHMARK(damaged_tangent)->Arg(150)->Arg(250)->Unit(benchmark::kMillisecond);
+BENCHMARK(damaged_tangent<2>)->Arg(150)->Arg(250)->Unit(benchmark::kMillisecond);
+BENCHMARK(damaged_tangent<3>)->Arg(150)->Unit(benchmark::kMillisecond);
 
 /// Factor, unit responses and bounds: once per specimen.
+template <int dim>
 void reference(benchmark::State& state)
 {
-  SpecimenParameters wanted;
-  wanted.shape = "periodic";
-  wanted.width = wanted.height = 0.0325;
-  FlatJointParameters joint;
-  joint.coordination_number = 4.2;
-  const auto specimen = make_specimen<2>(wanted, joint, {}, 1, [](std::string_view, double) {});
+  const auto of = specimen<dim>();
   for (auto _ : state)
-    benchmark::DoNotOptimize(Network<2>(specimen));
+    benchmark::DoNotOptimize(Network<dim>(of));
 }
-BENCHMARK(reference)->Unit(benchmark::kMillisecond);
+BENCHMARK(reference<2>)->Unit(benchmark::kMillisecond);
+BENCHMARK(reference<3>)->Unit(benchmark::kMillisecond);
 } // namespace
 } // namespace feldspar
 

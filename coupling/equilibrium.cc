@@ -309,7 +309,8 @@ bool Equilibrium<dim>::relax_by_newton(const Control<dim>& control, const double
         return error <= tolerance;
       ++iterations;
       const auto is_symmetric = [](const LinkAnswer<dim>& answer) {
-        return answer.derivative == answer.derivative.transpose();
+        constexpr double round_off = 1e-12;
+        return answer.derivative.isApprox(answer.derivative.transpose(), round_off);
       };
       const bool symmetric = std::all_of(present.active.begin(), present.active.end(), is_symmetric) &&
                              std::all_of(present.touches.begin(), present.touches.end(),
@@ -671,4 +672,5 @@ Stiffness<dim> Equilibrium<dim>::tangent()
 }
 
 template class Equilibrium<2>;
+template class Equilibrium<3>;
 } // namespace feldspar

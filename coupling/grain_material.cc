@@ -2,6 +2,8 @@
 
 #include "dem/random.h"
 
+#include <Eigen/Geometry>
+
 #include <numbers>
 #include <utility>
 
@@ -156,13 +158,20 @@ std::uint64_t point_seed(const std::uint64_t seed, const fem::PointPlace& place)
   return hash;
 }
 
+/// Any turn as likely as any other.
 template <int dim>
-Tensor<dim> random_turn(Random& random) requires(dim == 2)
+Tensor<dim> random_turn(Random& random)
 {
-  const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
-  Tensor<2> turn;
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return turn;
+  if constexpr (dim == 2)
+    return Eigen::Rotation2Dd(random.uniform(0.0, 2.0 * std::numbers::pi)).toRotationMatrix();
+  else
+    {
+      // A direction in four dimensions, taken as a quaternion (Shoemake 1992).
+      Eigen::Quaterniond turn;
+      for (double& component : turn.coeffs())
+        component = random.normal(0.0, 1.0);
+      return turn.normalized().toRotationMatrix();
+    }
 }
 } // namespace
 
@@ -185,5 +194,8 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
 
 template class GrainPoint<2>;
 template fem::Material<2> grain_material<2>(std::vector<std::shared_ptr<const Network<2>>>,
+                                            const GrainMaterialParameters&);
+template class GrainPoint<3>;
+template fem::Material<3> grain_material<3>(std::vector<std::shared_ptr<const Network<3>>>,
                                             const GrainMaterialParameters&);
 } // namespace feldspar

@@ -166,4 +166,13 @@ template Tensor<2> fabric<2>(const Network<2>&);
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
 template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
 template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
+template std::vector<Motion<3>> link_forces<3>(const Network<3>&, const NetworkState<3>&);
+template Tensor<3> branch_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
+template Tensor<3> boundary_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
+template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const std::vector<Motion<3>>&,
+                                        const NetworkState<3>&, const std::vector<Motion<3>>&);
+template Tensor<3> fabric<3>(const Network<3>&);
+template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);
+template std::size_t n_fragments<3>(const Network<3>&, const NetworkState<3>&);
+template IsotropicConstants isotropic_constants<3>(const Stiffness<3>&);
 } // namespace feldspar

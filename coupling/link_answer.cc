@@ -31,6 +31,23 @@ Pressing pressing_part(const flat_joint::Segment<2, double>& face, const double 
   return {length / face.length, (slope < 0.0 ? -0.5 : 0.5) * (face.length - length)};
 }
 
+/// An element of a disk presses with all of its area or none.
+Pressing pressing_part(const flat_joint::Segment<3, double>&, const double gap, double)
+{
+  return {gap < 0.0 ? 1.0 : 0.0, 0.0};
+}
+
+template <int dim>
+flat_joint::Segment<dim, double> segment_of(const Link<dim>& link, const FaceElement<dim>& element,
+                                            const double thickness)
+{
+  const double r = link.half_length;
+  if constexpr (dim == 2)
+    return {link.normal_stiffness, link.shear_stiffness, element.area * r, thickness, link.friction};
+  else
+    return {link.normal_stiffness, link.shear_stiffness, element.area * r * r, link.friction};
+}
+
 /// How far a segment counts as closed to shear: wholly at a gap of -width, not at all at +width. The law of dem/ has a
 /// jump there, and no equilibrium may be found where one lies on it.
 class Closure
@@ -73,13 +90,12 @@ private:
 template <int dim>
 LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
 {
-  static_assert(dim == 2);
   const Link<dim>& link = network.links()[active.link];
   const double k_n = link.normal_stiffness;
   const double k_s = link.shear_stiffness;
   // A pair without a face touches at a point: no slope, no moment.
-  const FaceElement<dim> point{{}, 2.0, 0.0};
-  const double slope = link.has_face ? motion[2] : 0.0;
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
+  const double slope = dim == 2 && link.has_face ? motion[2] : 0.0; // elements of a disk are lumped
 
   LinkAnswer<dim> result;
   result.segments.resize(link.n_segments);
@@ -87,7 +103,7 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
     {
       const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
       const double r = link.half_length;
-      const flat_joint::Segment<2, double> face{k_n, k_s, element.area * r, network.thickness(), link.friction};
+      const auto face = segment_of(link, element, network.thickness());
       const double area = face.area();
       const auto rows = element_rows(element, r);
       const Vector<dim> now = rows * motion;
@@ -129,8 +145,9 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       for (int c = 0; c < dim - 1; ++c)
         force[c + 1] = -segment.shear_stress[c] * area;
       result.forces += rows.transpose() * force;
-      if (link.has_face)
-        result.forces[2] -= update.normal.moment;
+      if constexpr (dim == 2)
+        if (link.has_face)
+          result.forces[2] -= update.normal.moment;
       result.stored_energy += flat_joint::normal_energy(face, step.gap, step.slope, false) +
                               0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
       bool sticks = true;
@@ -148,28 +165,39 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       FaceElement<dim> pressing = element;
       pressing.offset[0] += part.offset / r;
       const auto part_rows = element_rows(pressing, r);
-      const double part_length = part.share * face.length;
-      const double second_moment =
-        link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
       const Eigen::Matrix<double, 1, n_motions<dim>> stress_rate = k_n * part.share * part_rows.row(0);
       JointStiffness<dim> normal = area * part_rows.row(0).transpose() * stress_rate;
-      normal(2, 2) += k_n * second_moment;
+      if constexpr (dim == 2)
+        {
+          const double part_length = part.share * face.length;
+          const double second_moment =
+            link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
+          normal(2, 2) += k_n * second_moment;
+        }
       result.tangent += normal;
       result.derivative += normal;
+      const auto shear_rows = rows.bottomRows(dim - 1);
       if (sticks)
-        result.tangent +=
-          k_s * closure.at(step.gap) * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
+        result.tangent += k_s * closure.at(step.gap) * area * shear_rows.transpose() * shear_rows;
 
-      Eigen::Matrix<double, 1, n_motions<dim>> shear_rate; // of -τ
-      if (sticks)
-        shear_rate = k_s * (share * rows.row(1) +
-                            (now[1] - before[1]) * closure.mean_rate(step.gap_before, step.gap) * rows.row(0));
-      else
-        shear_rate = std::copysign(link.friction, segment.shear_stress[0]) * stress_rate; // |τ| = -μσ̂
-      result.derivative += area * rows.row(1).transpose() * shear_rate;
+      // Of -τ: as if nothing slid; then |τ| = -μσ̂ along the trial stress, which the slip across it turns.
+      using ShearRate = Eigen::Matrix<double, dim - 1, n_motions<dim>>;
+      using Shear = Eigen::Matrix<double, dim - 1, 1>;
+      ShearRate shear_rate = k_s * (share * shear_rows + (now - before).template tail<dim - 1>() *
+                                                           closure.mean_rate(step.gap_before, step.gap) * rows.row(0));
+      if (!sticks)
+        {
+          const double size = flat_joint::magnitude(trial);
+          const Shear along = Eigen::Map<const Shear>(trial.data()) / size;
+          const ShearRate across = shear_rate - along * (along.transpose() * shear_rate);
+          shear_rate =
+            link.friction * along * stress_rate + flat_joint::magnitude(segment.shear_stress) / size * across;
+        }
+      result.derivative += area * shear_rows.transpose() * shear_rate;
     }
   return result;
 }
 
 template LinkAnswer<2> answer<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);
+template LinkAnswer<3> answer<3>(const Network<3>&, const ActiveLink<3>&, const Motion<3>&);
 } // namespace feldspar

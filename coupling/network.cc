@@ -1,8 +1,11 @@
 #include "coupling/network.h"
 
 #include "coupling/conjugate_gradients.h"
+#include "dem/contact_motion.h"
 #include "dem/input_error.h"
 #include "dem/neighbours.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +20,36 @@ namespace
 constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
 constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
 
-/// Axes n, t (n, t_1, t_2) of a contact as rows.
-template <int dim>
-Tensor<dim> contact_axes(const Vector<dim>& normal) requires(dim == 2)
+/// Axes n, t (n, t_1, t_2) of a contact as rows; in space t_1 is any vector across n, the same for the same n.
+Tensor<2> contact_axes(const Vector<2>& normal)
 {
   Tensor<2> axes;
   axes << normal[0], normal[1], -normal[1], normal[0];
   return axes;
+}
+
+Tensor<3> contact_axes(const Vector<3>& normal, const Vector<3>& tangent)
+{
+  Tensor<3> axes;
+  axes << normal.transpose(), tangent.transpose(), normal.cross(tangent).transpose();
+  return axes;
+}
+
+Tensor<3> contact_axes(const Vector<3>& normal)
+{
+  const auto tangent = space::tangent_to({normal[0], normal[1], normal[2]});
+  return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
+}
+
+/// In space the elements of a face lie by its own tangent.
+template <int dim>
+Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
+{
+  const Vector<dim> normal = at<dim>(joints.normal, joint);
+  if constexpr (dim == 2)
+    return contact_axes(normal);
+  else
+    return contact_axes(normal, at<dim>(joints.tangent, joint));
 }
 } // namespace
 
@@ -60,7 +86,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       boxes.push_back(second.boxes);
       mean_branch_length += distance / double(number_of_joints);
       all_links.push_back({joints.grain_1[j], joints.grain_2[j], std::uint32_t(j * face.size()),
-                           std::uint32_t(face.size()), true, contact_axes<dim>(normal), distance * normal,
+                           std::uint32_t(face.size()), true, joint_axes(joints, j), distance * normal,
                            0.5 * distance + joints.half_radius_difference[j],
                            0.5 * distance - joints.half_radius_difference[j], joints.normal_stiffness[j],
                            joints.shear_stiffness[j], joints.half_length[j], joints.opening[j], joints.friction});
@@ -98,8 +124,8 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       const double k_n = stiffness_per_area(specimen.particle_contact.modulus, radius_1, radius_2);
       const double half_difference = 0.5 * (radius_1 - radius_2);
       boxes.push_back(second.boxes);
-      all_links.push_back({one, second.owner, next_segment++, 1, false, contact_axes<dim>(branch.normalized()), branch,
-                           0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
+      all_links.push_back({one, second.owner, next_segment++, 1, false, contact_axes(Vector<dim>(branch.normalized())),
+                           branch, 0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
                            k_n / specimen.particle_contact.stiffness_ratio, std::min(radius_1, radius_2),
                            std::max(0.0, branch.norm() - radius_1 - radius_2), specimen.particle_contact.friction});
     }
@@ -309,4 +335,5 @@ FirstBreak Network<dim>::first_break(const Voigt<dim>& direction) const
 }
 
 template class Network<2>;
+template class Network<3>;
 } // namespace feldspar

@@ -246,4 +246,6 @@ void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std:
 
 template struct PathSample<2>;
 template class PathRun<2>;
+template struct PathSample<3>;
+template class PathRun<3>;
 } // namespace feldspar

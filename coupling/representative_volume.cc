@@ -88,4 +88,5 @@ double RepresentativeVolume<dim>::stored_energy() const
 }
 
 template class RepresentativeVolume<2>;
+template class RepresentativeVolume<3>;
 } // namespace feldspar

@@ -189,5 +189,50 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
 }
+
+TEST(Example, TheInputsOfVolumesAreValid)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"tension", "uniaxial", "triaxial-20", "triaxial-60"})
+    for (const char* space : {"", "-3d"})
+      {
+        const auto outcome =
+          run_feldspar(folder.path(), fmt::format("parameters --check '{}/examples/rve-beishan/{}{}.prm'",
+                                                  FELDSPAR_SOURCE_DIR, name, space));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+      }
+}
+
+TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
+{
+  // Mean of three packings of more than 800 spheres, gap by gap; benchmarks/networks_in_space.cc.
+  const auto rows =
+    nlohmann::json::parse(content(std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/results/networks-in-space.json"));
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/rve-beishan/README.md");
+  struct Expected
+  {
+    double gap, coordination, modulus;
+  };
+  for (const auto& [gap, coordination, modulus] :
+       {Expected{0.0, 5.9, 0.65}, {0.05, 7.15, 0.82}, {0.1, 7.75, 0.92}, {0.3, 9.4, 1.20}})
+    {
+      double mean_coordination = 0.0;
+      double mean_modulus = 0.0;
+      int n = 0;
+      for (const auto& row : rows)
+        if (row["installation_gap_ratio"] == gap)
+          {
+            EXPECT_GT(row["n_grains"], 800);
+            mean_coordination += row["coordination_number"].get<double>() / 3.0;
+            mean_modulus += row["youngs_modulus_over_joint_modulus"].get<double>() / 3.0;
+            ++n;
+          }
+      EXPECT_EQ(n, 3);
+      EXPECT_NEAR(mean_coordination, coordination, 0.05 * coordination);
+      EXPECT_NEAR(mean_modulus, modulus, 0.05 * modulus);
+      const std::string shown = fmt::format("| {} | {:.2f} | {:.3f} |", gap, mean_coordination, mean_modulus);
+      EXPECT_NE(readme.find(shown), std::string::npos) << "missing: " << shown;
+    }
+}
 } // namespace
 } // namespace feldspar::tests

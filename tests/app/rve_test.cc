@@ -31,6 +31,15 @@ const std::string small_cell = R"(subsection Specimen
 end
 )";
 
+/// Some fifty spheres.
+const std::string small_cell_in_space = R"(subsection Specimen
+  set Dimension = 3
+  set Shape = periodic
+  set Width = 6 mm
+  set Height = 6 mm
+end
+)";
+
 const std::string along_file = "subsection Strain path\n  set File = path.csv\nend\n";
 
 std::string content(const fs::path& file)
@@ -116,6 +125,47 @@ TEST(Rve, GoesAlongMixedPaths)
             int(table["n_tension_cracks"].back() + table["n_shear_cracks"].back()));
 }
 
+TEST(Rve, TakesSpheres)
+{
+  const TemporaryFolder folder;
+  const std::array<const char*, 6> names{"xx", "yy", "zz", "yz", "xz", "xy"};
+  folder.write("cell.prm", small_cell_in_space + along_file);
+  folder.write("path.csv", "strain_xx,strain_yy,strain_zz,strain_yz,strain_xz,strain_xy\n"
+                           "1e-5,0,2e-5,-1e-5,0,5e-6\n0,1e-5,-1e-5,0,1e-5,0\n");
+  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto json = summary(folder.path() / "out");
+  auto table = read_table(folder.path() / "out/curves/rve.csv");
+  ASSERT_GT(table["strain_zz"].size(), 3u);
+  for (std::size_t row = 0; row < table["strain_zz"].size(); ++row)
+    for (std::size_t i = 0; i < 6; ++i)
+      {
+        double expected = 0.0;
+        for (std::size_t j = 0; j < 6; ++j)
+          expected += json["stiffness_Pa"][i][j].get<double>() * (j < 3 ? 1.0 : 2.0) * // engineering shear
+                      table[std::string("strain_") + names[j]][row];
+        EXPECT_NEAR(table[std::string("stress_") + names[i] + "_Pa"][row], expected, 1e-3); // of some 1e6 Pa
+      }
+  EXPECT_EQ(json["volumes"][0]["fabric"].size(), 3u);
+
+  // Pulled with its sides free until it cracks, which happens across the pull.
+  folder.write("pull.prm", small_cell_in_space +
+                             "subsection Strain path\n  set Direction = free, free, 1, free, free, free\n"
+                             "  set Size = 3e-4\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "rve pull.prm --output pull").exit_code, 0);
+  table = read_table(folder.path() / "pull/curves/rve.csv");
+  const double peak = *std::max_element(table["stress_zz_Pa"].begin(), table["stress_zz_Pa"].end());
+  EXPECT_GT(peak, 5e6);
+  for (const char* side : {"xx", "yy", "yz", "xz", "xy"})
+    for (const double stress : table[std::string("stress_") + side + "_Pa"])
+      EXPECT_LE(std::abs(stress), 1e-5 * peak); // the final tolerance, over what the grains carry
+  auto cracks = read_table(folder.path() / "pull/cracks.csv");
+  ASSERT_EQ(double(cracks["normal_z"].size()), table["n_tension_cracks"].back() + table["n_shear_cracks"].back());
+  ASSERT_GT(cracks["normal_z"].size(), 5u);
+  const auto orientation = summary(folder.path() / "pull")["volumes"][0]["at_end"]["crack_orientation_per_m"];
+  EXPECT_GT(orientation[2][2].get<double>(), orientation[0][0].get<double>() + orientation[1][1].get<double>());
+}
+
 TEST(Rve, IsConfinedBeforeItIsStrained)
 {
   const TemporaryFolder folder;
@@ -160,6 +210,9 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve", small_cell, "", "bad.prm: Strain path/File: is missing");
   expect("rve", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set File = path.csv\nend\n",
          "", "bad.prm: Strain path/Direction: excludes File");
+  expect("rve", small_cell_in_space + free_sides, "",
+         "bad.prm:8: Strain path/Direction = free, 1, free: has 3 components; in 3 dimensions there must be 6: xx, yy");
+  expect("rve", small_cell_in_space + along_file, "strain_xx,strain_yy,strain_xy\n0,1e-4,0\n", bad_header);
   expect("rve", free_sides, "", "bad.prm: Specimen/Shape = box: a representative volume needs Shape = periodic");
   expect("rve", "subsection Specimen\n  set Shape = periodic\n  set Width = 4 mm\nend\n" + free_sides, "",
          "bad.prm:3: Specimen/Width = 4 mm: must be at least 4.1168 mm");

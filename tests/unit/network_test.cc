@@ -4,6 +4,7 @@
 #include "tests/unit/small_specimen.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -13,127 +14,155 @@ namespace feldspar
 {
 namespace
 {
-/// C of a body turned by R, component by component.
-Stiffness<2> turned(const Stiffness<2>& stiffness, const Tensor<2>& R)
+template <typename Case>
+class Networks : public testing::Test
 {
-  Stiffness<2> result;
-  for (int k = 0; k < 3; ++k)
+};
+TYPED_TEST_SUITE(Networks, Dimensions);
+
+/// C of a body turned by R, component by component.
+template <int dim>
+Stiffness<dim> turned(const Stiffness<dim>& stiffness, const Tensor<dim>& R)
+{
+  Stiffness<dim> result;
+  for (int k = 0; k < n_voigt<dim>; ++k)
     {
-      const Tensor<2> unit = strain_tensor<2>(Voigt<2>::Unit(k));
-      const Tensor<2> stress = stress_tensor<2>(stiffness * strain_voigt<2>(Tensor<2>(R.transpose() * unit * R)));
-      result.col(k) = stress_voigt<2>(Tensor<2>(R * stress * R.transpose()));
+      const Tensor<dim> unit = strain_tensor<dim>(Voigt<dim>::Unit(k));
+      const Tensor<dim> stress =
+        stress_tensor<dim>(stiffness * strain_voigt<dim>(Tensor<dim>(R.transpose() * unit * R)));
+      result.col(k) = stress_voigt<dim>(Tensor<dim>(R * stress * R.transpose()));
     }
   return result;
 }
 
-TEST(Network, RestIsFreeOfStress)
+TYPED_TEST(Networks, RestIsFreeOfStress)
 {
-  const Network<2> network(periodic_specimen());
-  const NetworkState<2> rest;
-  const Equilibrium<2> equilibrium(network, rest, {});
-  EXPECT_EQ(equilibrium.stress(), (Voigt<2>::Zero()));
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const NetworkState<dim> rest;
+  const Equilibrium<dim> equilibrium(network, rest, {});
+  EXPECT_EQ(equilibrium.stress(), (Voigt<dim>::Zero()));
   EXPECT_EQ(equilibrium.stored_energy(), 0.0);
   for (const auto& forces : link_forces(network, rest))
-    EXPECT_EQ(forces, (Motion<2>::Zero()));
+    EXPECT_EQ(forces, (Motion<dim>::Zero()));
 }
 
 TEST(Network, NeedsAPeriodicSpecimen) { EXPECT_THROW(Network<2>{small_specimen()}, InputError); }
 
-TEST(Network, StiffnessIsThatOfADirectSolution)
+TYPED_TEST(Networks, StiffnessIsThatOfADirectSolution)
 {
+  constexpr int dim = TypeParam::value;
   for (const std::uint64_t seed : {1, 2, 3})
     {
-      const Network<2> network(periodic_specimen(seed));
-      const DirectSolution direct(network, intact_stiffnesses(network));
+      const Network<dim> network(periodic_specimen<dim>(seed));
+      const DirectSolution<dim> direct(network, intact_stiffnesses(network));
       EXPECT_LT(relative(network.intact_stiffness(), direct.stiffness), 1e-8) << seed;
       // Rearrangement only softens: affine minus condensed is positive semidefinite.
-      const Stiffness<2> difference = direct.affine_stiffness - network.intact_stiffness();
-      EXPECT_GT(difference.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
+      const Stiffness<dim> difference = direct.affine_stiffness - network.intact_stiffness();
+      EXPECT_GT(difference.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
     }
 }
 
-TEST(Network, EnergyAndStressGiveTheSameStiffness)
+TYPED_TEST(Networks, EnergyAndStressGiveTheSameStiffness)
 {
-  const Network<2> network(periodic_specimen());
-  const Stiffness<2>& C = network.intact_stiffness();
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const Stiffness<dim>& C = network.intact_stiffness();
   EXPECT_EQ(C, C.transpose());
   Random random(1, RandomStream::positions);
   for (unsigned int k = 0; k < 20; ++k)
     {
-      NetworkState<2> state;
-      state.strain = 1e-5 * random_direction(random);
-      const Equilibrium<2> equilibrium(network, state, {});
+      NetworkState<dim> state;
+      state.strain = 1e-5 * random_direction<dim>(random);
+      const Equilibrium<dim> equilibrium(network, state, {});
       const double by_stress = 0.5 * network.volume() * state.strain.dot(C * state.strain);
       EXPECT_NEAR(equilibrium.stored_energy(), by_stress, 1e-8 * by_stress);
       EXPECT_LT(relative(equilibrium.stress(), C * state.strain), 1e-8);
     }
 }
 
-TEST(Network, StressIsSymmetricAndThatOfTheSides)
+TYPED_TEST(Networks, StressIsSymmetricAndThatOfTheSides)
 {
-  const Network<2> network(periodic_specimen());
-  NetworkState<2> state;
-  state.strain = Voigt<2>(1e-5, -2e-5, 3e-5);
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  NetworkState<dim> state;
+  state.strain = uneven<dim>(3e-5);
   const auto forces = link_forces(network, state);
-  const Tensor<2> stress = branch_stress(network, forces);
+  const Tensor<dim> stress = branch_stress(network, forces);
   // Forces and couples balance to the 1e-13 of the unit solutions, against forces of grains.
-  EXPECT_NEAR(stress(0, 1), stress(1, 0), 1e-10 * stress.norm());
+  EXPECT_LT((stress - stress.transpose()).norm(), 1e-10 * stress.norm());
   EXPECT_LT(relative(boundary_stress(network, forces), stress), 1e-10);
-  EXPECT_LT(relative(stress_voigt<2>(stress), network.intact_stiffness() * state.strain), 1e-10);
+  EXPECT_LT(relative(stress_voigt<dim>(stress), network.intact_stiffness() * state.strain), 1e-10);
 }
 
-TEST(Network, TurnsWithItsCell)
+template <int dim>
+std::vector<Tensor<dim>> turns()
 {
-  const Specimen<2> specimen = periodic_specimen();
-  const Network<2> straight(specimen);
+  std::vector<Tensor<dim>> result;
   for (const double degrees : {17.0, 45.0, 90.0, 200.0})
     {
       const double angle = degrees * std::numbers::pi / 180.0;
-      const Tensor<2> R = Eigen::Rotation2Dd(angle).toRotationMatrix();
-      const Network<2> network(specimen, R);
-      EXPECT_LT(relative(network.intact_stiffness(), turned(straight.intact_stiffness(), R)), 1e-9) << degrees;
+      if constexpr (dim == 2)
+        result.push_back(Eigen::Rotation2Dd(angle).toRotationMatrix());
+      else
+        result.push_back(Eigen::AngleAxisd(angle, Vector<3>(1.0, degrees / 90.0, -0.5).normalized()).matrix());
+    }
+  return result;
+}
+
+TYPED_TEST(Networks, TurnsWithItsCell)
+{
+  constexpr int dim = TypeParam::value;
+  const Specimen<dim> specimen = periodic_specimen<dim>();
+  const Network<dim> straight(specimen);
+  for (const Tensor<dim>& R : turns<dim>())
+    {
+      const Network<dim> network(specimen, R);
+      EXPECT_LT(relative(network.intact_stiffness(), turned<dim>(straight.intact_stiffness(), R)), 1e-9) << R;
 
       // The same segment breaks first under the strain that turned with it.
-      const Voigt<2> direction(0.3, 1.0, 0.5);
+      const Voigt<dim> direction = uneven<dim>(1.0);
       const FirstBreak before = straight.first_break(direction);
       const FirstBreak after =
-        network.first_break(strain_voigt<2>(Tensor<2>(R * strain_tensor<2>(direction) * R.transpose())));
+        network.first_break(strain_voigt<dim>(Tensor<dim>(R * strain_tensor<dim>(direction) * R.transpose())));
       EXPECT_EQ(after.segment, before.segment);
       EXPECT_NEAR(after.factor, before.factor, 1e-9 * before.factor);
     }
 }
 
-TEST(Network, KnowsNoOriginOfTheCell)
+TYPED_TEST(Networks, KnowsNoOriginOfTheCell)
 {
-  Specimen<2> specimen = periodic_specimen();
-  const Network<2> network(specimen);
-  Components<2> positions = specimen.grains.position;
-  for (int c = 0; c < 2; ++c)
+  constexpr int dim = TypeParam::value;
+  Specimen<dim> specimen = periodic_specimen<dim>();
+  const Network<dim> network(specimen);
+  Components<dim> positions = specimen.grains.position;
+  for (int c = 0; c < dim; ++c)
     for (double& x : positions[c])
       {
         x += (0.37 + 0.2 * c) * specimen.size[c];
         x -= specimen.size[c] * std::floor(x / specimen.size[c]);
       }
   specimen.grains.place(std::vector<double>(specimen.grains.radius), positions);
-  const Network<2> shifted(specimen);
+  const Network<dim> shifted(specimen);
   EXPECT_EQ(shifted.links().size(), network.links().size());
   EXPECT_LT(relative(shifted.intact_stiffness(), network.intact_stiffness()), 1e-9);
   // Other links cross the sides now; their mean is the same stress.
-  NetworkState<2> state;
-  state.strain = Voigt<2>(1e-5, -2e-5, 3e-5);
+  NetworkState<dim> state;
+  state.strain = uneven<dim>(3e-5);
   EXPECT_LT(relative(boundary_stress(shifted, link_forces(shifted, state)),
                      boundary_stress(network, link_forces(network, state))),
             1e-9);
 }
 
 /// Grain i becomes grain n - 1 - i, and joints count backwards.
-Specimen<2> renumbered(const Specimen<2>& specimen)
+template <int dim>
+Specimen<dim> renumbered(const Specimen<dim>& specimen)
 {
-  Specimen<2> result = specimen;
+  Specimen<dim> result = specimen;
   const auto n = std::uint32_t(specimen.grains.size());
   std::vector<double> radii(specimen.grains.radius.rbegin(), specimen.grains.radius.rend());
-  Components<2> positions;
-  for (int c = 0; c < 2; ++c)
+  Components<dim> positions;
+  for (int c = 0; c < dim; ++c)
     positions[c].assign(specimen.grains.position[c].rbegin(), specimen.grains.position[c].rend());
   result.grains.place(radii, positions);
   auto& joints = result.joints;
@@ -153,109 +182,123 @@ Specimen<2> renumbered(const Specimen<2>& specimen)
   return result;
 }
 
-TEST(Network, KnowsNoNumbers)
+TYPED_TEST(Networks, KnowsNoNumbers)
 {
-  const Specimen<2> specimen = periodic_specimen();
-  const auto network = std::make_shared<const Network<2>>(specimen);
-  const auto other = std::make_shared<const Network<2>>(renumbered(specimen));
+  constexpr int dim = TypeParam::value;
+  const Specimen<dim> specimen = periodic_specimen<dim>();
+  const auto network = std::make_shared<const Network<dim>>(specimen);
+  const auto other = std::make_shared<const Network<dim>>(renumbered(specimen));
   EXPECT_LT(relative(other->intact_stiffness(), network->intact_stiffness()), 1e-9);
 
   // Nor after breaks.
   const EquilibriumParameters sharp{.event_tolerance = 1e-11, .final_tolerance = 1e-11};
-  RepresentativeVolume<2> volume(network, sharp);
-  RepresentativeVolume<2> other_volume(other, sharp);
-  const double first = network->first_break(Voigt<2>(0.0, 1.0, 0.0)).factor;
-  const Voigt<2> strain(0.0, 1.15 * first, 0.0);
+  RepresentativeVolume<dim> volume(network, sharp);
+  RepresentativeVolume<dim> other_volume(other, sharp);
+  const Voigt<dim> strain = axial<dim>((dim == 2 ? 1.15 : 1.8) * network->first_break(axial<dim>(1.0)).factor);
   const std::size_t n_breaks = strain_to(volume, strain, 5);
   EXPECT_GT(n_breaks, 3u);
   EXPECT_EQ(strain_to(other_volume, strain, 5), n_breaks);
   EXPECT_LT(relative(other_volume.state().stress, volume.state().stress), 1e-9);
 }
 
-/// The cell twice across and twice along.
-Specimen<2> replicated(const Specimen<2>& specimen)
+/// The cell twice along each axis.
+template <int dim>
+Specimen<dim> replicated(const Specimen<dim>& specimen)
 {
-  Specimen<2> result = specimen;
+  constexpr std::uint32_t n_copies = 1u << dim;
+  Specimen<dim> result = specimen;
   result.size = 2.0 * specimen.size;
   const auto n = std::uint32_t(specimen.grains.size());
   const std::size_t n_joints = specimen.joints.size();
+  const auto place = [](const std::uint32_t copy, const int axis) { return copy >> axis & 1u; };
   std::vector<double> radii;
-  Components<2> positions;
+  Components<dim> positions;
   auto& joints = result.joints;
-  joints.resize_all(4 * n_joints);
-  for (std::uint32_t copy = 0; copy < 4; ++copy)
+  joints.resize_all(n_copies * n_joints);
+  for (std::uint32_t copy = 0; copy < n_copies; ++copy)
     for (std::uint32_t i = 0; i < n; ++i)
       {
         radii.push_back(specimen.grains.radius[i]);
-        positions[0].push_back(specimen.grains.position[0][i] + (copy % 2) * specimen.size[0]);
-        positions[1].push_back(specimen.grains.position[1][i] + (copy / 2) * specimen.size[1]);
+        for (int c = 0; c < dim; ++c)
+          positions[c].push_back(specimen.grains.position[c][i] + place(copy, c) * specimen.size[c]);
       }
   result.grains.place(radii, positions);
 
   std::vector<const std::vector<double>*> sources;
-  Joints<2> source = specimen.joints;
+  Joints<dim> source = specimen.joints;
   source.visit_per_joint([&](const std::string&, std::vector<double>& values) { sources.push_back(&values); });
   source.visit_per_segment([&](const std::string&, std::vector<double>& values) { sources.push_back(&values); });
   std::size_t next = 0;
   const auto copy_rows = [&](const std::string&, std::vector<double>& values) {
     const std::vector<double>& from = *sources[next++];
     for (std::size_t row = 0; row < from.size() / n_joints; ++row)
-      for (std::size_t copy = 0; copy < 4; ++copy)
+      for (std::size_t copy = 0; copy < n_copies; ++copy)
         for (std::size_t j = 0; j < n_joints; ++j)
-          values[(row * 4 + copy) * n_joints + j] = from[row * n_joints + j];
+          values[(row * n_copies + copy) * n_joints + j] = from[row * n_joints + j];
   };
   joints.visit_per_joint(copy_rows);
   joints.visit_per_segment(copy_rows);
-  for (std::uint32_t copy = 0; copy < 4; ++copy)
+  for (std::uint32_t copy = 0; copy < n_copies; ++copy)
     for (std::size_t j = 0; j < n_joints; ++j)
       {
         const auto second = specimen.second_of(j);
-        const std::uint32_t column = (copy % 2 + std::uint32_t(second.boxes[0] + 2)) % 2;
-        const std::uint32_t row = (copy / 2 + std::uint32_t(second.boxes[1] + 2)) % 2;
+        std::uint32_t leads_to = 0;
+        for (int c = 0; c < dim; ++c)
+          leads_to |= ((place(copy, c) + std::uint32_t(second.boxes[c] + 2)) & 1u) << c;
         joints.grain_1[copy * n_joints + j] = specimen.joints.grain_1[j] + copy * n;
-        joints.grain_2[copy * n_joints + j] = specimen.joints.grain_2[j] + (2 * row + column) * n;
+        joints.grain_2[copy * n_joints + j] = specimen.joints.grain_2[j] + leads_to * n;
       }
   return result;
 }
 
-TEST(Network, RepeatedAnswersAsOne)
+TYPED_TEST(Networks, RepeatedAnswersAsOne)
 {
-  const Specimen<2> specimen = periodic_specimen();
-  const auto network = std::make_shared<const Network<2>>(specimen);
-  const auto four = std::make_shared<const Network<2>>(replicated(specimen));
-  EXPECT_EQ(four->links().size(), 4 * network->links().size());
-  EXPECT_LT(relative(four->intact_stiffness(), network->intact_stiffness()), 1e-8);
-  const Voigt<2> direction(0.1, 1.0, -0.2);
-  EXPECT_NEAR(four->first_break(direction).factor, network->first_break(direction).factor,
-              1e-8 * network->first_break(direction).factor);
+  constexpr int dim = TypeParam::value;
+  constexpr std::size_t n_copies = std::size_t(1) << dim;
+  const Specimen<dim> specimen = periodic_specimen<dim>();
+  const auto network = std::make_shared<const Network<dim>>(specimen);
+  const auto several = std::make_shared<const Network<dim>>(replicated(specimen));
+  EXPECT_EQ(several->links().size(), n_copies * network->links().size());
+  EXPECT_LT(relative(several->intact_stiffness(), network->intact_stiffness()), 1e-8);
+  const Voigt<dim> direction = axial<dim>(1.0) + uneven<dim>(0.1);
+  const double first = network->first_break(direction).factor;
+  EXPECT_NEAR(several->first_break(direction).factor, first, 1e-8 * first);
 
-  // The same segments break in all four.
+  // The same segments break in all of them.
   const EquilibriumParameters sharp{.event_tolerance = 1e-11, .final_tolerance = 1e-11};
-  RepresentativeVolume<2> volume(network, sharp);
-  RepresentativeVolume<2> repeated(four, sharp);
-  const Voigt<2> strain = 1.1 * network->first_break(direction).factor * direction;
+  RepresentativeVolume<dim> volume(network, sharp);
+  RepresentativeVolume<dim> repeated(several, sharp);
+  const Voigt<dim> strain = 1.1 * first * direction;
   const std::size_t n_breaks = strain_to(volume, strain, 3);
   EXPECT_GT(n_breaks, 0u);
-  EXPECT_EQ(strain_to(repeated, strain, 3), 4 * n_breaks);
+  EXPECT_EQ(strain_to(repeated, strain, 3), n_copies * n_breaks);
   EXPECT_LT(relative(repeated.state().stress, volume.state().stress), 1e-8);
 }
 
-TEST(Network, FirstBreakIsThatOfTheFullSolution)
+TYPED_TEST(Networks, FirstBreakIsThatOfTheFullSolution)
 {
-  const Network<2> network(periodic_specimen());
-  const DirectSolution direct(network, intact_stiffnesses(network));
-  const auto overloaded = [&](const Voigt<2>& strain) {
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const DirectSolution<dim> direct(network, intact_stiffnesses(network));
+  const auto overloaded = [&](const Voigt<dim>& strain) {
     const Unknowns unknowns = direct.at(strain);
     std::vector<std::uint32_t> segments;
     for (std::size_t j = 0; j < network.n_joints(); ++j)
       {
-        const Link<2>& link = network.links()[j];
-        const Motion<2> motion = link_motion(link, unknowns);
+        const Link<dim>& link = network.links()[j];
+        const Motion<dim> motion = link_motion(link, unknowns);
+        std::array<double, n_rotations<dim>> rotation;
+        std::copy(motion.data() + dim, motion.data() + motion.size(), rotation.begin());
+        std::array<double, dim - 1> slip;
+        std::copy(motion.data() + 1, motion.data() + dim, slip.begin());
         for (std::uint32_t i = 0; i < link.n_segments; ++i)
           {
-            const double offset = link.half_length * network.elements()[i].offset[0];
-            const double normal = link.normal_stiffness * (motion[0] - motion[2] * offset);
-            const double shear = std::abs(link.shear_stiffness * motion[1]);
+            auto offset = network.elements()[i].offset;
+            for (double& component : offset)
+              component *= link.half_length;
+            const double normal = link.normal_stiffness * flat_joint::gap_at(motion[0], rotation, offset);
+            const double shear =
+              link.shear_stiffness * flat_joint::magnitude(flat_joint::slip_at(slip, rotation[0], offset));
             const Strength& bond = network.strength(link.first_segment + i);
             if (normal > bond.tensile || shear > std::max(0.0, bond.cohesion - network.friction_slope() * normal))
               segments.push_back(link.first_segment + i);
@@ -267,7 +310,7 @@ TEST(Network, FirstBreakIsThatOfTheFullSolution)
   unsigned int n_touching = 0;
   for (unsigned int k = 0; k < 200; ++k)
     {
-      const Voigt<2> direction = random_direction(random);
+      const Voigt<dim> direction = random_direction<dim>(random);
       const FirstBreak first = network.first_break(direction);
       double low = 0.0;
       double high = 0.1;
@@ -279,27 +322,31 @@ TEST(Network, FirstBreakIsThatOfTheFullSolution)
       // Pairs without a face stay apart until then, but for some directions that press from all sides.
       const double linear_until = std::min(first.factor, first.touch);
       n_touching += first.touch < first.factor;
-      EXPECT_TRUE(network.stays_intact(Voigt<2>((1.0 - 1e-6) * linear_until * direction))) << direction.transpose();
-      EXPECT_FALSE(network.stays_intact(Voigt<2>((1.0 + 1e-6) * linear_until * direction)));
+      EXPECT_TRUE(network.stays_intact(Voigt<dim>((1.0 - 1e-6) * linear_until * direction))) << direction.transpose();
+      EXPECT_FALSE(network.stays_intact(Voigt<dim>((1.0 + 1e-6) * linear_until * direction)));
     }
   EXPECT_LT(n_touching, 10u);
 }
 
-TEST(Network, NothingThatIsNoNumberStaysIntact)
+TYPED_TEST(Networks, NothingThatIsNoNumberStaysIntact)
 {
-  const RepresentativeVolume<2> volume = small_volume();
+  constexpr int dim = TypeParam::value;
+  const RepresentativeVolume<dim> volume = small_volume<dim>();
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
     {
-      EXPECT_FALSE(volume.network().stays_intact(Voigt<2>(0.0, bad, 0.0)));
-      EXPECT_FALSE(volume.trial(Voigt<2>(0.0, bad, 0.0)).in_equilibrium);
+      EXPECT_FALSE(volume.network().stays_intact(axial<dim>(bad)));
+      EXPECT_FALSE(volume.trial(axial<dim>(bad)).in_equilibrium);
     }
 }
 
-TEST(Network, FabricAndConstantsOfAnIsotropicBody)
+TYPED_TEST(Networks, FabricHasAUnitTrace)
 {
-  const Network<2> network(periodic_specimen());
-  EXPECT_NEAR(fabric(network).trace(), 1.0, 1e-12);
+  constexpr int dim = TypeParam::value;
+  EXPECT_NEAR(fabric(Network<dim>(periodic_specimen<dim>())).trace(), 1.0, 1e-12);
+}
 
+TEST(Homogenisation, ConstantsOfAnIsotropicPlane)
+{
   // Plane stress: C11 = E/(1 - ν²), C12 = νC11, C33 = E/(2(1 + ν)).
   constexpr double E = 70.0;
   constexpr double nu = 0.2;
@@ -317,6 +364,28 @@ TEST(Network, FabricAndConstantsOfAnIsotropicBody)
   C(2, 2) *= 1.1;
   EXPECT_NEAR(isotropic_constants<2>(C).shear_modulus, 1.05 * E / (2.0 * (1.0 + nu)), 1e-12 * E);
   EXPECT_GT(isotropic_constants<2>(C).anisotropy, 0.01);
+}
+
+TEST(Homogenisation, ConstantsOfAnIsotropicBody)
+{
+  // C11 = λ + 2G, C12 = λ, C44 = G with λ = Eν/((1 + ν)(1 - 2ν)).
+  constexpr double E = 70.0;
+  constexpr double nu = 0.2;
+  constexpr double G = E / (2.0 * (1.0 + nu));
+  Stiffness<3> C = 2.0 * G * Stiffness<3>::Identity();
+  C.topLeftCorner<3, 3>().array() += E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  C.bottomRightCorner<3, 3>() *= 0.5;
+  const auto constants = isotropic_constants<3>(C);
+  EXPECT_NEAR(constants.youngs_modulus, E, 1e-12 * E);
+  EXPECT_NEAR(constants.poissons_ratio, nu, 1e-12);
+  EXPECT_NEAR(constants.bulk_modulus, E / (3.0 * (1.0 - 2.0 * nu)), 1e-12 * E);
+  EXPECT_NEAR(constants.shear_modulus, G, 1e-12 * E);
+  EXPECT_NEAR(constants.anisotropy, 0.0, 1e-12);
+
+  // One of three shear moduli off by ten per cent: one of five deviatoric directions.
+  C(5, 5) *= 1.1;
+  EXPECT_NEAR(isotropic_constants<3>(C).shear_modulus, 1.02 * G, 1e-12 * E);
+  EXPECT_GT(isotropic_constants<3>(C).anisotropy, 0.01);
 }
 } // namespace
 } // namespace feldspar

@@ -13,15 +13,24 @@ namespace
 {
 using tests::TemporaryFolder;
 
-PathRun<2> pull(const double strain = 3e-4)
+template <typename Case>
+class Paths : public testing::Test
 {
-  Control<2> control;
-  control.stress_given = {true, false, true};
-  control.strain[1] = strain;
-  return {std::make_shared<const Network<2>>(periodic_specimen()), {{control, true}}, {}};
+};
+TYPED_TEST_SUITE(Paths, Dimensions);
+
+template <int dim>
+PathRun<dim> pull(const double strain = 3e-4)
+{
+  Control<dim> control;
+  control.stress_given.fill(true);
+  control.stress_given[dim - 1] = false;
+  control.strain[dim - 1] = strain;
+  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>()), {{control, true}}, {}};
 }
 
-bool same(const PathSample<2>& a, const PathSample<2>& b)
+template <int dim>
+bool same(const PathSample<dim>& a, const PathSample<dim>& b)
 {
   return a.strain == b.strain && a.stress == b.stress && a.work.boundary == b.work.boundary &&
          a.work.slip == b.work.slip && a.work.released == b.work.released && a.work.settled == b.work.settled &&
@@ -29,23 +38,24 @@ bool same(const PathSample<2>& a, const PathSample<2>& b)
          a.boundary_stress_error == b.boundary_stress_error && a.crack_density == b.crack_density;
 }
 
-TEST(PathRun, TakenUpGivesTheBitsOfTheUnbrokenRun)
+TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
 {
-  PathRun<2> whole = pull();
+  constexpr int dim = TypeParam::value;
+  PathRun<dim> whole = pull<dim>();
   while (!whole.has_ended())
     whole.advance();
   EXPECT_GT(whole.record().cracks.size(), 5u);
 
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
-  PathRun<2> broken = pull();
+  PathRun<dim> broken = pull<dim>();
   for (unsigned int k = 0; !broken.has_ended(); ++k)
     {
       broken.advance();
       if (k % 4 == 3)
         {
           broken.write_checkpoint(file, "the same");
-          PathRun<2> next = pull();
+          PathRun<dim> next = pull<dim>();
           next.read_checkpoint(file, "the same");
           broken = next;
         }
@@ -58,7 +68,7 @@ TEST(PathRun, TakenUpGivesTheBitsOfTheUnbrokenRun)
     EXPECT_EQ(broken.record().cracks[k].segment, whole.record().cracks[k].segment);
   EXPECT_EQ(broken.volume().state().motions, whole.volume().state().motions);
 
-  PathRun<2> other = pull();
+  PathRun<dim> other = pull<dim>();
   EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
 }
 

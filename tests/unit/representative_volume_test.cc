@@ -11,8 +11,15 @@ namespace feldspar
 {
 namespace
 {
+template <typename Case>
+class Volumes : public testing::Test
+{
+};
+TYPED_TEST_SUITE(Volumes, Dimensions);
+
 /// FNV-1a over all a volume remembers.
-std::uint64_t hash(const NetworkState<2>& state)
+template <int dim>
+std::uint64_t hash(const NetworkState<dim>& state)
 {
   std::uint64_t value = 14695981039346656037u;
   const auto add = [&](const auto* data, const std::size_t n) {
@@ -20,14 +27,14 @@ std::uint64_t hash(const NetworkState<2>& state)
     for (std::size_t i = 0; i < n * sizeof(*data); ++i)
       value = (value ^ bytes[i]) * 1099511628211u;
   };
-  add(state.strain.data(), 3);
-  add(state.stress.data(), 3);
+  add(state.strain.data(), n_voigt<dim>);
+  add(state.stress.data(), n_voigt<dim>);
   add(&state.intact, 1);
   add(state.motions.data(), state.motions.size());
   for (const auto& segment : state.unbonded)
     {
       add(&segment.segment, 1);
-      add(segment.shear_stress.data(), 1);
+      add(segment.shear_stress.data(), segment.shear_stress.size());
     }
   add(&state.n_tension_breaks, 1);
   add(&state.n_shear_breaks, 1);
@@ -39,20 +46,23 @@ std::uint64_t hash(const NetworkState<2>& state)
 constexpr EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
 
 /// Pulled until some segments have broken.
-RepresentativeVolume<2> damaged_volume(const std::uint64_t seed = 1, const double friction = 0.5)
+template <int dim>
+RepresentativeVolume<dim> damaged_volume(const std::uint64_t seed = 1, const double friction = 0.5)
 {
-  RepresentativeVolume<2> volume = small_volume(seed, sharp, friction);
-  const double first = volume.network().first_break(Voigt<2>(0.0, 1.0, 0.0)).factor;
-  EXPECT_GT(strain_to(volume, Voigt<2>(0.0, 1.2 * first, 0.0), 10), 4u);
+  RepresentativeVolume<dim> volume = small_volume<dim>(seed, sharp, friction);
+  const double first = volume.network().first_break(axial<dim>(1.0)).factor;
+  // In space a joint has twice as many segments and the first of them breaks earlier.
+  EXPECT_GT(strain_to(volume, axial<dim>((dim == 2 ? 1.2 : 1.8) * first), 10), 4u);
   return volume;
 }
 
-TEST(RepresentativeVolume, TrialLeavesNoTrace)
+TYPED_TEST(Volumes, TrialLeavesNoTrace)
 {
-  for (auto volume : {small_volume(), damaged_volume()})
+  constexpr int dim = TypeParam::value;
+  for (auto volume : {small_volume<dim>(), damaged_volume<dim>()})
     {
       const std::uint64_t before = hash(volume.state());
-      const Voigt<2> further = volume.state().strain + Voigt<2>(1e-5, 2e-4, 1e-5);
+      const Voigt<dim> further = volume.state().strain + axial<dim>(2e-4) + uneven<dim>(1e-5);
       const auto trial = volume.trial(further, Bonds::may_break, true);
       EXPECT_TRUE(trial.in_equilibrium);
       EXPECT_GT(trial.breaks.size(), 0u);
@@ -64,13 +74,14 @@ TEST(RepresentativeVolume, TrialLeavesNoTrace)
     }
 }
 
-TEST(RepresentativeVolume, IntactAnswerIsThatOfTheCascade)
+TYPED_TEST(Volumes, IntactAnswerIsThatOfTheCascade)
 {
+  constexpr int dim = TypeParam::value;
   // A volume told that it is not intact relaxes its grains one by one.
-  RepresentativeVolume<2> volume = small_volume(1, sharp);
-  const Voigt<2> strain(2e-5, 5e-5, -3e-5);
+  RepresentativeVolume<dim> volume = small_volume<dim>(1, sharp);
+  const Voigt<dim> strain = uneven<dim>(5e-5);
   const auto closed_form = volume.trial(strain);
-  NetworkState<2> state;
+  NetworkState<dim> state;
   state.intact = false;
   volume.restore(state);
   const auto relaxed = volume.trial(strain);
@@ -91,69 +102,82 @@ struct Friction
     return stream << "seed " << friction.seed << ", friction " << friction.coefficient;
   }
 };
+constexpr Friction frictions[] = {{1, 0.0}, {2, 0.0}, {3, 0.0}, {1, 1e9}, {2, 1e9}, {3, 1e9}};
 
-class Tangent : public testing::TestWithParam<Friction>
+/// Faces close again, shear and turn.
+template <int dim>
+Voigt<dim> pressing(const RepresentativeVolume<dim>& volume)
 {
-protected:
-  RepresentativeVolume<2> pulled() const { return damaged_volume(GetParam().seed, GetParam().coefficient); }
+  return volume.state().strain + axial<dim>(-2e-4) + uneven<dim>(3e-5);
+}
 
-  /// Faces close again, shear and turn.
-  static Voigt<2> pressing(const RepresentativeVolume<2>& volume)
-  {
-    return volume.state().strain + Voigt<2>(2e-5, -2e-4, 5e-5);
-  }
-};
-
-TEST_P(Tangent, IsThatOfADirectSolution)
+TYPED_TEST(Volumes, TangentIsThatOfADirectSolution)
 {
-  RepresentativeVolume<2> volume = pulled();
-  for (const bool pressed : {false, true})
+  constexpr int dim = TypeParam::value;
+  for (const Friction& friction : frictions)
     {
-      if (pressed)
-        strain_to(volume, pressing(volume), 10);
-      Equilibrium<2> equilibrium(volume.network(), volume.state(), sharp);
-      const DirectSolution direct(volume.network(), equilibrium.link_tangents());
-      const Stiffness<2> tangent = equilibrium.tangent();
-      EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);
-      EXPECT_EQ(tangent, tangent.transpose());
-      EXPECT_LT(relative(equilibrium.affine_tangent(), direct.affine_stiffness), 1e-12);
-      const Stiffness<2> difference = equilibrium.affine_tangent() - tangent;
-      EXPECT_GT(difference.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
-      if (!pressed)
+      SCOPED_TRACE(friction);
+      RepresentativeVolume<dim> volume = damaged_volume<dim>(friction.seed, friction.coefficient);
+      for (const bool pressed : {false, true})
         {
-          EXPECT_GT(relative(tangent, volume.network().intact_stiffness()), 0.02);
+          if (pressed)
+            strain_to(volume, pressing(volume), 10);
+          Equilibrium<dim> equilibrium(volume.network(), volume.state(), sharp);
+          const DirectSolution<dim> direct(volume.network(), equilibrium.link_tangents());
+          const Stiffness<dim> tangent = equilibrium.tangent();
+          EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);
+          EXPECT_EQ(tangent, tangent.transpose());
+          EXPECT_LT(relative(equilibrium.affine_tangent(), direct.affine_stiffness), 1e-12);
+          const Stiffness<dim> difference = equilibrium.affine_tangent() - tangent;
+          EXPECT_GT(difference.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
+          if (!pressed)
+            {
+              EXPECT_GT(relative(tangent, volume.network().intact_stiffness()), 0.02);
+            }
         }
     }
 }
 
-TEST_P(Tangent, IsThatOfFiniteDifferences)
+TYPED_TEST(Volumes, TangentIsThatOfFiniteDifferences)
 {
-  // Steps so small that no face opens, closes or begins to slide; the relaxation to 1e-11 leaves 1e-7 of them.
-  RepresentativeVolume<2> volume = pulled();
-  const Voigt<2> pulled_further = volume.state().strain + Voigt<2>(1e-6, 5e-6, -2e-6);
-  for (const Voigt<2>& here : {pulled_further, pressing(volume)})
+  constexpr int dim = TypeParam::value;
+  for (const Friction& friction : frictions)
     {
-      if (GetParam().coefficient > 0.0)
-        volume.accept(volume.trial(here, Bonds::frozen));
-      const auto centre = volume.trial(here, Bonds::frozen, true);
-      ASSERT_TRUE(centre.in_equilibrium);
-      constexpr double step = 1e-9;
-      Stiffness<2> differences;
-      for (int k = 0; k < 3; ++k)
+      SCOPED_TRACE(friction);
+      // Steps so small that no face opens, closes or begins to slide; the relaxation to 1e-11 leaves 1e-7 of them.
+      RepresentativeVolume<dim> volume = damaged_volume<dim>(friction.seed, friction.coefficient);
+      const Voigt<dim> pulled_further = volume.state().strain + axial<dim>(5e-6) + uneven<dim>(1e-6);
+      for (const Voigt<dim>& here : {pulled_further, pressing(volume)})
         {
-          const Voigt<2> change = step * Voigt<2>::Unit(k);
-          const auto plus = volume.trial(Voigt<2>(here + change), Bonds::frozen);
-          const auto minus = volume.trial(Voigt<2>(here - change), Bonds::frozen);
-          ASSERT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
-          differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
+          if (friction.coefficient > 0.0)
+            volume.accept(volume.trial(here, Bonds::frozen));
+          const auto centre = volume.trial(here, Bonds::frozen, true);
+          ASSERT_TRUE(centre.in_equilibrium);
+          constexpr double step = 1e-9;
+          Stiffness<dim> differences;
+          for (int k = 0; k < n_voigt<dim>; ++k)
+            {
+              const Voigt<dim> change = step * Voigt<dim>::Unit(k);
+              const auto plus = volume.trial(Voigt<dim>(here + change), Bonds::frozen);
+              const auto minus = volume.trial(Voigt<dim>(here - change), Bonds::frozen);
+              ASSERT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
+              differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
+            }
+          EXPECT_LT(relative(differences, *centre.tangent), 1e-6);
         }
-      EXPECT_LT(relative(differences, *centre.tangent), 1e-6);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Tangent,
-                         testing::Values(Friction{1, 0.0}, Friction{2, 0.0}, Friction{3, 0.0}, Friction{1, 1e9},
-                                         Friction{2, 1e9}, Friction{3, 1e9}));
+TYPED_TEST(Volumes, IntactTangentIsThatOfFiniteDifferences)
+{
+  constexpr int dim = TypeParam::value;
+  const auto volume = small_volume<dim>();
+  constexpr double step = 1e-7;
+  Stiffness<dim> differences;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    differences.col(k) = volume.trial(Voigt<dim>(step * Voigt<dim>::Unit(k))).state.stress / step;
+  EXPECT_LT(relative(*volume.trial(Voigt<dim>(Voigt<dim>::Zero()), Bonds::frozen, true).tangent, differences), 1e-12);
+}
 
 TEST(LinkAnswer, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
 {
@@ -198,28 +222,71 @@ TEST(LinkAnswer, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
   EXPECT_GT(slid, 0.1 * most_stored);
 }
 
-TEST(RepresentativeVolume, IntactTangentIsThatOfFiniteDifferences)
+/// The derivative by which a relaxation finds its way: of one joint whose segments are broken, pressed and slid in many
+/// directions, against central differences of its forces.
+TYPED_TEST(Volumes, DerivativeOfALinkIsThatOfFiniteDifferences)
 {
-  const auto volume = small_volume();
-  constexpr double step = 1e-7;
-  Stiffness<2> differences;
-  for (int k = 0; k < 3; ++k)
-    differences.col(k) = volume.trial(Voigt<2>(step * Voigt<2>::Unit(k))).state.stress / step;
-  EXPECT_LT(relative(*volume.trial(Voigt<2>(Voigt<2>::Zero()), Bonds::frozen, true).tangent, differences), 1e-12);
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const Link<dim>& link = network.links().front();
+  const double length = link.half_length;
+  Motion<dim> size; // of a motion that strains a face by about as much in each component
+  size.template head<dim>().setConstant(1e-4 * length);
+  size.template tail<n_rotations<dim>>().setConstant(1e-4);
+  Random random(3, RandomStream::positions);
+  const auto draw = [&] {
+    return Motion<dim>(
+      size.cwiseProduct(Motion<dim>::NullaryExpr([&](Eigen::Index) { return random.uniform(-1.0, 1.0); })));
+  };
+  unsigned int n_sliding = 0;
+  unsigned int n_sticking = 0;
+  for (unsigned int k = 0; k < 100; ++k)
+    {
+      ActiveLink<dim> active{0, draw(), std::vector<SegmentHistory<dim>>(link.n_segments)};
+      active.motion[0] = -1.5e-4 * length;
+      for (std::size_t i = 0; i < active.segments.size(); i += k % 2 + 1)
+        active.segments[i].bonded = false;
+      Motion<dim> now = k % 3 == 0 ? draw() : Motion<dim>(active.motion + 0.1 * draw());
+      now[0] = k % 5 == 0 ? now[0] : -1e-4 * length;
+      const auto here = answer(network, active, now);
+      for (std::size_t i = 0; i < active.segments.size(); ++i)
+        if (!active.segments[i].bonded && here.segments[i].normal_stress < 0.0)
+          ++(here.segments[i].slip[0] != 0.0 ? n_sliding : n_sticking);
+      if (here.forces.isZero()) // wholly open
+        continue;
+      JointStiffness<dim> differences;
+      for (int c = 0; c < n_motions<dim>; ++c)
+        {
+          const Motion<dim> change = 1e-5 * size[c] * Motion<dim>::Unit(c);
+          differences.col(c) =
+            (answer<dim>(network, active, now + change).forces - answer<dim>(network, active, now - change).forces) /
+            (2e-5 * size[c]);
+        }
+      // Per component in the units of its size; differences of second order in 1e-5.
+      const auto in_units = [&](const JointStiffness<dim>& stiffness) {
+        return JointStiffness<dim>(size.asDiagonal() * stiffness * size.asDiagonal());
+      };
+      EXPECT_LT(relative(in_units(here.derivative), in_units(differences)), 1e-6) << k;
+    }
+  EXPECT_GT(n_sliding, 50u);
+  EXPECT_GT(n_sticking, 10u);
 }
 
-TEST(RepresentativeVolume, SmallInMemory)
+TYPED_TEST(Volumes, SmallInMemory)
 {
-  const auto bytes = [](const NetworkState<2>& state) {
-    return sizeof(RepresentativeVolume<2>) + state.motions.capacity() * sizeof(double) +
-           state.unbonded.capacity() * sizeof(UnbondedSegment<2>);
+  constexpr int dim = TypeParam::value;
+  const auto bytes = [](const NetworkState<dim>& state) {
+    return sizeof(RepresentativeVolume<dim>) + state.motions.capacity() * sizeof(double) +
+           state.unbonded.capacity() * sizeof(UnbondedSegment<dim>);
   };
-  RepresentativeVolume<2> volume(std::make_shared<const Network<2>>(periodic_specimen(1, 0.032)), {});
-  EXPECT_GT(volume.network().n_grains(), 390u);
+  // Some 400 discs; 125 spheres, of whose 600 500 kB are allowed.
+  RepresentativeVolume<dim> volume(
+    std::make_shared<const Network<dim>>(periodic_specimen<dim>(1, dim == 2 ? 0.032 : 0.008)), {});
+  EXPECT_GT(volume.network().n_grains(), dim == 2 ? 390u : 115u);
   EXPECT_LT(bytes(volume.state()), 1000u);
-  strain_to(volume, Voigt<2>(0.0, 1.6e-4, 0.0), 8);
+  strain_to(volume, axial<dim>(dim == 2 ? 1.6e-4 : 2.4e-4), 8);
   EXPECT_GT(volume.state().n_tension_breaks, 20u);
-  EXPECT_LT(bytes(volume.state()), 64000u);
+  EXPECT_LT(bytes(volume.state()), dim == 2 ? 64000u : 500000u * 125u / 600u);
 }
 } // namespace
 } // namespace feldspar

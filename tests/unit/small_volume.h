@@ -6,41 +6,74 @@
 #include "dem/random.h"
 
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include <memory>
+#include <type_traits>
 
 /// Periodic specimens for tests that need one quickly, and oracles for what their networks answer.
 namespace feldspar
 {
-/// Table 1 in a periodic cell: some 50 grains in 12 × 12 mm, 96 in 16 × 16 mm.
-inline Specimen<2> periodic_specimen(const std::uint64_t seed = 1, const double edge = 0.012,
-                                     const FlatJointParameters& joint = {.installation_gap_ratio = std::nullopt,
-                                                                         .coordination_number = 4.2})
+/// For tests of both kinds: TYPED_TEST_SUITE(Suite, Dimensions).
+template <int n>
+using Dimension = std::integral_constant<int, n>;
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+
+/// Table 1 in a periodic cell: some 50 grains in 12 × 12 mm, 96 in 16 × 16 mm; 50 spheres in 6 × 6 × 6 mm.
+template <int dim = 2>
+Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge = dim == 2 ? 0.012 : 0.006)
 {
   SpecimenParameters wanted;
   wanted.shape = "periodic";
   wanted.width = edge;
   wanted.height = edge;
-  return make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+  FlatJointParameters joint;
+  if constexpr (dim == 2)
+    joint.coordination_number = 4.2;
+  else
+    {
+      wanted.dimension = 3;
+      wanted.porosity = 0.36;
+      joint.installation_gap_ratio = 0.05;
+    }
+  return make_specimen<dim>(wanted, joint, {}, seed, [](std::string_view, double) {});
 }
 
-inline RepresentativeVolume<2> small_volume(const std::uint64_t seed = 1, const EquilibriumParameters& parameters = {},
-                                            const double friction = 0.5)
+template <int dim = 2>
+RepresentativeVolume<dim> small_volume(const std::uint64_t seed = 1, const EquilibriumParameters& parameters = {},
+                                       const double friction = 0.5)
 {
-  Specimen<2> specimen = periodic_specimen(seed);
+  Specimen<dim> specimen = periodic_specimen<dim>(seed);
   specimen.joints.friction = friction;
   specimen.particle_contact.friction = friction;
-  return {std::make_shared<const Network<2>>(specimen), parameters};
+  return {std::make_shared<const Network<dim>>(specimen), parameters};
+}
+
+/// Along the last axis.
+template <int dim>
+Voigt<dim> axial(const double strain)
+{
+  return strain * Voigt<dim>::Unit(dim - 1);
+}
+
+/// No component is nothing, none is another.
+template <int dim>
+Voigt<dim> uneven(const double strain)
+{
+  const double components[] = {0.4, 1.0, -0.6, 0.3, -0.5, 0.2};
+  return strain * Eigen::Map<const Voigt<dim>>(components);
 }
 
 /// Leads a volume straight to a strain in so many steps; what broke on the way.
-inline std::size_t strain_to(RepresentativeVolume<2>& volume, const Voigt<2>& strain, const unsigned int n_steps)
+template <int dim>
+std::size_t strain_to(RepresentativeVolume<dim>& volume, const std::type_identity_t<Voigt<dim>>& strain,
+                      const unsigned int n_steps)
 {
-  const Voigt<2> start = volume.state().strain;
+  const Voigt<dim> start = volume.state().strain;
   std::size_t n_breaks = 0;
   for (unsigned int k = 1; k <= n_steps; ++k)
     {
-      auto trial = volume.trial(Voigt<2>(start + double(k) / n_steps * (strain - start)));
+      auto trial = volume.trial(Voigt<dim>(start + double(k) / n_steps * (strain - start)));
       if (!trial.in_equilibrium)
         throw std::runtime_error("no equilibrium");
       n_breaks += trial.breaks.size();
@@ -49,11 +82,12 @@ inline std::size_t strain_to(RepresentativeVolume<2>& volume, const Voigt<2>& st
   return n_breaks;
 }
 
-inline Voigt<2> random_direction(Random& random)
+template <int dim>
+Voigt<dim> random_direction(Random& random)
 {
-  Voigt<2> direction;
+  Voigt<dim> direction;
   do
-    direction = Voigt<2>::NullaryExpr([&](Eigen::Index) { return random.uniform(-1.0, 1.0); });
+    direction = Voigt<dim>::NullaryExpr([&](Eigen::Index) { return random.uniform(-1.0, 1.0); });
   while (direction.norm() > 1.0 || direction.norm() < 0.1);
   return direction.normalized();
 }
@@ -67,11 +101,13 @@ double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<E
 
 /// Condensation by a dense factor with full pivoting, from the links' stiffnesses alone: shares neither iterations nor
 /// preconditioner with what it checks. Where grains float the motions of least norm are taken.
+template <int dim>
 struct DirectSolution
 {
-  DirectSolution(const Network<2>& of, const std::vector<JointStiffness<2>>& link_stiffnesses)
+  DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses)
     : network(of)
   {
+    constexpr int n_strains = n_voigt<dim>;
     const Eigen::Index n = network.n_unknowns();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index c = 0; c < n; ++c)
@@ -79,32 +115,35 @@ struct DirectSolution
         const Unknowns unit = Unknowns::Unit(n, c);
         Unknowns column = Unknowns::Zero(n);
         for (std::size_t k = 0; k < link_stiffnesses.size(); ++k)
-          add_forces(network.links()[k], link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
+          add_forces<dim>(network.links()[k], link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
         all.col(c) = column;
       }
-    const Eigen::Index n_own = n - 3;
-    motions = all.topLeftCorner(n_own, n_own).completeOrthogonalDecomposition().solve(-all.topRightCorner(n_own, 3));
-    stiffness = (all.bottomRightCorner(3, 3) + all.bottomLeftCorner(3, n_own) * motions) / network.volume();
-    affine_stiffness = all.bottomRightCorner(3, 3) / network.volume();
+    const Eigen::Index n_own = n - n_strains;
+    motions =
+      all.topLeftCorner(n_own, n_own).completeOrthogonalDecomposition().solve(-all.topRightCorner(n_own, n_strains));
+    stiffness = (all.bottomRightCorner(n_strains, n_strains) + all.bottomLeftCorner(n_strains, n_own) * motions) /
+                network.volume();
+    affine_stiffness = all.bottomRightCorner(n_strains, n_strains) / network.volume();
   }
 
   /// Grains and strain under a strain.
-  Unknowns at(const Voigt<2>& strain) const
+  Unknowns at(const Voigt<dim>& strain) const
   {
     Unknowns unknowns(network.n_unknowns());
     unknowns << motions * strain, strain;
     return unknowns;
   }
 
-  const Network<2>& network;
+  const Network<dim>& network;
   Eigen::MatrixXd motions; ///< under unit strains
-  Stiffness<2> stiffness;
-  Stiffness<2> affine_stiffness;
+  Stiffness<dim> stiffness;
+  Stiffness<dim> affine_stiffness;
 };
 
-inline std::vector<JointStiffness<2>> intact_stiffnesses(const Network<2>& network)
+template <int dim>
+std::vector<JointStiffness<dim>> intact_stiffnesses(const Network<dim>& network)
 {
-  std::vector<JointStiffness<2>> result;
+  std::vector<JointStiffness<dim>> result;
   for (std::size_t j = 0; j < network.n_joints(); ++j)
     result.push_back(network.bonded_stiffness(j));
   return result;

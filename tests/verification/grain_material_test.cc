@@ -2,6 +2,7 @@
 #include "fem/solid.h"
 #include "tests/unit/small_volume.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,20 +66,27 @@ TEST(GrainMaterial, OneElementIsTheBareVolume)
   EXPECT_GT(n_breaks, 0u); // else nothing but elasticity was compared
 }
 
-// A volume turned by 30° under a strain answers as the volume itself under the strain turned back.
-TEST(GrainMaterial, ATurnedVolumeAnswersInTheAxesOfTheSample)
+template <typename Case>
+class GrainMaterials : public testing::Test
 {
-  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+};
+TYPED_TEST_SUITE(GrainMaterials, Dimensions);
+
+// A volume turned by 30° under a strain answers as the volume itself under the strain turned back.
+TYPED_TEST(GrainMaterials, ATurnedVolumeAnswersInTheAxesOfTheSample)
+{
+  constexpr int dim = TypeParam::value;
+  const auto network = std::make_shared<const Network<dim>>(periodic_specimen<dim>());
   const double angle = std::acos(-1.0) / 6.0;
-  Tensor<2> turn;
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  const GrainPoint<2> point(network, turn, tight());
-  const Voigt<2> strain(2e-5, -3e-5, 1e-5);
+  Tensor<dim> turn = Tensor<dim>::Identity();
+  turn.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  const GrainPoint<dim> point(network, turn, tight());
+  const Voigt<dim> strain = uneven<dim>(3e-5);
   const auto answer = point.trial(strain);
-  const Tensor<2> in_volume = turn.transpose() * strain_tensor<2>(strain) * turn;
-  const Voigt<2> of_volume = network->intact_stiffness() * strain_voigt<2>(in_volume);
-  const Tensor<2> expected = turn * stress_tensor<2>(of_volume) * turn.transpose();
-  EXPECT_LT((stress_tensor<2>(answer.stress) - expected).norm(), 1e-13 * expected.norm());
+  const Tensor<dim> in_volume = turn.transpose() * strain_tensor<dim>(strain) * turn;
+  const Voigt<dim> of_volume = network->intact_stiffness() * strain_voigt<dim>(in_volume);
+  const Tensor<dim> expected = turn * stress_tensor<dim>(of_volume) * turn.transpose();
+  EXPECT_LT((stress_tensor<dim>(answer.stress) - expected).norm(), 1e-13 * expected.norm());
   EXPECT_LT((answer.tangent * strain - answer.stress).norm(), 1e-13 * answer.stress.norm()); // linear so far
 }
 
@@ -127,6 +135,28 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
   EXPECT_EQ(used.size(), 3u); // missing one of three in 30 draws has odds of 2e-5
   EXPECT_EQ(cosines.size(), 30u);
   EXPECT_NE(dealt(1, 0), dealt(2, 0));
+}
+
+// In space no direction is preferred: of n uniform turns the mean of each entry of R is 0 within 4/√(3n), of its square
+// 1/3 within 4·√(4/45)/√n; angles uniform about fixed axes would fail the second.
+TEST(GrainMaterial, AnyTurnInSpaceIsAsLikelyAsAnyOther)
+{
+  const auto network = std::make_shared<const Network<3>>(periodic_specimen<3>());
+  const auto material = grain_material<3>({network}, {});
+  constexpr unsigned int n = 2000;
+  Tensor<3> mean = Tensor<3>::Zero();
+  Tensor<3> mean_of_squares = Tensor<3>::Zero();
+  for (unsigned int q = 0; q < n; ++q)
+    {
+      const auto point = material.make_point({"0_0:", q, {}, 0.01});
+      const Tensor<3> R = dynamic_cast<const GrainPoint<3>&>(*point).orientation();
+      EXPECT_LT((R * R.transpose() - Tensor<3>::Identity()).norm(), 1e-14);
+      EXPECT_GT(R.determinant(), 0.0);
+      mean += R / n;
+      mean_of_squares += R.cwiseAbs2() / n;
+    }
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 4.0 / std::sqrt(3.0 * n));
+  EXPECT_LT((mean_of_squares.array() - 1.0 / 3.0).abs().maxCoeff(), 4.0 * std::sqrt(4.0 / 45.0 / n));
 }
 } // namespace
 } // namespace feldspar
