@@ -21,6 +21,13 @@ struct ContactParameters
   std::string path_file;  ///< CSV of the displacements
 };
 
+/// How a volume is led along its path.
+enum class PathSolver
+{
+  event_by_event,
+  explicit_dynamics
+};
+
 /// The path of `feldspar rve`.
 struct StrainPathParameters
 {
@@ -29,6 +36,8 @@ struct StrainPathParameters
   double size = 1e-3;                           ///< of the strain at the end, over the direction
   double confining_pressure = 0.0;              ///< compression positive [Pa]
   double largest_step = 1e-5;                   ///< of any component of the strain
+  PathSolver solver = PathSolver::event_by_event;
+  unsigned int steps_per_millistrain = 100000; ///< of explicit dynamics
 };
 
 /// All that an input file says. A default-constructed value is what an empty file means.

@@ -530,6 +530,12 @@ std::vector<Parameter> make_parameter_table()
                          "there"),
     strain_path.number("Largest step", &R::largest_step, {'(', 0.0, largest_strain, ']'},
                        "of any component of the strain in one increment"),
+    strain_path.choice<PathSolver>(
+      "Solver", &R::solver,
+      {{"event by event", PathSolver::event_by_event}, {"explicit", PathSolver::explicit_dynamics}},
+      "from break to break without a rate, or explicit dynamics as in the laboratory"),
+    strain_path.integer("Steps per millistrain", &R::steps_per_millistrain, {'[', 1.0, 1e8, ']'},
+                        "of explicit dynamics, for 1e-3 of the largest component of the strain"),
 
     equilibrium.number("Event tolerance", &E::event_tolerance, {'[', 1e-12, 0.1, ']'},
                        "largest unbalanced over mean contact force, between breaks"),

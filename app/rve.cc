@@ -9,6 +9,7 @@
 #include "app/rve_results.h"
 #include "app/specimen_source.h"
 #include "app/strain_path.h"
+#include "coupling/explicit_run.h"
 #include "dem/input_error.h"
 #include "report/text_file.h"
 
@@ -72,18 +73,15 @@ std::string describe(const std::string& name, const PathSample<dim>& sample)
   return fmt::format("{}: stress {} MPa, {} cracks", name, stresses, sample.n_tension_cracks + sample.n_shear_cracks);
 }
 
-/// The path of one volume, from its checkpoint if there is one, to its end or to Ctrl-C.
+/// Hears how far a path is and what its last sample was.
 template <int dim>
-FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
-                               const std::filesystem::path& folder,
-                               const std::function<void(const PathRun<dim>&)>& show)
+using Listener = std::function<void(double progress, const PathSample<dim>& sample)>;
+
+/// A path from its checkpoint, if there is one, to its end or to Ctrl-C. `begin` makes the run at the start of its path.
+template <typename Begin, typename Show>
+auto go_path(const Begin& begin, const std::filesystem::path& checkpoint, const std::string& identity, const Show& show)
 {
-  const auto started = Clock::now();
-  const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
-  PathRun<dim> run(network, path_legs<dim>(variant.input.strain_path),
-                   {.largest_step = variant.input.strain_path.largest_step, .equilibrium = variant.input.equilibrium});
-  const auto checkpoint = folder / "checkpoints" / (name + ".h5");
-  const std::string identity = run_identity(variant.input, name);
+  auto run = begin();
   if (std::filesystem::exists(checkpoint))
     try
       {
@@ -92,13 +90,13 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
     catch (const InputError& error)
       {
         fmt::print(stderr, "feldspar: {}; going back to the start of its path\n", error.what());
-        run = PathRun<dim>(network, path_legs<dim>(variant.input.strain_path), run.settings());
+        run = begin();
       }
   auto last_checkpoint = Clock::now();
   while (!run.has_ended() && !interrupted())
     {
       run.advance();
-      show(run);
+      show(run.progress(), run.record().samples.back());
       if (Clock::now() - last_checkpoint > time_between_checkpoints)
         {
           run.write_checkpoint(checkpoint, identity);
@@ -106,8 +104,39 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
         }
     }
   run.write_checkpoint(checkpoint, identity);
-  return {name,    variant.label, specimen.seed,        specimen.report,
-          network, run.record(),  run.volume().state(), seconds_since(started)};
+  return run;
+}
+
+/// The path of one volume by the solver that is wanted.
+template <int dim>
+FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
+                               const std::filesystem::path& folder, const Listener<dim>& show)
+{
+  const auto started = Clock::now();
+  const Input& input = variant.input;
+  const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
+  const auto legs = path_legs<dim>(input.strain_path);
+  const auto checkpoint = folder / "checkpoints" / (name + ".h5");
+  const std::string identity = run_identity(input, name);
+  const auto finish = [&](const auto& run) -> FinishedVolume<dim> {
+    return {name,    variant.label, specimen.seed, specimen.report,
+            network, run.record(),  run.state(),   seconds_since(started)};
+  };
+  if (input.strain_path.solver == PathSolver::explicit_dynamics)
+    return finish(go_path(
+      [&] {
+        return ExplicitRun<dim>(specimen, network, legs,
+                                {.largest_step = input.strain_path.largest_step,
+                                 .steps_per_millistrain = input.strain_path.steps_per_millistrain,
+                                 .dynamics = input.dynamics});
+      },
+      checkpoint, identity, show));
+  return finish(go_path(
+    [&] {
+      return PathRun<dim>(network, legs,
+                          {.largest_step = input.strain_path.largest_step, .equilibrium = input.equilibrium});
+    },
+    checkpoint, identity, show));
 }
 
 template <int dim>
@@ -146,10 +175,10 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   Board board(progress, runs.size());
   for_each_job(runs.size(), [&](const std::size_t k) {
     const auto& [variant, specimen, name] = runs[k];
-    volumes[k] =
-      run_volume<dim>(all_variants[variant], name, specimens[specimen], folder, [&](const PathRun<dim>& run) {
-        board.update(k, run.progress(), describe(name, run.record().samples.back()));
-      });
+    volumes[k] = run_volume<dim>(all_variants[variant], name, specimens[specimen], folder,
+                                 [&](const double progress_of_path, const PathSample<dim>& sample) {
+                                   board.update(k, progress_of_path, describe(name, sample));
+                                 });
   });
   progress.finish(fmt::format("{} volume(s)", volumes.size()));
 

@@ -2,8 +2,7 @@
 // at falling rates: what equal accuracy costs. One thread. The counters are what came out: peak stress [MPa], cracks,
 // boundary work and dissipated energy [J].
 
-#include "coupling/path_run.h"
-#include "dem/dynamics.h"
+#include "coupling/explicit_run.h"
 #include "dem/genesis.h"
 
 #include <benchmark/benchmark.h>
@@ -31,55 +30,43 @@ const Specimen<2>& specimen()
   return made;
 }
 
+std::vector<PathLeg<2>> pull() { return {{strain_control<2>(Voigt<2>(0.0, final_strain, 0.0)), false}}; }
+
+template <typename Run>
+void go(benchmark::State& state, Run&& run)
+{
+  while (!run.has_ended())
+    run.advance();
+  double peak = 0.0;
+  for (const auto& sample : run.record().samples)
+    peak = std::max(peak, sample.stress[1]);
+  const auto& last = run.record().samples.back();
+  state.counters["peak"] = peak / 1e6;
+  state.counters["cracks"] = double(last.n_tension_cracks + last.n_shear_cracks);
+  state.counters["work"] = last.work.boundary;
+  state.counters["dissipated"] = last.work.slip + last.work.released + last.work.settled;
+}
+
+const std::shared_ptr<const Network<2>>& network()
+{
+  static const auto made = std::make_shared<const Network<2>>(specimen());
+  return made;
+}
+
 /// `range`: largest step of the strain, in 1e-6.
 void from_break_to_break(benchmark::State& state)
 {
-  const auto network = std::make_shared<const Network<2>>(specimen());
-  PathParameters parameters;
-  parameters.largest_step = 1e-6 * double(state.range(0));
-  double peak = 0.0;
   for (auto _ : state)
-    {
-      PathRun<2> run(network, {{strain_control<2>(Voigt<2>(0.0, final_strain, 0.0)), false}}, parameters);
-      while (!run.has_ended())
-        run.advance();
-      for (const auto& sample : run.record().samples)
-        peak = std::max(peak, sample.stress[1]);
-      const auto& last = run.record().samples.back();
-      state.counters["cracks"] = double(last.n_tension_cracks + last.n_shear_cracks);
-      state.counters["work"] = last.work.boundary;
-      state.counters["dissipated"] = last.work.slip + last.work.released + last.work.settled;
-    }
-  state.counters["peak"] = peak / 1e6;
+    go(state, PathRun<2>(network(), pull(), {.largest_step = 1e-6 * double(state.range(0))}));
 }
 BENCHMARK(from_break_to_break)->Arg(2)->Arg(10)->Arg(20)->Unit(benchmark::kSecond);
 
 /// `range`: steps per 1e-3 of strain.
 void by_explicit_dynamics(benchmark::State& state)
 {
-  const auto n_per_millistrain = state.range(0);
-  double peak = 0.0;
   for (auto _ : state)
-    {
-      Dynamics<2> dynamics(specimen(), {}, ZeroForce::as_placed);
-      std::size_t n_cracks = dynamics.step().size(); // which finds the time step
-      Tensor<2> rate = Tensor<2>::Zero();
-      rate(1, 1) = 1e-3 / double(n_per_millistrain) / dynamics.time_step();
-      dynamics.deform_cell(rate);
-      const auto n_steps = std::int64_t(final_strain / 1e-3 * double(n_per_millistrain));
-      const auto n_between_looks = std::max(std::int64_t(1), n_steps / 400);
-      for (std::int64_t k = 0; k < n_steps; ++k)
-        {
-          n_cracks += dynamics.step().size();
-          if (k % n_between_looks == 0)
-            peak = std::max(peak, dynamics.mean_stress()(1, 1));
-        }
-      const Energies energies = dynamics.energies();
-      state.counters["cracks"] = double(n_cracks);
-      state.counters["work"] = energies.boundary_work;
-      state.counters["dissipated"] = energies.released + energies.slip + energies.damping;
-    }
-  state.counters["peak"] = peak / 1e6;
+    go(state, ExplicitRun<2>(specimen(), network(), pull(),
+                             {.largest_step = 1e-6, .steps_per_millistrain = std::uint64_t(state.range(0))}));
 }
 BENCHMARK(by_explicit_dynamics)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kSecond);
 } // namespace

@@ -20,22 +20,6 @@ std::array<double, n_voigt<dim>> as_array(const Voigt<dim>& voigt)
   return result;
 }
 
-/// "xx = 1e-4, yy = …", each strain or stress that is given.
-template <int dim>
-std::string describe(const Control<dim>& control)
-{
-  std::string text;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const std::string given =
-        control.stress_given[k]
-          ? fmt::format("stress_{} = {:.6g} MPa", voigt_name<dim>(k), control.stress[k] / 1e6)
-          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), (k < dim ? 1.0 : 0.5) * control.strain[k]);
-      text += (text.empty() ? "" : ", ") + given;
-    }
-  return text;
-}
-
 template <typename Archive>
 void transfer_flag(Archive& archive, const std::string& name, bool& flag)
 {
@@ -65,6 +49,50 @@ void transfer(Archive& archive, NetworkState<dim>& state)
 } // namespace
 
 template <int dim>
+std::string describe(const Control<dim>& control)
+{
+  std::string text;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const std::string given =
+        control.stress_given[k]
+          ? fmt::format("stress_{} = {:.6g} MPa", voigt_name<dim>(k), control.stress[k] / 1e6)
+          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), (k < dim ? 1.0 : 0.5) * control.strain[k]);
+      text += (text.empty() ? "" : ", ") + given;
+    }
+  return text;
+}
+
+template <int dim>
+LegCourse<dim>::LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& from,
+                          const RepresentativeVolume<dim>& volume)
+  : start(leg.target)
+  , target(leg.target)
+{
+  start.strain = from.strain;
+  start.stress = from.stress;
+  if (leg.counts_from_here)
+    target.strain += from.strain;
+  way = volume.intact_strain(target) - volume.intact_strain(start);
+}
+
+template <int dim>
+Control<dim> LegCourse<dim>::at(const double share) const
+{
+  Control<dim> control = target;
+  control.strain = start.strain + share * (target.strain - start.strain);
+  control.stress = start.stress + share * (target.stress - start.stress);
+  return control;
+}
+
+template <int dim>
+std::uint64_t LegCourse<dim>::n_increments(const double largest_step) const
+{
+  // A leg without a way is one increment: it finds the equilibrium.
+  return std::uint64_t(std::max(1.0, std::ceil(size() / largest_step - 1e-9)));
+}
+
+template <int dim>
 double PathSample<dim>::energy_imbalance() const
 {
   const double size = std::abs(work.boundary) + std::abs(stored_energy) + std::abs(work.slip) +
@@ -92,27 +120,8 @@ void PathRun<dim>::begin_leg()
   cuts = 0;
   if (leg == legs.size())
     return;
-  target = legs[leg].target;
-  Control<dim> from = target;
-  from.strain = start.strain;
-  from.stress = start.stress;
-  if (legs[leg].counts_from_here)
-    target.strain += start.strain;
-  const Voigt<dim> way = body.intact_strain(target) - body.intact_strain(from);
-  const double largest = strain_tensor<dim>(way).cwiseAbs().maxCoeff();
-  // A leg without a way is one increment: it finds the equilibrium.
-  const auto n_increments = std::uint64_t(std::max(1.0, std::ceil(largest / parameters.largest_step - 1e-9)));
-  length = n_increments << parameters.most_cuts;
-}
-
-template <int dim>
-Control<dim> PathRun<dim>::control_at(const std::uint64_t place) const
-{
-  const double share = double(place) / double(length);
-  Control<dim> control = target;
-  control.strain = start.strain + share * (target.strain - start.strain);
-  control.stress = start.stress + share * (target.stress - start.stress);
-  return control;
+  course = LegCourse<dim>(legs[leg], start, body);
+  length = course.n_increments(parameters.largest_step) << parameters.most_cuts;
 }
 
 template <int dim>
@@ -244,6 +253,8 @@ void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std:
   });
 }
 
+template struct LegCourse<2>;
+template std::string describe(const Control<2>&);
 template struct PathSample<2>;
 template class PathRun<2>;
 template struct PathSample<3>;

@@ -17,6 +17,30 @@ struct PathLeg
   bool counts_from_here = false; ///< given strains are added to those at which the leg begins
 };
 
+/// A leg from where it begins.
+template <int dim>
+struct LegCourse
+{
+  LegCourse() = default;
+  /// `start`: strain and stress at which it begins; `volume`: whose path it is.
+  LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& start, const RepresentativeVolume<dim>& volume);
+
+  /// What is given where a share of it is behind.
+  Control<dim> at(double share) const;
+  /// Largest change of a component of the intact volume's strain, tensor shear.
+  double size() const { return strain_tensor<dim>(way).cwiseAbs().maxCoeff(); }
+  /// So many that none changes by more than `largest_step` in one.
+  std::uint64_t n_increments(double largest_step) const;
+
+  Control<dim> start;                  ///< what the target gives, where it begins
+  Control<dim> target;                 ///< with strains counted from rest
+  Voigt<dim> way = Voigt<dim>::Zero(); ///< strain from start to target of the intact volume
+};
+
+/// "strain_xx = 1e-4, stress_yy = …", each strain or stress that is given.
+template <int dim>
+std::string describe(const Control<dim>& control);
+
 struct PathParameters
 {
   double largest_step = 1e-5; ///< of any component of the strain, per increment
@@ -81,8 +105,8 @@ public:
   double progress() const;
 
   const PathRecord<dim>& record() const { return path_record; }
-  const PathParameters& settings() const { return parameters; }
   const RepresentativeVolume<dim>& volume() const { return body; }
+  const NetworkState<dim>& state() const { return body.state(); }
 
   /// A state from which read_checkpoint() of the same run goes on to the same bits.
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity) const;
@@ -91,7 +115,7 @@ public:
 
 private:
   void begin_leg();
-  Control<dim> control_at(std::uint64_t place) const;
+  Control<dim> control_at(const std::uint64_t place) const { return course.at(double(place) / double(length)); }
   void add_sample(const NetworkState<dim>& before, double unbalanced_ratio);
   template <typename Archive>
   void transfer(Archive& archive);
@@ -104,7 +128,7 @@ private:
 
   std::uint64_t leg = 0;
   NetworkState<dim> start;    ///< strain and stress at which the leg began
-  Control<dim> target;        ///< of the leg
+  LegCourse<dim> course;      ///< of the leg
   std::uint64_t position = 0; ///< on the leg, in the smallest increments
   std::uint64_t length = 1;   ///< of the leg, in the same
   std::uint32_t cuts = 0;     ///< of the increment

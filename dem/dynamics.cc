@@ -145,6 +145,17 @@ double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 }
 
 template <int dim>
+void Dynamics<dim>::deform_body(const Tensor<dim>& rate)
+{
+  const Tensor<dim> change = rate - cell_rate;
+  const Vector<dim> middle = 0.5 * cell.rowwise().sum();
+  if (!change.isZero(0.0))
+    for (std::uint32_t i = 0; i < n_own; ++i)
+      push(i, change * (at<dim>(body.grains.position, i) - middle));
+  deform_cell(rate);
+}
+
+template <int dim>
 void Dynamics<dim>::apply_forces(const Components<dim>& forces)
 {
   for (int c = 0; c < dim; ++c)
@@ -773,7 +784,7 @@ void Dynamics<dim>::add_boundary_work(const double step, const double share)
   for (std::size_t g = 0; g < grips.size(); ++g)
     boundary_work -= share * step * grip_force(g).dot(grips[g].velocity);
   if (!cell_rate.isZero())
-    boundary_work += share * step * body.volume() * (mean_stress().array() * cell_rate.array()).sum();
+    boundary_work += share * step * body.volume() * (boundary_stress().array() * cell_rate.array()).sum();
 }
 
 template <int dim>
@@ -849,17 +860,35 @@ double Dynamics<dim>::unbalanced_force_ratio() const
         unbalanced += std::sqrt(squared_norm<dim>(body.grains.force, i));
         ++n_free;
       }
-  double carried = 0.0;
+  const double carried = mean_contact_force();
+  return carried > 0.0 && n_free > 0 ? unbalanced / double(n_free) / carried : 0.0;
+}
+
+template <int dim>
+double Dynamics<dim>::largest_unbalanced_force_ratio() const
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n_own; ++i)
+    largest = std::max(largest, squared_norm<dim>(body.grains.force, i));
+  const double carried = mean_contact_force();
+  return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
+}
+
+/// Over the joints and the pairs that touch [N]; 0 without any.
+template <int dim>
+double Dynamics<dim>::mean_contact_force() const
+{
+  double sum = 0.0;
   std::size_t n_contacts = body.joints.size();
   for (std::size_t j = 0; j < body.joints.size(); ++j)
-    carried += std::sqrt(squared_norm<dim>(body.joints.force, j));
+    sum += std::sqrt(squared_norm<dim>(body.joints.force, j));
   for (const auto& touch : touches)
     if (touch.touching)
       {
-        carried += std::hypot(touch.normal_force, flat_joint::magnitude(touch.shear_force));
+        sum += std::hypot(touch.normal_force, flat_joint::magnitude(touch.shear_force));
         ++n_contacts;
       }
-  return carried > 0.0 && n_free > 0 ? (unbalanced / double(n_free)) / (carried / double(n_contacts)) : 0.0;
+  return n_contacts > 0 ? sum / double(n_contacts) : 0.0;
 }
 
 template <int dim>
@@ -881,6 +910,21 @@ Tensor<dim> Dynamics<dim>::mean_stress() const
         const double distance = std::abs(wall_coordinate(wall_list[w], touch.grain) - wall_list[w].position);
         sum -= wall_stiffness(grains.radius[touch.grain]) * touch.overlap * distance * (normal * normal.transpose());
       }
+  return sum / body.volume();
+}
+
+template <int dim>
+Tensor<dim> Dynamics<dim>::boundary_stress() const
+{
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  const auto add = [&](const Vector<dim>& force, const std::uint32_t two) {
+    if (two >= n_own)
+      sum -= force * shift(images[two - n_own], cell).transpose();
+  };
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    add(at<dim>(body.joints.force, j), body.joints.grain_2[j]);
+  for (const auto& touch : touches)
+    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_2);
   return sum / body.volume();
 }
 
@@ -925,6 +969,24 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("position_at_search", position_at_search);
   all_of("position_at_start", position_at_start);
   archive.array("damping_work", damping_work);
+
+  // Of a periodic body.
+  archive.bytes("images", images);
+  for (int c = 0; c < dim; ++c)
+    for (int r = 0; r < dim; ++r)
+      {
+        archive.value(std::string("cell_") + "xyz"[r] + "xyz"[c], cell(r, c));
+        archive.value(std::string("cell_rate_") + "xyz"[r] + "xyz"[c], cell_rate(r, c));
+      }
+  number_of_image.clear();
+  for (std::size_t k = 0; k < images.size(); ++k)
+    number_of_image[images[k]] = std::uint32_t(n_own + k);
+  for (auto* values : {&grains.radius, &grains.mass, &grains.moment_of_inertia})
+    {
+      values->resize(n_own);
+      for (const auto& image : images)
+        values->push_back((*values)[image.owner]);
+    }
 
   auto& joints = body.joints;
   archive.array("grain_1", joints.grain_1);

@@ -58,6 +58,8 @@ public:
   /// Of a periodic body: the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
   /// counts as boundary work.
   void deform_cell(const Tensor<dim>& rate) { cell_rate = rate; }
+  /// The same, and the grains are set off with the motion of the cell about its middle, so that no wave has to tell them.
+  void deform_body(const Tensor<dim>& rate);
 
   /// Adds to the velocity of a grain from outside [m/s]; the energy this gives counts as there from the start.
   void push(std::uint32_t grain, const Vector<dim>& velocity);
@@ -94,8 +96,13 @@ public:
   Energies energies() const;
   /// Mean unbalanced force of the free grains over the mean contact force; 0 without contacts.
   double unbalanced_force_ratio() const;
+  /// The largest over the mean; of a body without grips.
+  double largest_unbalanced_force_ratio() const;
   /// -(1/V) Σ f ⊗ l over all contacts and walls [Pa], tension positive.
   Tensor<dim> mean_stress() const;
+  /// Of a periodic body, the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
+  /// where forces balance.
+  Tensor<dim> boundary_stress() const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
   double force_across(double height) const;
   /// Contacts without a face that press, twice their number over that of grains.
@@ -161,6 +168,7 @@ private:
   auto find_touch(const GrainPair& pair);
   double kinetic_energy(std::uint32_t grain) const;
   double joint_energy(std::size_t joint) const;
+  double mean_contact_force() const;
   void remove_torn_faces();
   void find_contacts();
   void choose_time_step();

@@ -14,10 +14,13 @@ studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
+  rve-beishan/{tension,break-rules,explicit-tension,triaxial-20}
 )
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)
-  "$feldspar" lab "$study.prm" --output "$run" --force
+  command=lab
+  [[ $study == rve-* ]] && command=rve
+  "$feldspar" "$command" "$study.prm" --output "$run" --force || (($? == 2)) # a path that ended early is a result too
   cp "$run/summary.json" "$(dirname "$study")/results/$(basename "$study").json"
   rm --recursive "$run"
 done

@@ -245,6 +245,104 @@ TEST(Rve, TakesSpecimensOfItsKindOnly)
     }
 }
 
+/// Some fifty grains pulled apart with their sides free.
+std::string pulled(const std::string& more)
+{
+  return small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set Size = 2e-4\n" + more + "end\n";
+}
+const std::string by_dynamics = "  set Solver = explicit\n  set Steps per millistrain = 100000\n";
+
+TEST(Rve, GoesItsPathByExplicitDynamicsToo)
+{
+  const TemporaryFolder folder;
+  folder.write("events.prm", pulled("  set Solver = event by event\n"));
+  folder.write("explicit.prm", pulled(by_dynamics));
+  ASSERT_EQ(run_feldspar(folder.path(), "rve events.prm --output events").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "rve explicit.prm --output explicit").exit_code, 0);
+  for (const char* file : {"summary.json", "cracks.csv", "log.txt", "specimen.h5", "curves/rve.csv"})
+    EXPECT_GT(fs::file_size(folder.path() / "explicit" / file), 50u) << file;
+
+  const auto by_events = read_table(folder.path() / "events/curves/rve.csv");
+  const auto table = read_table(folder.path() / "explicit/curves/rve.csv");
+  const auto peak = [](const auto& of) {
+    return *std::max_element(of.at("stress_yy_Pa").begin(), of.at("stress_yy_Pa").end());
+  };
+  EXPECT_NEAR(peak(table), peak(by_events), 0.05 * peak(by_events)); // what the rate leaves, and samples 1e-5 apart
+  EXPECT_EQ(table.at("strain_yy").size(), 21u);
+  EXPECT_NEAR(table.at("strain_yy").back(), 2e-4, 1e-15);
+  for (std::size_t row = 0; row < table.at("strain_yy").size(); ++row)
+    {
+      EXPECT_LT(std::abs(table.at("stress_xx_Pa")[row]), 0.05 * peak(table)) << row; // also as the crack runs
+      EXPECT_LT(table.at("energy_imbalance")[row], 0.01) << row; // forces jump within a step: as in the laboratory
+    }
+  const auto volume = summary(folder.path() / "explicit")["volumes"][0];
+  const std::string cracks = content(folder.path() / "explicit/cracks.csv");
+  EXPECT_EQ(std::count(cracks.begin(), cracks.end(), '\n') - 1,
+            int(table.at("n_tension_cracks").back() + table.at("n_shear_cracks").back()));
+  EXPECT_GT(volume["at_end"]["crack_area_share"].get<double>(), 0.01);
+  EXPECT_EQ(volume["at_end"]["n_tension_cracks"].get<double>(), table.at("n_tension_cracks").back());
+}
+
+TEST(Rve, GivesTheSameBitsForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  for (const std::string solver : {"  set Solver = event by event\n", by_dynamics.c_str()})
+    {
+      folder.write("cell.prm", pulled(solver) + "subsection Seeds\n  set Seeds = 1, 2\nend\n");
+      for (const char* threads : {"1", "2"})
+        {
+          const auto outcome = run_feldspar(
+            folder.path(), fmt::format("rve cell.prm --output {0} --threads {0} --force --quiet", threads));
+          ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+        }
+      for (const char* file : {"cracks.csv", "curves/rve_seed_1.csv", "curves/rve_seed_2.csv"})
+        EXPECT_EQ(content(folder.path() / "1" / file), content(folder.path() / "2" / file)) << solver << file;
+      EXPECT_GT(content(folder.path() / "1/cracks.csv").size(), 500u) << solver;
+    }
+}
+
+TEST(Rve, InterruptedAndResumedGivesTheBitsOfTheUnbrokenRun)
+{
+  const TemporaryFolder folder;
+  // Increments so small that there are many moments to stop at.
+  for (const std::string& solver :
+       {std::string("  set Largest step = 2e-7\n"),
+        std::string("  set Largest step = 2e-7\n  set Solver = explicit\n  set Steps per millistrain = 400000\n")})
+    {
+      folder.write("cell.prm", pulled(solver));
+      ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output whole --force --quiet").exit_code, 0);
+      fs::remove_all(folder.path() / "broken");
+      const auto is_interrupted = [&] {
+        return content(folder.path() / "broken/run.json").find("false") != std::string::npos;
+      };
+      // Until it is stopped on its path and not while the specimen is made; on a busy machine that may take longer.
+      for (double time = 0.1; !fs::exists(folder.path() / "broken/run.json"); time *= 1.15)
+        run_feldspar(folder.path(), "rve cell.prm --output broken --force --quiet",
+                     fmt::format("timeout --signal=INT {}", time));
+      ASSERT_TRUE(is_interrupted()) << solver;
+      EXPECT_TRUE(fs::exists(folder.path() / "broken/checkpoints/rve.h5"));
+      const auto n_rows_before = read_table(folder.path() / "broken/curves/rve.csv")["strain_yy"].size();
+      ASSERT_EQ(run_feldspar(folder.path(), "rve --resume broken --quiet").exit_code, 0);
+      EXPECT_GT(read_table(folder.path() / "broken/curves/rve.csv")["strain_yy"].size(), n_rows_before);
+      for (const char* file : {"cracks.csv", "curves/rve.csv"})
+        EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "broken" / file)) << solver << file;
+      EXPECT_FALSE(fs::exists(folder.path() / "broken/checkpoints"));
+    }
+}
+
+TEST(Rve, SaysWhenExplicitDynamicsCannotHoldAStress)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + "subsection Strain path\n  set File = path.csv\n" + by_dynamics + "end\n");
+  folder.write("path.csv", "stress_xx_Pa,stress_yy_Pa,stress_xy_Pa\n0,40e6,0\n");
+  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.error.find("feldspar: rve: the given stress could not be held at stress_xx = 0 MPa, stress_yy = "),
+            0u)
+    << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+}
+
 TEST(Rve, PulledBeyondItsStrengthByStressSaysSoAndKeepsWhatWasBefore)
 {
   const TemporaryFolder folder;
