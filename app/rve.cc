@@ -9,6 +9,7 @@
 #include "app/rve_results.h"
 #include "app/specimen_source.h"
 #include "app/strain_path.h"
+#include "coupling/volume_file.h"
 #include "dem/input_error.h"
 #include "report/text_file.h"
 
@@ -80,8 +81,15 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
 {
   const auto started = Clock::now();
   const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
-  PathRun<dim> run(network, path_legs<dim>(variant.input.strain_path),
-                   {.largest_step = variant.input.strain_path.largest_step, .equilibrium = variant.input.equilibrium});
+  std::optional<NetworkState<dim>> begin; // a volume out of a sample goes on from where it stands there
+  if (const std::string& file = variant.input.specimen.specimen_file; !file.empty())
+    begin = read_volume_state(file, *network);
+  const auto from_the_start = [&] {
+    return PathRun<dim>(
+      network, path_legs<dim>(variant.input.strain_path),
+      {.largest_step = variant.input.strain_path.largest_step, .equilibrium = variant.input.equilibrium}, begin);
+  };
+  PathRun<dim> run = from_the_start();
   const auto checkpoint = folder / "checkpoints" / (name + ".h5");
   const std::string identity = run_identity(variant.input, name);
   if (std::filesystem::exists(checkpoint))
@@ -92,7 +100,7 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
     catch (const InputError& error)
       {
         fmt::print(stderr, "feldspar: {}; going back to the start of its path\n", error.what());
-        run = PathRun<dim>(network, path_legs<dim>(variant.input.strain_path), run.settings());
+        run = from_the_start();
       }
   auto last_checkpoint = Clock::now();
   while (!run.has_ended() && !interrupted())

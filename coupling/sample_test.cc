@@ -1,6 +1,8 @@
 #include "coupling/sample_test.h"
 
 #include "coupling/grain_material.h"
+#include "coupling/state_archive.h"
+#include "dem/hdf5_archive.h"
 #include "dem/input_error.h"
 #include "dem/stop_rule.h"
 #include "fem/advance.h"
@@ -11,6 +13,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace feldspar
@@ -29,7 +32,6 @@ struct SampleTest::Parts
   TestRecord record;
   bool seated = false;
   bool ended = false;
-  std::string reason;
   double height_at_seating = 0.0; ///< displacement of the top [m]
   double width_at_seating = 0.0;  ///< widening [m]
   std::uint64_t n_tension = 0;
@@ -61,6 +63,67 @@ struct SampleTest::Parts
         watch(standing);
     };
     return parameters;
+  }
+
+  /// After Archive::reads `fields_written` tells of what lies in the folder of the fields.
+  template <typename Archive>
+  void transfer(Archive& archive, std::string& fields_written)
+  {
+    transfer_flag(archive, "seated", seated);
+    transfer_flag(archive, "ended", ended);
+    archive.value("height_at_seating_m", height_at_seating);
+    archive.value("width_at_seating_m", width_at_seating);
+    archive.value("n_tension", n_tension);
+    archive.value("n_shear", n_shear);
+    archive.value("steps", record.steps);
+    archive.value("wall_time", record.wall_time);
+    archive.text("ended_early", record.ended_early);
+    archive.bytes("curve", record.curve);
+    archive.bytes("cracks", record.cracks);
+    archive.value("peak_deviator", stop_rule.peak.highest);
+    transfer_flag(archive, "fallen", stop_rule.peak.fallen);
+    archive.value("strain_at_peak", stop_rule.strain_at_peak);
+    archive.text("fields_written", fields_written);
+
+    fem::StoredSolid stored;
+    if constexpr (!Archive::reads)
+      stored = solid.stored();
+    archive.array("displacement_m", stored.displacement);
+    archive.array("internal_force_N", stored.internal_force);
+    archive.array("external_force_N", stored.external_force);
+    archive.array("strains", stored.strains);
+    archive.array("answers_Pa", stored.answers);
+    for (const char* const boundary : {"left", "right", "bottom", "top"})
+      archive.value(std::string("pressure_") + boundary + "_Pa", stored.pressures[boundary]);
+    std::vector<std::uint64_t> sizes;
+    std::vector<std::uint8_t> points;
+    for (const std::string& bytes : stored.points)
+      {
+        sizes.push_back(bytes.size());
+        points.insert(points.end(), bytes.begin(), bytes.end());
+      }
+    archive.array("point_sizes", sizes);
+    archive.array("points", points);
+    if constexpr (Archive::reads)
+      {
+        std::size_t begin = 0;
+        for (const std::uint64_t size : sizes)
+          {
+            if (size > points.size() - begin)
+              throw InputError("points are missing");
+            stored.points.emplace_back(points.begin() + std::ptrdiff_t(begin),
+                                       points.begin() + std::ptrdiff_t(begin + size));
+            begin += size;
+          }
+        try
+          {
+            solid.restore(stored);
+          }
+        catch (const std::invalid_argument& error)
+          {
+            throw InputError(error.what());
+          }
+      }
   }
 
   const GrainPoint<2>& point(const std::size_t i) const
@@ -192,6 +255,8 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
                                   segments_a_volume);
   TestRecord& record = parts->record;
   record.kind = test.kind;
+  record.body = TestBody::finite_elements;
+  record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
   record.confining_pressure = test.confining_pressure;
   record.seed = seed;
   record.size = {sample.width, sample.height, 0.0};
@@ -222,8 +287,8 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
         throw InputError(fmt::format("Tests/Confinements: the sample finds no equilibrium under {:g} MPa: {}",
                                      parts->test.confining_pressure / 1e6, failure.what()));
       parts->ended = true;
-      parts->reason = fmt::format("no equilibrium was found beyond an axial strain of {:.4g} %: {}",
-                                  100.0 * std::abs(parts->axial_strain()), failure.what());
+      record.ended_early = fmt::format("no equilibrium was found beyond an axial strain of {:.4g} %: {}",
+                                       100.0 * std::abs(parts->axial_strain()), failure.what());
     }
   parts->watch = nullptr;
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
@@ -231,7 +296,6 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
 }
 
 bool SampleTest::has_ended() const { return parts->ended; }
-const std::string& SampleTest::ended_because() const { return parts->reason; }
 const CurveSample& SampleTest::last_row() const { return parts->record.curve.back(); }
 SampleStanding SampleTest::standing() const { return parts->standing; }
 
@@ -242,10 +306,55 @@ void SampleTest::write_fields(const std::filesystem::path& folder, const std::st
   parts->fields->write(parts->solid, double(parts->record.curve.size()));
 }
 
+SampleVolume SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
+{
+  const std::size_t n = parts->solid.n_points_per_cell();
+  if (point >= n || cell >= parts->standing.n_points / n)
+    throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
+                                 cell, parts->standing.n_points / n - 1, n - 1));
+  const std::size_t number = n * cell + point;
+  const GrainPoint<2>& at = parts->point(number);
+  const auto& position = parts->solid.places()[number].position;
+  return {number, Vector<2>(position[0], position[1]), at.orientation(), &at.volume().network(), at.volume().state()};
+}
+
+std::size_t SampleTest::n_fields_written() const { return parts->fields ? parts->fields->n_written() : 0; }
+
 TestRecord SampleTest::finish(const bool interrupted) const
 {
   TestRecord record = parts->record;
   record.interrupted = interrupted;
+  const std::uint64_t last = record.curve.empty() ? 0 : record.curve.back().step;
+  if (interrupted) // perhaps within a row
+    {
+      record.steps = last;
+      std::erase_if(record.cracks, [=](const Crack& crack) { return crack.step > last; });
+    }
   return record;
+}
+
+void SampleTest::write_state(const std::filesystem::path& file, const std::string& identity) const
+{
+  write_hdf5(file, [&](Hdf5Writer& root) {
+    std::string of_test = identity;
+    root.text("identity", of_test);
+    std::string fields_written = parts->fields ? parts->fields->stored() : "";
+    parts->transfer(root, fields_written);
+  });
+}
+
+void SampleTest::read_state(const std::filesystem::path& file, const std::string& identity,
+                            const std::filesystem::path& folder, const std::string& name)
+{
+  read_hdf5(file, "a state of `feldspar multiscale`", [&](Hdf5Reader& root) {
+    std::string of_test;
+    root.text("identity", of_test);
+    if (of_test != identity)
+      throw InputError("of another test, input or version of this program");
+    std::string fields_written;
+    parts->transfer(root, fields_written);
+    if (!fields_written.empty())
+      parts->fields.emplace(folder, name).restore(fields_written);
+  });
 }
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/network.h"
+#include "coupling/network_state.h"
 #include "coupling/parameters.h"
 #include "coupling/sample_parameters.h"
 #include "dem/lab_results.h"
@@ -25,6 +26,16 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
+/// The volume at one point of a sample.
+struct SampleVolume
+{
+  std::uint64_t number;      ///< of the point, as cracks name it
+  Vector<2> position;        ///< [m]
+  Tensor<2> orientation;     ///< turns the axes of the volume into those of the sample
+  const Network<2>* network; ///< of the realisation that was dealt to it
+  NetworkState<2> state;
+};
+
 /// A laboratory test on a plane sample of finite elements with a representative volume at every point; docs/theory.md
 /// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
@@ -40,19 +51,31 @@ public:
   SampleTest(SampleTest&&) noexcept;
 
   /// Seats the sample at the first call, then loads it to the next row of the curve. False once the stop rule has ended
-  /// the test, or no equilibrium could be found: then ended_because() tells. `watch` is called after every iteration
+  /// the test, or no equilibrium could be found: then the record tells. `watch` is called after every iteration
   /// and may throw to leave the test as it was at the last row.
   bool advance(const std::function<void(const SampleStanding&)>& watch);
 
   bool has_ended() const;
-  const std::string& ended_because() const; ///< empty where the stop rule ended it
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
+  /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point.
+  SampleVolume volume_at(unsigned int cell, unsigned int point) const;
+
   /// Adds the present fields to a time series for ParaView.
   void write_fields(const std::filesystem::path& folder, const std::string& name);
+  std::size_t n_fields_written() const;
 
+  /// The test up to its last row.
   TestRecord finish(bool interrupted) const;
+
+  /// The whole state at the last row, so that a test read back runs on to the same bits. `identity` tells whose state it
+  /// is. Not between two rows: where `watch` left a row the last state written is that of the row before.
+  void write_state(const std::filesystem::path& file, const std::string& identity) const;
+  /// `folder` and `name` of the fields that were written. Throws InputError where the file is missing, torn, foreign or
+  /// of another identity; the test is then unusable.
+  void read_state(const std::filesystem::path& file, const std::string& identity, const std::filesystem::path& folder,
+                  const std::string& name);
 
 private:
   struct Parts; ///< deal.II's headers stay out of who includes this one

@@ -276,6 +276,10 @@ PageSection verdict_section(const Findings& findings)
       else
         {
           const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
+          if (findings.all[n].kind == SeriesKind::finite_elements)
+            block.paragraphs.push_back(
+              "Made on samples of finite elements, whose points the material stands at, and evaluated as tests on "
+              "specimens of grains are.");
           block.headline = answer.headline;
           block.points = answer.points;
           if (block.warnings.empty())
@@ -534,8 +538,9 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             picture.name += of_series(findings, n);
       if (maps.empty())
         block.paragraphs.push_back(
-          "No crack map: the positions of the grains, or a test with a peak, are missing in this "
-          "result folder.");
+          series.kind == SeriesKind::finite_elements
+            ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
+            : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
       block.pictures = book.keep(std::move(maps));
       append(block.pictures, book.keep(rose_picture(series)));
       append(block.pictures, book.keep(std::move(fragments)));
@@ -629,6 +634,9 @@ PageSection trust_section(const Findings& findings)
         checks.rows.push_back({check.measure, check.bound, check.mean, check.worst,
                                check.n_out == 0 ? fmt::format("✓ all {}", check.n_tests)
                                                 : fmt::format("✗ {} of {} out", check.n_out, check.n_tests)});
+      if (series.kind == SeriesKind::finite_elements)
+        block.paragraphs.push_back("Each row of a curve is an equilibrium, found without time: there is no kinetic "
+                                   "energy, no wave and no servo to be checked.");
       block.tables.push_back(checks);
       Table specimens = specimen_table(series);
       specimens.name += of_series(findings, n);
