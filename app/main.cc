@@ -112,7 +112,8 @@ private:
   void add_report()
   {
     CLI::App& command = *app.add_subcommand("report", "(re)make the comparison report from result folders");
-    command.add_option("RESULTS", report.result_folders, "folders of `feldspar lab`; each is a series of its own");
+    command.add_option("RESULTS", report.result_folders,
+                       "folders of `feldspar lab` and `multiscale`; each is a series of its own");
     command.add_option("--curve", report.curves, "a stress-strain curve measured in a laboratory; may be repeated")
       ->type_name("CSV")
       ->allow_extra_args(false);

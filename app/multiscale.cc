@@ -36,8 +36,9 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
 {
   std::string text;
   for (const Rock& rock : rocks)
-    text += fmt::format("The first of {} volumes of seed {}\n{}\n", rock.realisations.size(), rock.seed,
-                        describe(rock.specimens.front().report));
+    if (!rock.specimens.empty())
+      text += fmt::format("The first of {} volumes of seed {}\n{}\n", rock.realisations.size(), rock.seed,
+                          describe(rock.specimens.front().report));
   std::optional<Reference> reference;
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file);
@@ -58,9 +59,10 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
 std::vector<std::string> check(const Input& input, const std::filesystem::path& file)
 {
   const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
-  if (input.specimen.dimension != 2)
+  const bool has_grains = input.sample.material == SampleMaterial::grains;
+  if (has_grains && input.specimen.dimension != 2)
     refuse("Specimen/Dimension = 3: the plane sample takes volumes in the plane; set Dimension = 2");
-  if (input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
+  if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
@@ -70,17 +72,37 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
-  // physics.md §7: elements larger than the volume would have to dissipate more than it holds.
+  if (!has_grains && !input.tests.stop_strain)
+    refuse("Tests/Stop strain = none: without grains the sample does not soften, so a test would not end; give the "
+           "strain at which it is to stop");
+  if (input.continuum.dilation_angle > input.continuum.friction_angle)
+    refuse("Continuum/Dilation angle: must be at most Continuum/Friction angle");
+  SampleSize size{};
+  try
+    {
+      size = measure(input.sample);
+    }
+  catch (const InputError& error)
+    {
+      refuse(error.what());
+    }
+
+  // Elements larger than the volume would have to dissipate more than it holds; docs/theory.md §11.
+  if (!has_grains || !input.specimen.specimen_file.empty())
+    return {};
   const double volume = std::sqrt(input.specimen.width * input.specimen.height);
+  if (size.largest_element <= volume * (1.0 + 1e-9))
+    return {};
   const SampleParameters& sample = input.sample;
-  const double element =
-    std::sqrt(sample.width * sample.height / (sample.elements_across * sample.elements_along)) / sample.order;
-  if (element > volume * (1.0 + 1e-9))
-    return {fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for them; take at "
-                        "least Elements across = {}, Elements along = {}",
-                        1e3 * element, 1e3 * volume, unsigned(std::ceil(sample.width / (volume * sample.order))),
-                        unsigned(std::ceil(sample.height / (volume * sample.order))))};
-  return {};
+  const std::string larger =
+    fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for "
+                "them",
+                1e3 * size.largest_element, 1e3 * volume);
+  if (!sample.mesh_file.empty())
+    return {fmt::format("{}; mesh with elements of at most {:.1f} mm", larger, 1e3 * volume * sample.order)};
+  return {fmt::format("{}; take at least Elements across = {}, Elements along = {}", larger,
+                      unsigned(std::ceil(size.width / (volume * sample.order))),
+                      unsigned(std::ceil(size.height / (volume * sample.order))))};
 }
 
 void say_how_to_resume(const std::filesystem::path& folder)
@@ -99,7 +121,15 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   const auto rocks = make_rocks(input, input_file, folder, progress);
 
   // Break it.
-  const auto planned = plan(input, rocks);
+  std::vector<PlannedSample> planned;
+  try
+    {
+      planned = plan(input, rocks);
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
+    }
   std::filesystem::create_directories(folder / "fields");
   std::vector<FinishedTest> tests;
   progress.start("tests");
@@ -118,6 +148,12 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
       }));
     }
   progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+
+  const auto failed =
+    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  if (failed != tests.end() &&
+      std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
+    throw InputError(fmt::format("{}: {}", input_file.string(), failed->record.failure));
 
   // Report.
   write_result_folder(provenance(input, input_file), tests, folder);
@@ -138,7 +174,10 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
       return exit_code::interrupted;
     }
   mark_complete(folder);
-  return 0;
+  if (failed == tests.end())
+    return 0;
+  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  return exit_code::user_error;
 }
 } // namespace
 

@@ -5,8 +5,10 @@
 #include "app/specimen_source.h"
 #include "dem/input_error.h"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -27,6 +29,8 @@ std::vector<std::uint64_t> packing_seeds(const Input& input)
 
 SampleTest from_the_start(const PlannedSample& planned, const Input& input)
 {
+  if (input.sample.material != SampleMaterial::grains)
+    return {planned.test, input.sample, input.tests, input.continuum};
   return {planned.test,
           input.sample,
           input.tests,
@@ -68,6 +72,8 @@ private:
 std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
                              const std::filesystem::path& folder, Progress& progress)
 {
+  if (input.sample.material != SampleMaterial::grains)
+    return {{input.seeds.front(), {}, {}}}; // no seed makes a difference
   Input of_packings = input;
   of_packings.seeds = packing_seeds(input);
   const std::vector<Variant> one{{"", of_packings}};
@@ -90,8 +96,28 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
   return rocks;
 }
 
+namespace
+{
+/// Geometrically linear volumes bear any pressure: beyond small strains that means nothing.
+void check_confinement(const double pressure, const Network<2>& network)
+{
+  constexpr double largest = 0.01;
+  const Voigt<2> strain = network.intact_stiffness().partialPivLu().solve(Voigt<2>(-pressure, -pressure, 0.0));
+  if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
+    throw InputError(
+      fmt::format("Tests/Confinements: {:g} MPa would strain the intact volume by {:.2g} %; small strains end "
+                  "at {:g} %, which is {:.0f} MPa",
+                  pressure / 1e6, 100.0 * size, 100.0 * largest, pressure * largest / size / 1e6));
+}
+} // namespace
+
 std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks)
 {
+  for (const Rock& rock : rocks)
+    for (const double pressure : input.confinements)
+      if (!rock.realisations.empty() &&
+          std::count(input.test_list.begin(), input.test_list.end(), TestKind::triaxial_compression) > 0)
+        check_confinement(pressure, *rock.realisations.front());
   std::vector<PlannedSample> planned;
   for (const Rock& rock : rocks)
     {
@@ -147,6 +173,7 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
         fmt::format(", {} iterations and {} cascades in this step", standing.n_newton_iterations, standing.n_cascades));
   };
   bool was_interrupted = false;
+  std::string failure;
   try
     {
       while (!test.has_ended())
@@ -167,8 +194,13 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
     {
       was_interrupted = true;
     }
+  catch (const InputError& error) // a confinement it cannot bear; other tests may
+    {
+      failure = error.what();
+    }
   FinishedTest finished;
   finished.record = test.finish(was_interrupted);
+  finished.record.failure = failure;
   finished.group = planned.group;
   finished.name = planned.name;
   finished.results = evaluate(finished.record);

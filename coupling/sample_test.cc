@@ -6,11 +6,17 @@
 #include "dem/input_error.h"
 #include "dem/stop_rule.h"
 #include "fem/advance.h"
+#include "fem/linear_elasticity.h"
+#include "fem/mohr_coulomb.h"
 #include "fem/output.h"
+#include "fem/plane_strain.h"
 #include "fem/platen_test.h"
+
+#include <deal.II/grid/grid_tools.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -18,12 +24,54 @@
 
 namespace feldspar
 {
+namespace
+{
+fem::SampleMesh<2> mesh_of(const SampleParameters& sample)
+{
+  if (sample.mesh_file.empty())
+    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height,
+                             {sample.elements_across, sample.elements_along}, 0);
+  try
+    {
+      fem::SampleMesh<2> mesh = fem::read_gmsh<2>(MPI_COMM_WORLD, sample.mesh_file, 0);
+      for (const char* const boundary : {"left", "right", "bottom", "top"})
+        mesh.boundary(boundary);
+      return mesh;
+    }
+  catch (const fem::MeshError& error)
+    {
+      throw InputError(fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
+    }
+}
+
+SampleSize size_of(const fem::SampleMesh<2>& mesh, const unsigned int order)
+{
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  double largest = 0.0;
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    largest = std::max(largest, std::sqrt(cell->measure()) / order);
+  return {box.side_length(0), box.side_length(1), largest};
+}
+
+fem::Material<2> material_of(const SampleMaterial material, const ContinuumParameters& of)
+{
+  // Plane strain that shows the modulus and the ratio asked for.
+  const auto [E, nu] = fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio});
+  if (material == SampleMaterial::linear_elasticity)
+    return fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu));
+  return fem::plane_strain(fem::mohr_coulomb({E, nu, of.cohesion, of.friction_angle, of.dilation_angle}));
+}
+} // namespace
+
+SampleSize measure(const SampleParameters& sample) { return size_of(mesh_of(sample), sample.order); }
+
 struct SampleTest::Parts
 {
   TestCase test;
   SampleParameters sample;
   TestParameters wanted;
   fem::SampleMesh<2> mesh;
+  SampleSize size;
   SampleStanding standing;
   std::function<void(const SampleStanding&)> watch;
   fem::Solid<2> solid;
@@ -42,13 +90,21 @@ struct SampleTest::Parts
     : test(which)
     , sample(of)
     , wanted(parameters)
-    , mesh(fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height,
-                             {sample.elements_across, sample.elements_along}, 0))
+    , mesh(mesh_of(sample))
+    , size(size_of(mesh, sample.order))
     , solid(mesh, set_up(), material)
     , stop_rule(test.kind)
   {
+    if (test.kind == TestKind::brazilian)
+      throw InputError("Tests/List: brazilian: a multiscale sample is a rectangle; it makes direct_tension, "
+                       "uniaxial_compression and triaxial_compression");
     standing.n_points = solid.material_points().size();
     standing.n_segments = standing.n_points * segments_a_volume;
+    record.kind = test.kind;
+    record.body = TestBody::finite_elements;
+    record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
+    record.confining_pressure = test.confining_pressure;
+    record.size = {size.width, size.height, 0.0};
   }
 
   fem::SolidParameters set_up()
@@ -107,13 +163,13 @@ struct SampleTest::Parts
     if constexpr (Archive::reads)
       {
         std::size_t begin = 0;
-        for (const std::uint64_t size : sizes)
+        for (const std::uint64_t n : sizes)
           {
-            if (size > points.size() - begin)
+            if (n > points.size() - begin)
               throw InputError("points are missing");
             stored.points.emplace_back(points.begin() + std::ptrdiff_t(begin),
-                                       points.begin() + std::ptrdiff_t(begin + size));
-            begin += size;
+                                       points.begin() + std::ptrdiff_t(begin + n));
+            begin += n;
           }
         try
           {
@@ -126,6 +182,9 @@ struct SampleTest::Parts
       }
   }
 
+  bool has_grains() const { return sample.material == SampleMaterial::grains; }
+
+  /// Where there are grains.
   const GrainPoint<2>& point(const std::size_t i) const
   {
     return static_cast<const GrainPoint<2>&>(solid.material_points()[i]);
@@ -174,7 +233,7 @@ struct SampleTest::Parts
       }
   }
 
-  void load_to(const double strain) { go(platens().pressing(height_at_seating + strain * sample.height)); }
+  void load_to(const double strain) { go(platens().pressing(height_at_seating + strain * size.height)); }
 
   fem::PlatenTest<2> platens() const
   {
@@ -184,12 +243,14 @@ struct SampleTest::Parts
     return set_up;
   }
 
-  double axial_strain() const { return (solid.mean_displacement("top", 1) - height_at_seating) / sample.height; }
+  double axial_strain() const { return (solid.mean_displacement("top", 1) - height_at_seating) / size.height; }
 
   /// After each accepted step.
   void gather_cracks()
   {
     ++record.steps;
+    if (!has_grains())
+      return;
     for (std::size_t i = 0; i < standing.n_points; ++i)
       for (const PointCrack<2>& broken : point(i).cracks_of_last_step())
         {
@@ -212,17 +273,23 @@ struct SampleTest::Parts
     CurveSample row;
     row.step = record.steps;
     row.axial_strain = axial_strain();
-    row.axial_stress = record.curve.empty() ? -test.confining_pressure : solid.reaction("top", 1) / sample.width;
+    row.axial_stress = record.curve.empty() ? -test.confining_pressure : solid.reaction("top", 1) / size.width;
     row.end_stress_difference =
-      record.curve.empty() ? 0.0 : (solid.reaction("top", 1) + solid.reaction("bottom", 1)) / sample.width;
+      record.curve.empty() ? 0.0 : (solid.reaction("top", 1) + solid.reaction("bottom", 1)) / size.width;
     row.lateral_stress = -test.confining_pressure;
     row.mid_stress = solid.mean_stress()[1];
     row.gauge_axial_strain = row.axial_strain;
-    row.gauge_lateral_strain = (widening() - width_at_seating) / sample.width;
+    row.gauge_lateral_strain = (widening() - width_at_seating) / size.width;
     row.gauge_volumetric_strain = row.gauge_axial_strain + row.gauge_lateral_strain;
     row.n_tension_cracks = n_tension;
     row.n_shear_cracks = n_shear;
     standing.n_damaged_points = 0;
+    if (!has_grains())
+      {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        row.energies = {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+        return row;
+      }
     for (std::size_t i = 0; i < standing.n_points; ++i)
       {
         const double volume = solid.volumes()[i];
@@ -243,9 +310,6 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
                        std::vector<std::shared_ptr<const Network<2>>> realisations, const SpecimenReport& of_volumes,
                        const std::uint64_t seed)
 {
-  if (test.kind == TestKind::brazilian)
-    throw InputError("Tests/List: brazilian: a multiscale sample is a rectangle; it makes direct_tension, "
-                     "uniaxial_compression and triaxial_compression");
   const std::uint64_t segments_a_volume = realisations.front()->n_segments();
   GrainMaterialParameters material;
   material.seed = seed;
@@ -253,16 +317,15 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
   material.equilibrium = equilibrium;
   parts = std::make_unique<Parts>(test, sample, wanted, grain_material<2>(std::move(realisations), material),
                                   segments_a_volume);
-  TestRecord& record = parts->record;
-  record.kind = test.kind;
-  record.body = TestBody::finite_elements;
-  record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
-  record.confining_pressure = test.confining_pressure;
-  record.seed = seed;
-  record.size = {sample.width, sample.height, 0.0};
-  record.specimen = of_volumes;
+  parts->record.seed = seed;
+  parts->record.specimen = of_volumes;
 }
 
+SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
+                       const ContinuumParameters& continuum)
+  : parts(std::make_unique<Parts>(test, sample, wanted, material_of(sample.material, continuum), 0))
+{
+}
 SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
 
@@ -308,6 +371,8 @@ void SampleTest::write_fields(const std::filesystem::path& folder, const std::st
 
 SampleVolume SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
 {
+  if (!parts->has_grains())
+    throw InputError("Sample/Material: the points of this sample have no grains");
   const std::size_t n = parts->solid.n_points_per_cell();
   if (point >= n || cell >= parts->standing.n_points / n)
     throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,

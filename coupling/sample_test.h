@@ -26,6 +26,18 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
+/// What the mesh of a sample measures.
+struct SampleSize
+{
+  double width;           ///< [m]
+  double height;          ///< [m]
+  double largest_element; ///< √area / order, as PointPlace::element_size [m]
+};
+
+/// Reads or makes the mesh. Throws InputError where it cannot be used: no quadrilaterals, inverted, a boundary of a
+/// laboratory test is missing.
+SampleSize measure(const SampleParameters& sample);
+
 /// The volume at one point of a sample.
 struct SampleVolume
 {
@@ -47,6 +59,9 @@ public:
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<2>>> realisations,
              const SpecimenReport& of_volumes, std::uint64_t seed);
+  /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
+  SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
+             const ContinuumParameters& continuum);
   ~SampleTest();
   SampleTest(SampleTest&&) noexcept;
 
@@ -59,7 +74,8 @@ public:
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
-  /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point.
+  /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
+  /// or no grains.
   SampleVolume volume_at(unsigned int cell, unsigned int point) const;
 
   /// Adds the present fields to a time series for ParaView.

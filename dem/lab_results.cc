@@ -47,11 +47,15 @@ double Energies::unaccounted() const
 
 double Energies::imbalance_over_work() const
 {
+  if (std::isnan(boundary_work))
+    return boundary_work;
   return boundary_work != 0.0 ? std::abs(unaccounted() / boundary_work) : 0.0;
 }
 
 double Energies::imbalance() const
 {
+  if (std::isnan(boundary_work))
+    return boundary_work;
   const double terms = std::abs(boundary_work) + std::abs(kinetic) + std::abs(strain) + std::abs(slip) +
                        std::abs(released) + std::abs(damping) + std::abs(kinetic_at_start);
   return terms > 0.0 ? std::abs(unaccounted()) / terms : 0.0;

@@ -57,7 +57,7 @@ struct PeakWatch
 };
 
 /// Energies since the start of the test, kinetic energy as it is [J]; each integrated on its own, none is the remainder
-/// of the others.
+/// of the others. NaN where they are not known.
 struct Energies
 {
   double boundary_work = 0.0;

@@ -21,12 +21,24 @@ StiffnessMatrix<dim> isotropic_stiffness(const double youngs_modulus, const doub
   return stiffness;
 }
 
+struct ElasticConstants
+{
+  double youngs_modulus; ///< [Pa]
+  double poissons_ratio;
+};
+
+/// With which plane strain answers in the plane as a thin plate, free of stress across it, does with these.
+inline ElasticConstants plane_strain_equal_to_plate(const ElasticConstants& plate)
+{
+  const auto [E, nu] = plate;
+  return {E * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu)};
+}
+
 /// Isotropic stiffness of a thin plate, free of stress across it.
 inline StiffnessMatrix<2> plane_stress_stiffness(const double youngs_modulus, const double poissons_ratio)
 {
-  // Plane strain with E (1 + 2ν)/(1 + ν)² and ν/(1 + ν) is plane stress with E and ν.
-  const double nu = poissons_ratio;
-  return isotropic_stiffness<2>(youngs_modulus * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu));
+  const auto [E, nu] = plane_strain_equal_to_plate({youngs_modulus, poissons_ratio});
+  return isotropic_stiffness<2>(E, nu);
 }
 
 /// σ = C ε.

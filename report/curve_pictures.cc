@@ -31,7 +31,14 @@ struct SeriesGroup
   std::size_t n; ///< of the series
   TestGroup group;
 
-  bool counts_cracks() const { return series->kind != SeriesKind::laboratory_curve; }
+  /// And energies.
+  bool counts_cracks() const
+  {
+    return series->kind != SeriesKind::laboratory_curve &&
+           std::none_of(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
+             return !test->record.curve.empty() && std::isnan(test->record.curve.back().energies.boundary_work);
+           });
+  }
 };
 
 using SameTests = std::vector<SeriesGroup>;

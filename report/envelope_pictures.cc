@@ -262,7 +262,7 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
     plotted.add_points(all[n], n);
   if (reference)
     plotted.add_reference(*reference);
-  if (plotted.empty())
+  if (!(plotted.highest_1 > 0.0)) // tension alone
     return {};
   for (std::size_t n = 0; n < all.size(); ++n)
     for (const auto& pair : envelopes[n].hoek_brown)

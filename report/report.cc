@@ -259,6 +259,18 @@ Table measured_table(const Findings& findings, const std::size_t which)
   return table;
 }
 
+/// What the input says of it.
+std::string material_at_points(const Provenance& made_by)
+{
+  const auto found = std::find_if(made_by.input.begin(), made_by.input.end(), [](const InputEntry& one) {
+    return one.section == "Sample" && one.entry == "Material";
+  });
+  if (found == made_by.input.end())
+    return "";
+  return found->value == "grains" ? " with a volume of grains at every point"
+                                  : " of " + found->value + ", without grains";
+}
+
 PageSection verdict_section(const Findings& findings)
 {
   PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
@@ -278,8 +290,8 @@ PageSection verdict_section(const Findings& findings)
           const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
           if (findings.all[n].kind == SeriesKind::finite_elements)
             block.paragraphs.push_back(
-              "Made on samples of finite elements, whose points the material stands at, and evaluated as tests on "
-              "specimens of grains are.");
+              fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
+                          material_at_points(findings.all[n].made_by)));
           block.headline = answer.headline;
           block.points = answer.points;
           if (block.warnings.empty())
@@ -638,9 +650,13 @@ PageSection trust_section(const Findings& findings)
         block.paragraphs.push_back("Each row of a curve is an equilibrium, found without time: there is no kinetic "
                                    "energy, no wave and no servo to be checked.");
       block.tables.push_back(checks);
-      Table specimens = specimen_table(series);
-      specimens.name += of_series(findings, n);
-      block.tables.push_back(specimens);
+      if (std::any_of(series.tests.begin(), series.tests.end(),
+                      [](const FinishedTest& test) { return test.record.specimen.n_grains > 0; }))
+        {
+          Table specimens = specimen_table(series);
+          specimens.name += of_series(findings, n);
+          block.tables.push_back(specimens);
+        }
       const auto& made_by = series.made_by;
       block.paragraphs.push_back(fmt::format("Made by feldspar {}{} from {} on {}, {} thread{}.",
                                              made_by.version.empty() ? "of unknown version" : made_by.version,

@@ -40,10 +40,10 @@ ResultEntry of_test(const std::string_view name, T TestRecord::*member, const st
 }
 
 template <typename T>
-ResultEntry of_results(const std::string_view name, T TestResults::*member)
+ResultEntry of_results(const std::string_view name, T TestResults::*member, const std::string& reason_for_nan = "")
 {
   return number(
-    name, [member](auto& test) -> auto& { return test.results.*member; });
+    name, [member](auto& test) -> auto& { return test.results.*member; }, reason_for_nan);
 }
 
 template <typename T>
@@ -56,6 +56,7 @@ ResultEntry of_specimen(const std::string_view name, T SpecimenReport::*member, 
 
 const std::vector<ResultEntry>& result_table()
 {
+  static const std::string without_energies = "its material has no grains whose energies are summed";
   static const std::string without_time = "equilibrium is sought without time";
   static const std::vector<ResultEntry> table{
     of_test("confining_pressure_Pa", &TestRecord::confining_pressure),
@@ -89,8 +90,8 @@ const std::vector<ResultEntry>& result_table()
     of_specimen("mean_overlap_ratio", &SpecimenReport::mean_overlap_ratio),
     of_specimen("resolution", &SpecimenReport::resolution),
     of_specimen("radius_multiplier", &SpecimenReport::radius_multiplier),
-    of_results("energy_imbalance", &TestResults::energy_imbalance),
-    of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work),
+    of_results("energy_imbalance", &TestResults::energy_imbalance, without_energies),
+    of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work, without_energies),
     result("kinetic_to_strain_energy", &TestResults::kinetic_to_strain_energy),
     result("unbalanced_force_ratio", &TestResults::unbalanced_force_ratio),
     result("end_stress_difference", &TestResults::end_stress_difference),

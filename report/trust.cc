@@ -48,7 +48,7 @@ const std::vector<Measure>& measures()
   static const std::vector<Measure> all{
     {"energy imbalance over boundary work", " %", percent, 2, Side::at_most, 1 * percent,
      [](const FinishedTest& test) -> std::optional<double> {
-       if (test.record.steps == 0)
+       if (test.record.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
          return std::nullopt;
        return test.results.energy_imbalance_over_work;
      }},
