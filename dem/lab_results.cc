@@ -29,10 +29,11 @@ std::string name(const TestBody body) { return body == TestBody::grains ? "grain
 bool PeakWatch::is_highest(const double stress)
 {
   constexpr double fall = 0.05;
+  constexpr double round_off = 1e-9; // a plateau peaks where it begins
   const bool brazilian_over = kind == TestKind::brazilian && fallen;
   if (stress < (1.0 - fall) * highest)
     fallen = true;
-  if (stress <= highest || brazilian_over)
+  if (stress <= highest * (1.0 + round_off) || brazilian_over)
     return false;
   highest = stress;
   return true;
