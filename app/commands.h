@@ -20,7 +20,8 @@ inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 struct CommonOptions
 {
   std::filesystem::path input;
-  std::optional<std::filesystem::path> resume; ///< of `lab` and `rve`: the folder of a run to be taken up
+  std::optional<std::filesystem::path> resume; ///< of `lab`, `rve`, `multiscale`: the folder of a run to be taken up
+  std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
   std::optional<std::filesystem::path> output;
   bool force = false;
   bool quiet = false;

@@ -59,6 +59,7 @@ struct Input
   StrainPathParameters strain_path;
   EquilibriumParameters equilibrium;
   SampleParameters sample;
+  ContinuumParameters continuum;
   std::string reference_file; ///< figures of the rock that results are set beside; empty: none
 };
 

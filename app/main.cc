@@ -34,7 +34,8 @@ public:
     app.require_subcommand(0, 1);
     add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, report", run_lab));
     add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
-    add_run("multiscale", "laboratory tests on a mesh with a representative volume at every point", run_multiscale);
+    add_extract(add_resume(
+      add_run("multiscale", "laboratory tests on a mesh with a representative volume at every point", run_multiscale)));
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_report();
@@ -78,7 +79,7 @@ private:
     return command;
   }
 
-  void add_resume(CLI::App& command)
+  CLI::App& add_resume(CLI::App& command)
   {
     CLI::Option* const resume =
       command.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")
@@ -86,6 +87,19 @@ private:
     command.get_option("INPUT")->required(false)->excludes(resume);
     command.get_option("--output")->excludes(resume);
     command.get_option("--force")->excludes(resume);
+    return command;
+  }
+
+  void add_extract(CLI::App& command)
+  {
+    CLI::Option* const extract =
+      command
+        .add_option("--extract", common.extract,
+                    "write the volume at a point for `feldspar rve` and ParaView; INPUT is the folder of a run")
+        ->type_name("CELL:POINT");
+    for (const char* const other : {"--resume", "--output", "--force"})
+      command.get_option(other)->excludes(extract);
+    extract->needs(command.get_option("INPUT"));
   }
 
   void add_threads(CLI::App& command)
@@ -98,7 +112,8 @@ private:
   void add_report()
   {
     CLI::App& command = *app.add_subcommand("report", "(re)make the comparison report from result folders");
-    command.add_option("RESULTS", report.result_folders, "folders of `feldspar lab`; each is a series of its own");
+    command.add_option("RESULTS", report.result_folders,
+                       "folders of `feldspar lab` and `multiscale`; each is a series of its own");
     command.add_option("--curve", report.curves, "a stress-strain curve measured in a laboratory; may be repeated")
       ->type_name("CSV")
       ->allow_extra_args(false);

@@ -1,14 +1,15 @@
 #include "app/commands.h"
 #include "app/input.h"
 #include "app/interrupt.h"
+#include "app/multiscale_run.h"
 #include "app/output_folder.h"
-#include "app/progress.h"
 #include "app/provenance.h"
 #include "app/report_command.h"
 #include "app/run_record.h"
 #include "app/specimen_source.h"
-#include "coupling/sample_test.h"
+#include "app/volume_extract.h"
 #include "dem/input_error.h"
+#include "dem/whole_file.h"
 #include "report/comparison.h"
 #include "report/reference.h"
 #include "report/result_folder.h"
@@ -30,131 +31,14 @@ namespace feldspar
 {
 namespace
 {
-/// The volumes that one seed's samples share.
-struct Rock
-{
-  std::uint64_t seed;
-  std::vector<std::shared_ptr<const Network<2>>> realisations; ///< shared by all points that got one
-  SpecimenReport report;                                       ///< of the first
-};
-
-std::vector<std::uint64_t> packing_seeds(const Input& input)
-{
-  std::vector<std::uint64_t> seeds;
-  for (const std::uint64_t seed : input.seeds)
-    for (std::uint64_t k = 0; k < input.sample.n_realisations; ++k)
-      seeds.push_back(seed * input.sample.n_realisations + k);
-  return seeds;
-}
-
-std::vector<Rock> make_rock(const Input& input, const std::filesystem::path& input_file,
-                            const std::filesystem::path& folder, Progress& progress)
-{
-  Input of_packings = input;
-  of_packings.seeds = packing_seeds(input);
-  const std::vector<Variant> one{{"", of_packings}};
-  const auto orders = specimen_orders(one);
-  std::filesystem::create_directories(folder / "volumes");
-  const auto specimens = provide_specimens<2>(one, orders, folder / "volumes", progress);
-  std::vector<Rock> rocks;
-  for (std::size_t k = 0; k < specimens.size(); ++k)
-    {
-      if (!specimens[k].periodic)
-        throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; the volume at a point "
-                                     "needs a periodic cell (feldspar lab takes walls)",
-                                     input_file.string()));
-      if (k % input.sample.n_realisations == 0)
-        rocks.push_back({input.seeds[rocks.size()], {}, specimens[k].report});
-      rocks.back().realisations.push_back(std::make_shared<const Network<2>>(specimens[k]));
-    }
-  return rocks;
-}
-
-struct PlannedSample
-{
-  TestCase test;
-  const Rock* rock;
-  std::string group;
-  std::string name;
-};
-
-std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks)
-{
-  std::vector<PlannedSample> planned;
-  for (const Rock& rock : rocks)
-    {
-      const auto add = [&](const TestCase& test, const std::string& group) {
-        planned.push_back({test, &rock, group, fmt::format("{}_seed_{}", group, rock.seed)});
-      };
-      for (const TestKind kind : input.test_list)
-        if (kind == TestKind::triaxial_compression)
-          for (const double pressure : input.confinements)
-            add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
-        else
-          add({kind}, name(kind));
-    }
-  return planned;
-}
-
-/// One test from its seating to its end, or to Ctrl-C.
-FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
-                 const std::function<void(const std::string&)>& show, std::vector<std::string>& remarks)
-{
-  SampleTest test(planned.test, input.sample, input.tests, input.equilibrium, planned.rock->realisations,
-                  planned.rock->report, planned.rock->seed);
-  const double sign = laboratory_sign(planned.test.kind);
-  double next_strain_drawn = 0.0;
-  const auto draw = [&](const SampleStanding& standing) {
-    if (interrupted())
-      throw Interrupted();
-    std::string where;
-    if (standing.n_newton_iterations + standing.n_cascades > 0)
-      where =
-        fmt::format(", {} iterations and {} cascades in this step", standing.n_newton_iterations, standing.n_cascades);
-    show(where);
-  };
-  bool was_interrupted = false;
-  try
-    {
-      while (!test.has_ended())
-        {
-          test.advance(draw);
-          const CurveSample& row = test.last_row();
-          const SampleStanding standing = test.standing();
-          show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
-                           100.0 * sign * row.axial_strain, sign * row.axial_stress / 1e6,
-                           row.n_tension_cracks + row.n_shear_cracks,
-                           100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
-          constexpr double strain_between_fields = 2.5e-4;
-          if (sign * row.axial_strain >= next_strain_drawn || test.has_ended())
-            {
-              test.write_fields(folder / "fields", planned.name);
-              next_strain_drawn +=
-                planned.test.kind == TestKind::direct_tension ? 0.1 * strain_between_fields : strain_between_fields;
-            }
-        }
-    }
-  catch (const Interrupted&)
-    {
-      was_interrupted = true;
-    }
-  if (!test.ended_because().empty())
-    remarks.push_back(fmt::format("{}: {}", planned.name, test.ended_because()));
-  FinishedTest finished;
-  finished.record = test.finish(was_interrupted);
-  finished.group = planned.group;
-  finished.name = planned.name;
-  finished.results = evaluate(finished.record);
-  return finished;
-}
-
 std::string describe_run(const Input& input, const std::vector<Rock>& rocks, const std::vector<FinishedTest>& tests,
                          const std::vector<std::string>& remarks)
 {
   std::string text;
   for (const Rock& rock : rocks)
-    text += fmt::format("The first of {} volumes of seed {}\n{}\n", rock.realisations.size(), rock.seed,
-                        describe(rock.report));
+    if (!rock.specimens.empty())
+      text += fmt::format("The first of {} volumes of seed {}\n{}\n", rock.realisations.size(), rock.seed,
+                          describe(rock.specimens.front().report));
   std::optional<Reference> reference;
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file);
@@ -164,6 +48,8 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   for (const auto& test : tests)
     if (!test.results.peak_stress.value)
       text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
+    else if (!test.record.ended_early.empty())
+      text += fmt::format("{}: {}\n", test.name, test.record.ended_early);
   for (const auto& remark : remarks)
     text += remark + "\n";
   return text;
@@ -173,9 +59,10 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
 std::vector<std::string> check(const Input& input, const std::filesystem::path& file)
 {
   const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
-  if (input.specimen.dimension != 2)
+  const bool has_grains = input.sample.material == SampleMaterial::grains;
+  if (has_grains && input.specimen.dimension != 2)
     refuse("Specimen/Dimension = 3: the plane sample takes volumes in the plane; set Dimension = 2");
-  if (input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
+  if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
@@ -185,19 +72,45 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
-  // physics.md §7: elements larger than the volume would have to dissipate more than it holds.
+  if (!has_grains && !input.tests.stop_strain)
+    refuse("Tests/Stop strain = none: without grains the sample does not soften, so a test would not end; give the "
+           "strain at which it is to stop");
+  if (input.continuum.dilation_angle > input.continuum.friction_angle)
+    refuse("Continuum/Dilation angle: must be at most Continuum/Friction angle");
+  SampleSize size{};
+  try
+    {
+      size = measure(input.sample);
+    }
+  catch (const InputError& error)
+    {
+      refuse(error.what());
+    }
+
+  // Elements larger than the volume would have to dissipate more than it holds; docs/theory.md §11.
+  if (!has_grains || !input.specimen.specimen_file.empty())
+    return {};
   const double volume = std::sqrt(input.specimen.width * input.specimen.height);
+  if (size.largest_element <= volume * (1.0 + 1e-9))
+    return {};
   const SampleParameters& sample = input.sample;
-  const double element =
-    std::sqrt(sample.width * sample.height / (sample.elements_across * sample.elements_along)) / sample.order;
-  if (element > volume * (1.0 + 1e-9))
-    return {fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for them; take at "
-                        "least Elements across = {}, Elements along = {}",
-                        1e3 * element, 1e3 * volume, unsigned(std::ceil(sample.width / (volume * sample.order))),
-                        unsigned(std::ceil(sample.height / (volume * sample.order))))};
-  return {};
+  const std::string larger =
+    fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for "
+                "them",
+                1e3 * size.largest_element, 1e3 * volume);
+  if (!sample.mesh_file.empty())
+    return {fmt::format("{}; mesh with elements of at most {:.1f} mm", larger, 1e3 * volume * sample.order)};
+  return {fmt::format("{}; take at least Elements across = {}, Elements along = {}", larger,
+                      unsigned(std::ceil(size.width / (volume * sample.order))),
+                      unsigned(std::ceil(size.height / (volume * sample.order))))};
 }
 
+void say_how_to_resume(const std::filesystem::path& folder)
+{
+  fmt::print(stderr, "feldspar: interrupted; go on with: feldspar multiscale --resume {}\n", folder.string());
+}
+
+/// Volumes, tests and report of a run in its folder, from wherever it stands.
 int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
            const bool quiet, std::vector<std::string> remarks)
 {
@@ -205,10 +118,18 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   watch_for_interrupt();
 
   // Make the rock.
-  const auto rocks = make_rock(input, input_file, folder, progress);
+  const auto rocks = make_rocks(input, input_file, folder, progress);
 
   // Break it.
-  const auto planned = plan(input, rocks);
+  std::vector<PlannedSample> planned;
+  try
+    {
+      planned = plan(input, rocks);
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
+    }
   std::filesystem::create_directories(folder / "fields");
   std::vector<FinishedTest> tests;
   progress.start("tests");
@@ -217,19 +138,22 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
       if (interrupted())
         break;
       std::string last;
-      tests.push_back(run(
-        one, input, folder,
-        [&](const std::string& text) {
-          const bool is_row = text.starts_with(':');
-          if (is_row)
-            last = text;
-          progress.update(
-            std::numeric_limits<double>::quiet_NaN(),
-            fmt::format("{} of {} done; {}{}{}", tests.size(), planned.size(), one.name, last, is_row ? "" : text));
-        },
-        remarks));
+      tests.push_back(run(one, input, folder, [&](const std::string& text) {
+        const bool is_row = text.starts_with(':');
+        if (is_row)
+          last = text;
+        progress.update(
+          std::numeric_limits<double>::quiet_NaN(),
+          fmt::format("{} of {} done; {}{}{}", tests.size(), planned.size(), one.name, last, is_row ? "" : text));
+      }));
     }
   progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+
+  const auto failed =
+    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  if (failed != tests.end() &&
+      std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
+    throw InputError(fmt::format("{}: {}", input_file.string(), failed->record.failure));
 
   // Report.
   write_result_folder(provenance(input, input_file), tests, folder);
@@ -246,11 +170,14 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   fmt::print("{}\n", folder.string());
   if (interrupted())
     {
-      fmt::print(stderr, "feldspar: interrupted; what was finished is there, the rest has to be run anew\n");
+      say_how_to_resume(folder);
       return exit_code::interrupted;
     }
   mark_complete(folder);
-  return 0;
+  if (failed == tests.end())
+    return 0;
+  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  return exit_code::user_error;
 }
 } // namespace
 
@@ -262,16 +189,56 @@ int run_multiscale(const CommonOptions& options)
   setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
 
+  if (options.input.empty() && !options.resume)
+    throw InputError("multiscale needs an INPUT, or --resume with the folder of a run; see feldspar multiscale --help");
+  if (options.extract)
+    return extract_volume(options.input, *options.extract, options.quiet);
+  const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
+    const auto remarks = check(input, input_file);
+    for (const auto& remark : remarks)
+      fmt::print(stderr, "feldspar: {}: {}\n", input_file.string(), remark);
+    try
+      {
+        return run_in(folder, input, input_file, options.quiet, remarks);
+      }
+    catch (const Interrupted&)
+      {
+        say_how_to_resume(folder);
+        return exit_code::interrupted;
+      }
+    catch (const OutputError& error)
+      {
+        throw OutputError(
+          fmt::format("{}; once it can, go on with: feldspar multiscale --resume {}", error.what(), folder.string()));
+      }
+  };
+  if (options.resume)
+    {
+      const RunRecord run = read_run_record("multiscale", *options.resume);
+      if (run.complete)
+        {
+          fmt::print("{}: this run is complete\n", options.resume->string());
+          return 0;
+        }
+      return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
+    }
+
   const Input input = read_input(options.input);
-  const auto remarks = check(input, options.input);
-  for (const auto& remark : remarks)
-    fmt::print(stderr, "feldspar: {}: {}\n", options.input.string(), remark);
+  check(input, options.input);
   const OutputFolder folder(options.output, options.input, options.force);
-  remove_run(folder.path());
-  write_run_record("multiscale", options.input, folder.path());
+  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
   try
     {
-      return run_in(folder.path(), input, options.input, options.quiet, remarks);
+      write_run_record("multiscale", options.input, folder.path());
+    }
+  catch (const OutputError&)
+    {
+      remove_run(folder.path());
+      throw;
+    }
+  try
+    {
+      return run_or_say_how_to_resume(folder.path(), input, options.input);
     }
   catch (const InputError&)
     {

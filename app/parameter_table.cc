@@ -364,6 +364,7 @@ std::vector<Parameter> make_parameter_table()
   using R = StrainPathParameters;
   using E = EquilibriumParameters;
   using M = SampleParameters;
+  using K = ContinuumParameters;
   const Section<S> specimen{"Specimen", &Input::specimen};
   const Section<F> flat_joint{"Flat joint", &Input::flat_joint};
   const Section<P> particle_contact{"Particle contact", &Input::particle_contact};
@@ -374,6 +375,7 @@ std::vector<Parameter> make_parameter_table()
   const Section<R> strain_path{"Strain path", &Input::strain_path};
   const Section<E> equilibrium{"Representative volume", &Input::equilibrium};
   const Section<M> sample{"Sample", &Input::sample};
+  const Section<K> continuum{"Continuum", &Input::continuum};
 
   return {
     specimen.choice<unsigned int>("Dimension", &S::dimension, {{"2", 2}, {"3", 3}},
@@ -399,7 +401,9 @@ std::vector<Parameter> make_parameter_table()
                     "mean stress in the packing over Particle contact/Modulus, before the joints are installed"),
     specimen.file("Packing file", &S::packing_file,
                   "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing"),
-    specimen.file("Specimen file", &S::specimen_file, "a finished specimen.h5 to be tested; none makes a specimen"),
+    specimen.file("Specimen file", &S::specimen_file,
+                  "a finished specimen.h5 to be tested, or, for `feldspar rve`, a volume of `feldspar multiscale "
+                  "--extract`, whose path begins in the state it is in; none makes a specimen"),
 
     flat_joint.integer("Segments", &F::n_segments, {'[', 1.0, 32.0, ']'},
                        "of a face in two dimensions, each of which breaks by itself"),
@@ -547,6 +551,16 @@ std::vector<Parameter> make_parameter_table()
     equilibrium.integer("Most iterations", &E::most_iterations, {'[', 1.0, 1e6, ']'},
                         "in search of one equilibrium, before there is said to be none"),
 
+    sample.choice<SampleMaterial>(
+      "Material", &M::material,
+      {{"grains", SampleMaterial::grains},
+       {"linear elasticity", SampleMaterial::linear_elasticity},
+       {"Mohr-Coulomb", SampleMaterial::mohr_coulomb}},
+      "at the points of the sample of `feldspar multiscale`: the representative volume, or, "
+      "for comparison, what Continuum says"),
+    sample.file("Mesh file", &M::mesh_file,
+                "of Gmsh (format 2 or 4, text), quadrilaterals in metres, with the lines of the physical groups left, "
+                "right, bottom and top; instead of the rectangle of Width, Height and both Elements"),
     sample.quantity("Width", &M::width, length, "mm", above_zero, "of the sample of `feldspar multiscale`"),
     sample.quantity("Height", &M::height, length, "mm", above_zero, "of the sample, along the axis of the tests"),
     sample.integer("Elements across", &M::elements_across, {'[', 1.0, 10000.0, ']'}, "over the width"),
@@ -567,6 +581,14 @@ std::vector<Parameter> make_parameter_table()
                   "of a step, below which there is said to be no equilibrium"),
     sample.number("Newton tolerance", &M::newton_tolerance, {'[', 1e-12, 0.1, ']'},
                   "unbalanced over internal force of the sample"),
+
+    continuum.quantity("Modulus", &K::modulus, stress, "GPa", above_zero,
+                       "Young's, as a test in the plane shows it (free across the plane)"),
+    continuum.number("Poisson ratio", &K::poissons_ratio, {'[', 0.0, 1.0, ')'}, "as a test in the plane shows it"),
+    continuum.quantity("Cohesion", &K::cohesion, stress, "MPa", above_zero, "of Mohr-Coulomb; there is no softening"),
+    continuum.quantity("Friction angle", &K::friction_angle, angle, "deg", {'(', 0.0, 90.0, ')'}, "of Mohr-Coulomb"),
+    continuum.quantity("Dilation angle", &K::dilation_angle, angle, "deg", {'[', 0.0, 90.0, ')'},
+                       "of Mohr-Coulomb; at most Friction angle"),
 
     file_parameter(
       "Report", "Reference file", "figures of the rock and of other models (JSON) to set the results beside",

@@ -10,6 +10,7 @@
 #include "app/specimen_source.h"
 #include "app/strain_path.h"
 #include "coupling/explicit_run.h"
+#include "coupling/volume_file.h"
 #include "dem/input_error.h"
 #include "report/text_file.h"
 
@@ -131,10 +132,13 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
                                  .dynamics = input.dynamics});
       },
       checkpoint, identity, show));
+  std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
+  if (const std::string& file = input.specimen.specimen_file; !file.empty())
+    start = read_volume_state(file, *network);
   return finish(go_path(
     [&] {
       return PathRun<dim>(network, legs,
-                          {.largest_step = input.strain_path.largest_step, .equilibrium = input.equilibrium});
+                          {.largest_step = input.strain_path.largest_step, .equilibrium = input.equilibrium}, start);
     },
     checkpoint, identity, show));
 }

@@ -234,4 +234,5 @@ void ExplicitRun<dim>::read_checkpoint(const std::filesystem::path& file, const 
 }
 
 template class ExplicitRun<2>;
+template class ExplicitRun<3>;
 } // namespace feldspar

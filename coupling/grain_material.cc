@@ -1,5 +1,6 @@
 #include "coupling/grain_material.h"
 
+#include "coupling/state_archive.h"
 #include "dem/random.h"
 
 #include <Eigen/Geometry>
@@ -87,6 +88,26 @@ void GrainPoint<dim>::reject()
   at_work = accepted;
   events_at_work.clear();
   forget_trial();
+}
+
+template <int dim>
+std::string GrainPoint<dim>::stored() const
+{
+  BytesWriter writer;
+  NetworkState<dim> state = accepted.state(); // one description serves writing and reading, and reading changes
+  transfer(writer, state);
+  return writer.all;
+}
+
+template <int dim>
+void GrainPoint<dim>::restore(const std::string& stored)
+{
+  BytesReader reader(stored);
+  NetworkState<dim> state;
+  transfer(reader, state);
+  accepted.restore(std::move(state));
+  events_accepted.clear();
+  reject();
 }
 
 template <int dim>

@@ -33,6 +33,8 @@ public:
   std::size_t relax(const Voigt<dim>& strain) override;
   void accept(const Voigt<dim>& strain) override;
   void reject() override;
+  std::string stored() const override;
+  void restore(const std::string& stored) override;
   std::vector<double> fields() const override;
 
   /// The volume in its accepted state, in its own axes.

@@ -1,6 +1,7 @@
 #include "coupling/path_run.h"
 
 #include "coupling/homogenisation.h"
+#include "coupling/state_archive.h"
 #include "dem/hdf5_archive.h"
 
 #include <fmt/format.h>
@@ -18,33 +19,6 @@ std::array<double, n_voigt<dim>> as_array(const Voigt<dim>& voigt)
   std::array<double, n_voigt<dim>> result;
   std::copy(voigt.data(), voigt.data() + voigt.size(), result.begin());
   return result;
-}
-
-template <typename Archive>
-void transfer_flag(Archive& archive, const std::string& name, bool& flag)
-{
-  std::uint32_t stored = flag;
-  archive.value(name, stored);
-  flag = stored != 0;
-}
-
-template <int dim, typename Archive>
-void transfer(Archive& archive, NetworkState<dim>& state)
-{
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      archive.value("strain_" + voigt_name<dim>(k), state.strain[k]);
-      archive.value("stress_" + voigt_name<dim>(k), state.stress[k]);
-    }
-  transfer_flag(archive, "intact", state.intact);
-  archive.array("motions", state.motions);
-  archive.bytes("unbonded", state.unbonded);
-  archive.value("n_tension_breaks", state.n_tension_breaks);
-  archive.value("n_shear_breaks", state.n_shear_breaks);
-  archive.value("boundary_work", state.work.boundary);
-  archive.value("slip_work", state.work.slip);
-  archive.value("released_work", state.work.released);
-  archive.value("settled_work", state.work.settled);
 }
 } // namespace
 
@@ -102,13 +76,20 @@ double PathSample<dim>::energy_imbalance() const
 
 template <int dim>
 PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> wanted_legs,
-                      const PathParameters& wanted)
+                      const PathParameters& wanted, const std::optional<NetworkState<dim>>& begin)
   : legs(std::move(wanted_legs))
   , parameters(wanted)
   , body(std::move(network), wanted.equilibrium)
   , forces(body.network().links().size(), Motion<dim>::Zero())
 {
-  path_record.samples.emplace_back();
+  if (begin)
+    {
+      body.restore(*begin);
+      forces = link_forces(body.network(), body.state());
+      add_sample(*begin, 0.0);
+    }
+  else
+    path_record.samples.emplace_back();
   begin_leg();
 }
 
@@ -254,6 +235,8 @@ void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std:
 }
 
 template struct LegCourse<2>;
+template struct LegCourse<3>;
+template std::string describe(const Control<3>&);
 template std::string describe(const Control<2>&);
 template struct PathSample<2>;
 template class PathRun<2>;

@@ -83,7 +83,7 @@ struct PathCrack
 template <int dim>
 struct PathRecord
 {
-  std::vector<PathSample<dim>> samples; ///< the first at rest
+  std::vector<PathSample<dim>> samples; ///< the first where the path begins
   std::vector<PathCrack<dim>> cracks;
   std::string failure; ///< why the path was not gone to its end; empty if it was
 };
@@ -94,8 +94,9 @@ template <int dim>
 class PathRun
 {
 public:
-  PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> legs,
-          const PathParameters& parameters);
+  /// From rest, or from a state of this network.
+  PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> legs, const PathParameters& parameters,
+          const std::optional<NetworkState<dim>>& begin = std::nullopt);
 
   bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
   /// One increment, or one more cut of it. One in which segments break goes no farther than to the first break, within

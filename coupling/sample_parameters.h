@@ -1,11 +1,35 @@
 #pragma once
 
+#include <numbers>
+#include <string>
+
 namespace feldspar
 {
+/// What stands at the points of a sample.
+enum class SampleMaterial
+{
+  grains, ///< a representative volume
+  linear_elasticity,
+  mohr_coulomb
+};
+
+/// A material without grains, for comparison. Modulus and Poisson's ratio are those that a test in the plane shows: the
+/// out-of-plane direction is free.
+struct ContinuumParameters
+{
+  double modulus = 62.5e9; ///< [Pa]
+  double poissons_ratio = 0.16;
+  double cohesion = 30e6;                                  ///< [Pa]
+  double friction_angle = 50.0 * std::numbers::pi / 180.0; ///< [rad]
+  double dilation_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
+};
+
 /// The sample of a multiscale run: a mesh, and how its points get their volumes.
 struct SampleParameters
 {
-  double width = 0.050;  ///< [m]
+  SampleMaterial material = SampleMaterial::grains;
+  std::string mesh_file; ///< of Gmsh; empty: a rectangle
+  double width = 0.050;  ///< of the rectangle [m]
   double height = 0.100; ///< along the axis of the test [m]
   unsigned int elements_across = 2;
   unsigned int elements_along = 4;

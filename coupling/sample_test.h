@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/network.h"
+#include "coupling/network_state.h"
 #include "coupling/parameters.h"
 #include "coupling/sample_parameters.h"
 #include "dem/lab_results.h"
@@ -25,6 +26,28 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
+/// What the mesh of a sample measures.
+struct SampleSize
+{
+  double width;           ///< [m]
+  double height;          ///< [m]
+  double largest_element; ///< √area / order, as PointPlace::element_size [m]
+};
+
+/// Reads or makes the mesh. Throws InputError where it cannot be used: no quadrilaterals, inverted, a boundary of a
+/// laboratory test is missing.
+SampleSize measure(const SampleParameters& sample);
+
+/// The volume at one point of a sample.
+struct SampleVolume
+{
+  std::uint64_t number;      ///< of the point, as cracks name it
+  Vector<2> position;        ///< [m]
+  Tensor<2> orientation;     ///< turns the axes of the volume into those of the sample
+  const Network<2>* network; ///< of the realisation that was dealt to it
+  NetworkState<2> state;
+};
+
 /// A laboratory test on a plane sample of finite elements with a representative volume at every point; docs/theory.md
 /// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
@@ -36,23 +59,39 @@ public:
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<2>>> realisations,
              const SpecimenReport& of_volumes, std::uint64_t seed);
+  /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
+  SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
+             const ContinuumParameters& continuum);
   ~SampleTest();
   SampleTest(SampleTest&&) noexcept;
 
   /// Seats the sample at the first call, then loads it to the next row of the curve. False once the stop rule has ended
-  /// the test, or no equilibrium could be found: then ended_because() tells. `watch` is called after every iteration
+  /// the test, or no equilibrium could be found: then the record tells. `watch` is called after every iteration
   /// and may throw to leave the test as it was at the last row.
   bool advance(const std::function<void(const SampleStanding&)>& watch);
 
   bool has_ended() const;
-  const std::string& ended_because() const; ///< empty where the stop rule ended it
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
+  /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
+  /// or no grains.
+  SampleVolume volume_at(unsigned int cell, unsigned int point) const;
+
   /// Adds the present fields to a time series for ParaView.
   void write_fields(const std::filesystem::path& folder, const std::string& name);
+  std::size_t n_fields_written() const;
 
+  /// The test up to its last row.
   TestRecord finish(bool interrupted) const;
+
+  /// The whole state at the last row, so that a test read back runs on to the same bits. `identity` tells whose state it
+  /// is. Not between two rows: where `watch` left a row the last state written is that of the row before.
+  void write_state(const std::filesystem::path& file, const std::string& identity) const;
+  /// `folder` and `name` of the fields that were written. Throws InputError where the file is missing, torn, foreign or
+  /// of another identity; the test is then unusable.
+  void read_state(const std::filesystem::path& file, const std::string& identity, const std::filesystem::path& folder,
+                  const std::string& name);
 
 private:
   struct Parts; ///< deal.II's headers stay out of who includes this one

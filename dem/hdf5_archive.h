@@ -134,6 +134,8 @@ public:
     std::copy(raw.begin(), raw.end(), reinterpret_cast<std::uint8_t*>(values.data()));
   }
 
+  bool has(const std::string& name) const { return group.nameExists(name); }
+
   Hdf5Reader subgroup(const std::string& name) { return Hdf5Reader(group.openGroup(name)); }
 
 private:

@@ -20,6 +20,16 @@ enum class TestKind
 /// The name used in input and result files.
 std::string name(TestKind kind);
 
+/// What a test is made on.
+enum class TestBody
+{
+  grains,         ///< a specimen that moves in time
+  finite_elements ///< a sample in equilibrium at every row; no time, and no grain has a place of its own
+};
+
+/// The name used in result files.
+std::string name(TestBody body);
+
 /// A test of the programme.
 struct TestCase
 {
@@ -47,7 +57,7 @@ struct PeakWatch
 };
 
 /// Energies since the start of the test, kinetic energy as it is [J]; each integrated on its own, none is the remainder
-/// of the others.
+/// of the others. NaN where they are not known.
 struct Energies
 {
   double boundary_work = 0.0;
@@ -146,10 +156,11 @@ struct SpecimenReport
 struct TestRecord
 {
   TestKind kind;
+  TestBody body = TestBody::grains;
   double confining_pressure = 0.0; ///< compression positive [Pa]
   bool has_servo = false;          ///< which holds it; else it is applied as it is
   std::uint64_t seed = 0;
-  double strain_rate = 0.0;     ///< magnitude [1/s]
+  double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane
   SpecimenReport specimen;
   std::vector<CurveSample> curve;
@@ -157,11 +168,12 @@ struct TestRecord
   std::vector<GrainPicture> grains_at_end;
   std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
   std::uint64_t steps = 0;
-  double time_step = 0.0;    ///< the last one [s]
+  double time_step = 0.0;    ///< the last one; NaN where there is no time [s]
   double bulk_density = 0.0; ///< [kg/m³]
   double wall_time = 0.0;    ///< [s]
   bool interrupted = false;
-  std::string failure; ///< why the test could not be made; empty if it could
+  std::string failure;     ///< why the test could not be made; empty if it could
+  std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did
 
   int dimension() const { return size[2] > 0.0 ? 3 : 2; }
 };
@@ -199,10 +211,10 @@ struct TestResults
   Figure end_stress_difference;    ///< largest share of the peak deviator, from 5 % of the peak to the peak
   Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
   Figure p_wave_transits_to_peak;
-  Figure servo_error;                  ///< mean |lateral stress / pressure - 1| from seating to the peak
-  Figure servo_error_largest;          ///< largest of the same
-  std::uint64_t n_fragments = 0;       ///< of two grains or more, at the end
-  double largest_fragment_share = 0.0; ///< of the grains' volume
+  Figure servo_error;            ///< mean |lateral stress / pressure - 1| from seating to the peak
+  Figure servo_error_largest;    ///< largest of the same
+  Figure n_fragments;            ///< of two grains or more, at the end
+  Figure largest_fragment_share; ///< of the grains' volume
 };
 
 /// The row of the curve where the stress was highest; none if it was rising to the end. Of a Brazilian test the first

@@ -115,7 +115,8 @@ void check(Specimen<dim>& specimen)
 } // namespace
 
 template <int dim>
-void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file)
+void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file,
+                    const std::function<void(Hdf5Writer&)>& more)
 {
   write_hdf5(file, [&](Hdf5Writer& root) {
     std::string format = format_name;
@@ -126,6 +127,8 @@ void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& 
     root.value("dimension", dimension);
     Specimen<dim> copy = specimen; // one description serves writing and reading, and reading changes
     transfer(root, copy);
+    if (more)
+      more(root);
   });
 }
 
@@ -163,8 +166,10 @@ Specimen<dim> read_specimen(const std::filesystem::path& file)
   return specimen;
 }
 
-template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&);
+template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&,
+                                const std::function<void(Hdf5Writer&)>&);
 template Specimen<2> read_specimen<2>(const std::filesystem::path&);
-template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&);
+template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&,
+                                const std::function<void(Hdf5Writer&)>&);
 template Specimen<3> read_specimen<3>(const std::filesystem::path&);
 } // namespace feldspar

@@ -21,6 +21,19 @@ StiffnessMatrix<dim> isotropic_stiffness(const double youngs_modulus, const doub
   return stiffness;
 }
 
+struct ElasticConstants
+{
+  double youngs_modulus; ///< [Pa]
+  double poissons_ratio;
+};
+
+/// With which plane strain answers in the plane as a thin plate, free of stress across it, does with these.
+inline ElasticConstants plane_strain_equal_to_plate(const ElasticConstants& plate)
+{
+  const auto [E, nu] = plate;
+  return {E * (1.0 + 2.0 * nu) / ((1.0 + nu) * (1.0 + nu)), nu / (1.0 + nu)};
+}
+
 /// σ = C ε.
 template <int dim>
 class LinearElasticPoint : public MaterialPoint<dim>

@@ -72,6 +72,11 @@ public:
   /// Puts the structure at work back to the accepted one. Must not throw.
   virtual void reject() {}
 
+  /// The accepted state as bytes that restore() of the same program understands; it puts the structure at work back to
+  /// that state too. A point without history has none. restore() may throw where the bytes are damaged.
+  virtual std::string stored() const { return {}; }
+  virtual void restore(const std::string& /*stored*/) {}
+
   /// Values of the accepted state for output, in the order of Material::field_names.
   virtual std::vector<double> fields() const { return {}; }
 };

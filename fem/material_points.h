@@ -56,6 +56,21 @@ public:
     for_each([&](const std::size_t i) { points[i]->reject(); });
   }
 
+  /// Of each point, as it gave it.
+  std::vector<std::string> stored() const
+  {
+    std::vector<std::string> all;
+    for (const auto& point : points)
+      all.push_back(point->stored());
+    return all;
+  }
+
+  void restore(const std::vector<std::string>& stored)
+  {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i]->restore(stored.at(i));
+  }
+
 private:
   using Range = oneapi::tbb::blocked_range<std::size_t>;
 

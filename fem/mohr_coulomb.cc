@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -146,6 +147,18 @@ public:
     return update(parameters, state, strain).answer;
   }
   void accept(const StrainVector<3>& strain) override { state = update(parameters, state, strain).state; }
+  std::string stored() const override
+  {
+    std::string bytes(reinterpret_cast<const char*>(state.plastic_strain.data()), n_components<3> * sizeof(double));
+    return bytes.append(reinterpret_cast<const char*>(&state.dissipated), sizeof(double));
+  }
+  void restore(const std::string& stored) override
+  {
+    if (stored.size() != (n_components<3> + 1) * sizeof(double))
+      throw std::invalid_argument("not the state of a Mohr-Coulomb point");
+    std::memcpy(state.plastic_strain.data(), stored.data(), n_components<3> * sizeof(double));
+    std::memcpy(&state.dissipated, stored.data() + n_components<3> * sizeof(double), sizeof(double));
+  }
   std::vector<double> fields() const override
   {
     // √(2/3 ε:ε), equal to the axial one in uniaxial flow that keeps the volume.

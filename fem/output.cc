@@ -2,8 +2,13 @@
 
 #include <deal.II/numerics/data_out.h>
 
+#include <boost/archive/text_iarchive.hpp>
+#include <boost/archive/text_oarchive.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/vector.hpp>
 #include <fmt/format.h>
 
+#include <sstream>
 #include <utility>
 
 namespace feldspar::fem
@@ -85,6 +90,21 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
                           solid.communicator());
   entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
   out.write_xdmf_file(entries, (folder / (name + ".xdmf")).string(), solid.communicator());
+}
+
+std::string FieldOutput::stored() const
+{
+  std::ostringstream text;
+  boost::archive::text_oarchive archive(text);
+  archive << entries;
+  return text.str();
+}
+
+void FieldOutput::restore(const std::string& stored)
+{
+  std::istringstream text(stored);
+  boost::archive::text_iarchive archive(text);
+  archive >> entries;
 }
 
 template void FieldOutput::write(const Solid<2, 2>&, double);

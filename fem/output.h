@@ -25,6 +25,11 @@ public:
   template <int dim, int material_dim>
   void write(const Solid<dim, material_dim>& solid, double time);
 
+  std::size_t n_written() const { return entries.size(); }
+  /// What was written so far, for another FieldOutput of the same folder and name that goes on after it.
+  std::string stored() const;
+  void restore(const std::string& stored);
+
 private:
   std::filesystem::path folder;
   std::string name;

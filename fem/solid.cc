@@ -512,6 +512,59 @@ void Solid<dim, material_dim>::reject()
 }
 
 template <int dim, int material_dim>
+StoredSolid Solid<dim, material_dim>::stored() const
+{
+  StoredSolid result;
+  for (const auto dof : owned)
+    {
+      result.displacement.push_back(accepted.displacement(dof));
+      result.internal_force.push_back(accepted.internal_force(dof));
+      result.external_force.push_back(accepted.external_force(dof));
+    }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const auto& [stress, tangent] = accepted.answers[i];
+      result.strains.insert(result.strains.end(), accepted.strains[i].begin(), accepted.strains[i].end());
+      result.answers.insert(result.answers.end(), stress.begin(), stress.end());
+      result.answers.insert(result.answers.end(), tangent.data(), tangent.data() + tangent.size());
+    }
+  result.pressures = accepted.pressures;
+  result.points = points.stored();
+  return result;
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::restore(const StoredSolid& stored)
+{
+  constexpr std::size_t n = n_components<material_dim>;
+  if (stored.displacement.size() != owned.n_elements() || stored.internal_force.size() != owned.n_elements() ||
+      stored.external_force.size() != owned.n_elements() || stored.strains.size() != n * points.size() ||
+      stored.answers.size() != (n + n * n) * points.size() || stored.points.size() != points.size())
+    throw std::invalid_argument("the state of another mesh");
+  const auto fill = [&](const std::vector<double>& values) {
+    Vector vector = owned_vector();
+    std::size_t k = 0;
+    for (const auto dof : owned)
+      vector(dof) = values[k++];
+    vector.compress(VectorOperation::insert);
+    return vector;
+  };
+  accepted.displacement = fill(stored.displacement);
+  accepted.internal_force = fill(stored.internal_force);
+  accepted.external_force = fill(stored.external_force);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const double* const answer = &stored.answers[i * (n + n * n)];
+      auto& [stress, tangent] = accepted.answers[i];
+      std::copy_n(&stored.strains[i * n], n, accepted.strains[i].data());
+      std::copy_n(answer, n, stress.data());
+      std::copy_n(answer + n, n * n, tangent.data());
+    }
+  accepted.pressures = stored.pressures;
+  points.restore(stored.points);
+}
+
+template <int dim, int material_dim>
 double Solid<dim, material_dim>::reaction(const std::string& boundary, const unsigned int component) const
 {
   double force = 0.0;

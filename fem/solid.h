@@ -50,6 +50,18 @@ struct SolidParameters
   std::function<void(const NewtonReport&)> watch = [](const NewtonReport&) {};
 };
 
+/// The accepted state of a solid on one rank, for a file that returns to the same program and mesh.
+struct StoredSolid
+{
+  std::vector<double> displacement; ///< these three of the degrees of freedom of the rank, ascending
+  std::vector<double> internal_force;
+  std::vector<double> external_force;
+  std::vector<double> strains; ///< these two of the points one after another
+  std::vector<double> answers; ///< stress, then tangent
+  std::map<std::string, double> pressures;
+  std::vector<std::string> points; ///< MaterialPoint::stored()
+};
+
 /// A body in quasi-static equilibrium, at small strain; docs/theory.md §9.
 ///
 /// solve() looks for equilibrium under a load, from the accepted state; accept() makes it the accepted state. Every
@@ -66,6 +78,11 @@ public:
   NewtonReport solve(const Load<dim>& load, double fraction = 1.0);
   void accept();
   void reject();
+
+  StoredSolid stored() const;
+  /// Throws std::invalid_argument where it is of another mesh.
+  void restore(const StoredSolid& stored);
+
   /// From the next solve on.
   void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
 

@@ -9,7 +9,8 @@
 
 namespace feldspar
 {
-/// Cracks of one test at crack initiation, at the peak and at the end, over its grains. Nothing without grains.
+/// Cracks of one test at crack initiation, at the peak and at the end: over its grains, or, of a sample of finite
+/// elements, counted at each point. Nothing without grains or points.
 std::vector<Picture> crack_map(const FinishedTest& test, const std::string& title);
 
 /// Grains of one test at its end, coloured by the size of the fragment they belong to.

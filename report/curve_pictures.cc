@@ -31,7 +31,14 @@ struct SeriesGroup
   std::size_t n; ///< of the series
   TestGroup group;
 
-  bool counts_cracks() const { return series->kind != SeriesKind::laboratory_curve; }
+  /// And energies.
+  bool counts_cracks() const
+  {
+    return series->kind != SeriesKind::laboratory_curve &&
+           std::none_of(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
+             return !test->record.curve.empty() && std::isnan(test->record.curve.back().energies.boundary_work);
+           });
+  }
 };
 
 using SameTests = std::vector<SeriesGroup>;
@@ -207,8 +214,13 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
       }
   if (plot.empty())
     return std::nullopt;
+  const bool any_volumes = std::any_of(same.begin(), same.end(),
+                                       [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
+  const std::string of_volumes =
+    any_volumes ? ". Of finite elements those of the volumes at all points, more than the sample itself would have"
+                : "";
   return Picture{.name = name + "_cracks",
-                 .caption = "Broken segments. Lines: means; bands: ± standard deviation",
+                 .caption = "Broken segments. Lines: means; bands: ± standard deviation" + of_volumes,
                  .alternative = "Number of tension and of shear cracks against axial strain in " + of_tests + ".",
                  .width = width,
                  .height = height,

@@ -71,8 +71,7 @@ public:
         if (rows.empty())
           continue;
         const std::string block = add_data(rows);
-        const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'",
-                                              series.kind == SeriesKind::laboratory_curve ? 13 : 7, colour(series, n));
+        const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", point_type(series), colour(series, n));
         later.push_back(fmt::format("{} using 1:2:3 with {} {} {}", block, tension ? "xerrorbars" : "yerrorbars", looks,
                                     title(tension && points.size() > 1 ? "" : series.label + ": mean ± s.d.")));
       }
@@ -263,7 +262,7 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
     plotted.add_points(all[n], n);
   if (reference)
     plotted.add_reference(*reference);
-  if (plotted.empty())
+  if (!(plotted.highest_1 > 0.0)) // tension alone
     return {};
   for (std::size_t n = 0; n < all.size(); ++n)
     for (const auto& pair : envelopes[n].hoek_brown)

@@ -15,6 +15,14 @@ std::string colour(const Series& series, const std::size_t n)
   return series.kind == SeriesKind::laboratory_curve ? black : colours[n % colours.size()];
 }
 
+int point_type(const Series& series)
+{
+  constexpr int disc = 7;
+  constexpr int square = 5;
+  constexpr int diamond = 13;
+  return series.kind == SeriesKind::laboratory_curve ? diamond : series.kind == SeriesKind::specimens ? disc : square;
+}
+
 int dashes(const std::size_t n) { return 1 + int(n / 6); }
 
 std::string frame(const std::string& x_label, const std::string& y_label)

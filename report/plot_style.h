@@ -27,6 +27,9 @@ inline constexpr const char* shear_colour = blue;
 /// Of the n-th series; a measured curve is black.
 std::string colour(const Series& series, std::size_t n);
 
+/// gnuplot's number of the mark for points of a series: by what its tests were made on.
+int point_type(const Series& series);
+
 /// Dashes tell series apart where colours repeat.
 int dashes(std::size_t n);
 

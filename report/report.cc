@@ -259,6 +259,18 @@ Table measured_table(const Findings& findings, const std::size_t which)
   return table;
 }
 
+/// What the input says of it.
+std::string material_at_points(const Provenance& made_by)
+{
+  const auto found = std::find_if(made_by.input.begin(), made_by.input.end(), [](const InputEntry& one) {
+    return one.section == "Sample" && one.entry == "Material";
+  });
+  if (found == made_by.input.end())
+    return "";
+  return found->value == "grains" ? " with a volume of grains at every point"
+                                  : " of " + found->value + ", without grains";
+}
+
 PageSection verdict_section(const Findings& findings)
 {
   PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
@@ -276,6 +288,10 @@ PageSection verdict_section(const Findings& findings)
       else
         {
           const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
+          if (findings.all[n].kind == SeriesKind::finite_elements)
+            block.paragraphs.push_back(
+              fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
+                          material_at_points(findings.all[n].made_by)));
           block.headline = answer.headline;
           block.points = answer.points;
           if (block.warnings.empty())
@@ -534,8 +550,9 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             picture.name += of_series(findings, n);
       if (maps.empty())
         block.paragraphs.push_back(
-          "No crack map: the positions of the grains, or a test with a peak, are missing in this "
-          "result folder.");
+          series.kind == SeriesKind::finite_elements
+            ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
+            : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
       block.pictures = book.keep(std::move(maps));
       append(block.pictures, book.keep(rose_picture(series)));
       append(block.pictures, book.keep(std::move(fragments)));
@@ -629,10 +646,17 @@ PageSection trust_section(const Findings& findings)
         checks.rows.push_back({check.measure, check.bound, check.mean, check.worst,
                                check.n_out == 0 ? fmt::format("✓ all {}", check.n_tests)
                                                 : fmt::format("✗ {} of {} out", check.n_out, check.n_tests)});
+      if (series.kind == SeriesKind::finite_elements)
+        block.paragraphs.push_back("Each row of a curve is an equilibrium, found without time: there is no kinetic "
+                                   "energy, no wave and no servo to be checked.");
       block.tables.push_back(checks);
-      Table specimens = specimen_table(series);
-      specimens.name += of_series(findings, n);
-      block.tables.push_back(specimens);
+      if (std::any_of(series.tests.begin(), series.tests.end(),
+                      [](const FinishedTest& test) { return test.record.specimen.n_grains > 0; }))
+        {
+          Table specimens = specimen_table(series);
+          specimens.name += of_series(findings, n);
+          block.tables.push_back(specimens);
+        }
       const auto& made_by = series.made_by;
       block.paragraphs.push_back(fmt::format("Made by feldspar {}{} from {} on {}, {} thread{}.",
                                              made_by.version.empty() ? "of unknown version" : made_by.version,

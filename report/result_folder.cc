@@ -50,6 +50,9 @@ FinishedTest test_of(const Json& json, const TestKind kind)
   test.name = text_of(json, "name");
   test.variant = text_of(json, "variant");
   test.record.failure = text_of(json, "failure");
+  test.record.ended_early = text_of(json, "ended_early");
+  if (text_of(json, "body") == name(TestBody::finite_elements)) // layouts from before bodies were written have grains
+    test.record.body = TestBody::finite_elements;
   test.record.interrupted = json.contains("interrupted") && json["interrupted"] == true;
   if (const auto seed = json.find("seed"); seed != json.end() && seed->is_number_unsigned())
     test.record.seed = seed->get<std::uint64_t>();
@@ -92,11 +95,13 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
                          const std::filesystem::path& folder)
 {
   std::filesystem::create_directories(folder / result_file::curves);
-  std::filesystem::create_directories(folder / result_file::grains);
+  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
+    std::filesystem::create_directories(folder / result_file::grains);
   for (const auto& test : tests)
     {
       write_curve(test, folder / result_file::curves / (test.name + ".csv"));
-      write_grains(test, folder / result_file::grains / (test.name + ".csv"));
+      if (test.record.body == TestBody::grains)
+        write_grains(test, folder / result_file::grains / (test.name + ".csv"));
     }
   write_cracks(tests, folder / result_file::cracks);
   write_summary(made_by, tests, folder / result_file::summary);
@@ -128,7 +133,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
         continue; // it has neither
       const std::string table = test.name + ".csv";
       try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
-      try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
+      if (test.record.body == TestBody::grains)
+        try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
     }
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
 
@@ -141,7 +147,12 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
       auto series =
         std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
       if (series == all.end())
-        series = all.insert(all.end(), {name_of_series, SeriesKind::specimens, read_provenance(json), {}, {}});
+        series = all.insert(all.end(),
+                            {name_of_series,
+                             test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
+                             read_provenance(json),
+                             {},
+                             {}});
       series->tests.push_back(std::move(test));
     }
   all.front().problems = problems;

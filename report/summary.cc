@@ -44,12 +44,15 @@ Json describe(const FinishedTest& test)
   json["kind"] = name(test.record.kind);
   json["name"] = test.name;
   json["group"] = test.group;
+  json["body"] = name(test.record.body);
   json["seed"] = test.record.seed;
   if (!test.variant.empty())
     json["variant"] = test.variant;
   json["interrupted"] = test.record.interrupted;
   if (!test.record.failure.empty())
     json["failure"] = test.record.failure;
+  if (!test.record.ended_early.empty())
+    json["ended_early"] = test.record.ended_early;
   json["size_m"] = test.record.size;
   for (const auto& entry : result_table())
     {

@@ -160,7 +160,8 @@ std::vector<Picture> overview_picture(const Series& series)
   std::string maps;
   int n_columns = 0;
   for (const auto& group : shown(groups_of(series)))
-    if (FinishedTest test = *group.tests.front(); !test.record.curve.empty())
+    if (FinishedTest test = *group.tests.front();
+        !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
       {
         const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
         test.record = plane_view(std::move(test.record));

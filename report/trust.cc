@@ -48,7 +48,7 @@ const std::vector<Measure>& measures()
   static const std::vector<Measure> all{
     {"energy imbalance over boundary work", " %", percent, 2, Side::at_most, 1 * percent,
      [](const FinishedTest& test) -> std::optional<double> {
-       if (test.record.steps == 0)
+       if (test.record.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
          return std::nullopt;
        return test.results.energy_imbalance_over_work;
      }},
@@ -129,11 +129,15 @@ std::vector<std::string> warnings(const Series& series)
       sentences.push_back(fmt::format("{} could not be made: {}.", test.name, test.record.failure));
     else if (!test.results.peak_stress.value)
       sentences.push_back(fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason));
-  if (const auto n = seeds_of(series).size(); series.kind == SeriesKind::specimens && n < fewest_seeds)
-    sentences.push_back(
-      fmt::format("Only {} specimen{}: what belongs to the rock and what to the single specimen cannot "
-                  "be told apart; take {} seeds or more.",
-                  n, n == 1 ? "" : "s", fewest_seeds));
+    else if (!test.record.ended_early.empty())
+      sentences.push_back(fmt::format("{} ended early: {}.", test.name, test.record.ended_early));
+  if (const auto n = seeds_of(series).size(); series.kind != SeriesKind::laboratory_curve && n < fewest_seeds)
+    {
+      const std::string one = series.kind == SeriesKind::specimens ? "specimen" : "sample";
+      sentences.push_back(fmt::format("Only {} {}{}: what belongs to the rock and what to the single {} cannot be told "
+                                      "apart; take {} seeds or more.",
+                                      n, one, n == 1 ? "" : "s", one, fewest_seeds));
+    }
   for (const auto& problem : series.problems)
     sentences.push_back(problem + ".");
   return sentences;
@@ -142,7 +146,7 @@ std::vector<std::string> warnings(const Series& series)
 Table specimen_table(const Series& series)
 {
   Table table{"specimens",
-              "Specimens",
+              series.kind == SeriesKind::specimens ? "Specimens" : "Volumes at the points, the first of each seed",
               {"seed", "grains", "joints", "coordination number", "in the core", "gap ratio", "porosity",
                "mean overlap / radius", "width / mean diameter", "radius multiplier", "tests", "steps",
                "run time of the tests [s]"},

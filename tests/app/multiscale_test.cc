@@ -1,11 +1,14 @@
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -55,6 +58,14 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   EXPECT_LT(test.at("peak_stress_Pa").get<double>(), 15e6);
   EXPECT_GT(test.at("n_tension_cracks").get<int>(), 10);
   EXPECT_LT(test.at("energy_imbalance").get<double>(), 0.01);
+  // What such a test does not have is missing with its reason, not zero.
+  EXPECT_EQ(test.at("body"), "finite_elements");
+  for (const char* const figure : {"strain_rate_per_s", "kinetic_to_strain_energy", "p_wave_transits_to_peak",
+                                   "n_fragments", "servo_error", "time_step_s"})
+    {
+      EXPECT_TRUE(test.at(figure).is_null()) << figure;
+      EXPECT_FALSE(test.at(std::string(figure) + "_reason").get<std::string>().empty()) << figure;
+    }
   for (const char* const file : {"one/fields/direct_tension_seed_1.xdmf", "one/cracks.csv", "one/report.html",
                                  "one/curves/direct_tension_seed_1.csv", "one/volumes/specimen_seed_2.h5"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
@@ -62,6 +73,253 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet --threads 2").exit_code, 0);
   for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "one" / file), contents(folder.path() / "two" / file)) << file;
+
+  // Beside a specimen of grains both are series of one report.
+  folder.write("grains.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
+                             "subsection Tests\n  set List = direct_tension\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab grains.prm --output grains --quiet").exit_code, 0);
+  const auto report = run_feldspar(folder.path(), "report grains one --output both");
+  ASSERT_EQ(report.exit_code, 0) << report.error;
+  const std::string page = contents(folder.path() / "both/report.html");
+  for (const char* const words :
+       {"</span>grains</h3>", "</span>one</h3>", "finite elements with a volume of grains at every point",
+        "broken segments of the volume at each point", "Each row of a curve is an equilibrium, found without time"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("class=\"absent\""), std::string::npos);
+  const std::string strengths = contents(folder.path() / "both/tables/strengths.csv");
+  EXPECT_NE(strengths.find("Direct tension,grains,1,"), std::string::npos) << strengths;
+  EXPECT_NE(strengths.find("Direct tension,one,1,"), std::string::npos) << strengths;
+}
+
+const std::string pull =
+  input("  set Tension step = 5e-6\n", "  set List = direct_tension\n  set Stop strain = 3e-4\n");
+
+TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
+{
+  TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
+  // Killed once a state is there, and again and again after it; the last time left to its end.
+  folder.write("kill", "\"$@\" &\n"
+                       "until [ -e broken/states/direct_tension_seed_1.h5 ]; do sleep 0.02; done\n"
+                       "sleep 0.1\nkill -KILL $!\n");
+  run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "broken/summary.json")); // else it was not killed on its way
+  run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --signal=KILL 0.6");
+  const auto last = run_feldspar(folder.path(), "multiscale --resume broken --quiet");
+  ASSERT_EQ(last.exit_code, 0) << last.error;
+  for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})
+    EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "broken" / file)) << file;
+  EXPECT_NE(run_feldspar(folder.path(), "multiscale --resume broken").output.find("this run is complete"),
+            std::string::npos);
+}
+
+TEST(Multiscale, EndsCleanlyOnInterruptAndSaysHowToResume)
+{
+  TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  folder.write("interrupt", "\"$@\" &\n"
+                            "until [ -e out/states/direct_tension_seed_1.h5 ]; do sleep 0.02; done\n"
+                            "kill -INT $!\nwait $!\n");
+  const auto outcome = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet", "sh ./interrupt");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar multiscale --resume out\n");
+  const auto summary = nlohmann::json::parse(contents(folder.path() / "out/summary.json"));
+  EXPECT_EQ(summary.at("tests").at(0).at("interrupted"), true);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale --resume out --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
+  for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv"})
+    EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "out" / file)) << file;
+}
+
+/// The number in a column of a row of a CSV file, both from 0 below the header.
+double cell(const std::filesystem::path& file, const std::string& column, const std::size_t row)
+{
+  std::istringstream lines(contents(file));
+  std::string line, name;
+  std::getline(lines, line);
+  std::size_t place = 0;
+  for (std::istringstream names(line); std::getline(names, name, ',') && name != column;)
+    ++place;
+  for (std::size_t k = 0; k <= row; ++k)
+    std::getline(lines, line);
+  std::istringstream cells(line);
+  for (std::size_t k = 0; k <= place; ++k)
+    std::getline(cells, name, ',');
+  return std::stod(name);
+}
+
+TEST(Multiscale, ExtractsTheVolumeAtAPointForRveAndParaView)
+{
+  TemporaryFolder folder;
+  const std::string path = "subsection Strain path\n  set Direction = 0, 1, 0\n  set Size = 1e-6\nend\n";
+  const auto continued = [&](const std::string& volume) {
+    folder.write("rve.prm",
+                 "subsection Specimen\n  set Shape = periodic\n  set Specimen file = " + volume + "\nend\n" + path);
+    const auto run = run_feldspar(folder.path(), "rve rve.prm --output rve --force --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return folder.path() / "rve/curves/rve.csv";
+  };
+
+  // One volume, not turned, at every point of a sample between smooth platens, nothing broken: strain is uniform, so
+  // that the volume has the strain and the stress of the sample, none sideways.
+  std::string even = input("  set Orientation = fixed\n", "  set List = direct_tension\n  set Stop strain = 3.9e-5\n");
+  even.replace(even.find("Realisations = 2"), 16, "Realisations = 1");
+  folder.write("even.prm", even);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale even.prm --output even --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale even --extract 1:3").exit_code, 0);
+  const auto curve = continued("even/extracted/direct_tension_seed_1_cell_1_point_3.h5");
+  const auto of_sample = folder.path() / "even/curves/direct_tension_seed_1.csv";
+  const std::size_t last = 20; // 4e-5 in steps of 2e-6, after the row at rest
+  const double stress = cell(of_sample, "axial_stress_Pa", last);
+  EXPECT_NEAR(cell(of_sample, "axial_strain", last), 4e-5, 1e-12);
+  EXPECT_NEAR(cell(curve, "strain_yy", 0), 4e-5, 1e-9 * 4e-5);
+  EXPECT_NEAR(cell(curve, "stress_yy_Pa", 0), stress, 1e-5 * stress); // Sample/Newton tolerance
+  EXPECT_NEAR(cell(curve, "stress_xx_Pa", 0), 0.0, 1e-5 * stress);
+  EXPECT_NEAR(cell(curve, "strain_yy", 1), 4.1e-5, 1e-9 * 4e-5); // and goes on from there
+
+  // Broken: the cracks of that point and no others.
+  folder.write("pull.prm", pull);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet").exit_code, 0);
+  int most = 0;
+  for (const int point : {1, 6}) // a process is slow to start
+    {
+      const std::string place = fmt::format("{}:{}", point / 4, point % 4);
+      const auto extract = run_feldspar(folder.path(), "multiscale out --extract " + place);
+      ASSERT_EQ(extract.exit_code, 0) << extract.error;
+      int n_cracks = 0;
+      std::istringstream cracks(contents(folder.path() / "out/cracks.csv"));
+      for (std::string line; std::getline(cracks, line);)
+        n_cracks += line.find(fmt::format(",{},", point)) == line.find(',', line.find(',') + 1);
+      const std::string name = fmt::format("direct_tension_seed_1_cell_{}_point_{}", point / 4, point % 4);
+      const auto rows = continued("out/extracted/" + name + ".h5");
+      EXPECT_EQ(cell(rows, "n_tension_cracks", 0) + cell(rows, "n_shear_cracks", 0), n_cracks) << place;
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_grains.xdmf")));
+      EXPECT_EQ(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_cracks.xdmf")),
+                n_cracks > 0);
+      most = std::max(most, n_cracks);
+    }
+  EXPECT_GT(most, 5);
+
+  const auto refused = [&](const std::string& place, const std::string& words) {
+    const auto outcome = run_feldspar(folder.path(), "multiscale out --extract " + place);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+    EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  };
+  refused("2:0", "there is no point 0 in a cell 2: cells are 0 to 1, their points 0 to 3");
+  refused("1", "--extract 1: must be CELL:POINT");
+}
+
+/// Two squares of 12 mm, one above the other. Physical group 4 is the top.
+std::string two_squares(const std::string& top, const std::string& cells, const std::string& centre = "0.012 0.012")
+{
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n1 1 \"left\"\n1 2 \"right\"\n1 3 \"bottom\"\n"
+         "1 4 \"" +
+         top + "\"\n2 5 \"rock\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 0.012 0 0\n3 0 0.012 0\n4 " + centre +
+         " 0\n5 0 0.024 0\n6 0.012 0.024 0\n$EndNodes\n$Elements\n" + cells + "$EndElements\n";
+}
+
+const std::string sides = "1 1 2 3 1 1 2\n2 1 2 2 2 2 4\n3 1 2 2 2 4 6\n4 1 2 4 3 6 5\n5 1 2 1 4 5 3\n6 1 2 1 4 3 1\n";
+const std::string squares = "8\n" + sides + "7 3 2 5 1 1 2 4 3\n8 3 2 5 1 3 4 6 5\n";
+
+TEST(Multiscale, TakesAMeshOfGmshForItsSample)
+{
+  TemporaryFolder folder;
+  folder.write("squares.msh", two_squares("top", squares));
+  const std::string tests = "  set List = direct_tension\n  set Stop strain = 2e-5\n";
+  folder.write("own.prm", input("", tests));
+  folder.write("mesh.prm", input("  set Mesh file = squares.msh\n", tests));
+  for (const std::string name : {"own", "mesh"})
+    {
+      const auto run = run_feldspar(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
+      ASSERT_EQ(run.exit_code, 0) << run.error;
+    }
+  // The mesh that Width, Height and the Elements of input() make, in the same order: the points have the same volumes.
+  const auto stress = [&](const std::string& name) {
+    return cell(folder.path() / name / "curves/direct_tension_seed_1.csv", "axial_stress_Pa", 10);
+  };
+  EXPECT_NEAR(stress("mesh"), stress("own"), 1e-9 * stress("own"));
+  EXPECT_GT(stress("own"), 1e6);
+}
+
+TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
+{
+  TemporaryFolder folder;
+  folder.write("bad.prm", input("  set Mesh file = bad.msh\n", "  set List = direct_tension\n"));
+  const auto refused = [&](const std::string& mesh, const std::string& words) {
+    folder.write("bad.msh", mesh);
+    const auto outcome = run_feldspar(folder.path(), "multiscale bad.prm --output out");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+    EXPECT_NE(outcome.error.find("feldspar: bad.prm: Sample/Mesh file = bad.msh: " + words), std::string::npos)
+      << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  };
+  refused(two_squares("roof", squares), "no boundary is named top; the mesh has bottom, left, right, roof");
+  refused(two_squares("top", squares, "-0.001 0.012"), "bad.msh: the cell at");
+  refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
+          "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
+}
+
+TEST(Multiscale, SaysWhichConfinementTheSampleCannotBearAndKeepsTheOtherTests)
+{
+  TemporaryFolder folder;
+  // Few iterations stand for a confinement under which the volumes find no equilibrium; the intact ones need none.
+  folder.write("press.prm", "subsection Representative volume\n  set Most iterations = 1\nend\n" +
+                              input("", "  set List = direct_tension, triaxial_compression\n"
+                                        "  set Confinements = 600 MPa\n  set Stop strain = 1e-5\n"));
+  const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --quiet");
+  EXPECT_EQ(run.exit_code, 2) << run.error;
+  EXPECT_NE(run.error.find("triaxial_compression_600_MPa_seed_1: Tests/Confinements: the sample finds no equilibrium "
+                           "under 600 MPa"),
+            std::string::npos)
+    << run.error;
+  EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+  const auto tests = nlohmann::json::parse(contents(folder.path() / "out/summary.json")).at("tests");
+  EXPECT_FALSE(tests.at(0).contains("failure"));
+  EXPECT_TRUE(tests.at(1).contains("failure"));
+
+  // Beyond small strains none begins.
+  folder.write("press.prm", input("", "  set List = direct_tension, triaxial_compression\n"
+                                      "  set Confinements = 20, 10000 MPa\n"));
+  const auto refused = run_feldspar(folder.path(), "multiscale press.prm --output beyond --quiet");
+  EXPECT_EQ(refused.exit_code, 2) << refused.error;
+  EXPECT_NE(refused.error.find("press.prm: Tests/Confinements: 10000 MPa would strain the intact volume by"),
+            std::string::npos)
+    << refused.error;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "beyond"));
+}
+
+TEST(Multiscale, ComparesWithLinearElasticityAndMohrCoulomb)
+{
+  TemporaryFolder folder;
+  const std::string start = "subsection Sample\n  set Elements across = 1\n  set Elements along = 2\n"
+                            "  set Compression step = 1e-4\n  set Material = ";
+  const std::string rest = "end\nsubsection Continuum\n  set Modulus = 60 GPa\n  set Poisson ratio = 0.2\n"
+                           "  set Cohesion = 30 MPa\n  set Friction angle = 50 deg\n  set Dilation angle = 10 deg\n"
+                           "end\nsubsection Tests\n  set List = uniaxial_compression\n  set Stop strain = 0.004\nend\n";
+  const auto row = [&](const std::string& material, const std::string& column, const std::size_t k) {
+    folder.write("press.prm", start + material + "\n" + rest);
+    const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --force --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return cell(folder.path() / "out/curves/uniaxial_compression_seed_1.csv", column, k);
+  };
+  // The modulus and the ratio asked for are those of the curve.
+  EXPECT_NEAR(row("linear elasticity", "axial_stress_Pa", 40), 60e9 * 0.004, 1e-6 * 60e9 * 0.004);
+  EXPECT_NEAR(row("linear elasticity", "gauge_lateral_strain", 40), -0.2 * 0.004, 1e-6 * 0.004);
+  // Elastic up to q_u = 2 c cos φ/(1 - sin φ) = 164.85 MPa at 2.7475e-3, and no further.
+  EXPECT_NEAR(row("Mohr-Coulomb", "axial_stress_Pa", 20), 60e9 * 0.002, 1e-6 * 60e9 * 0.002);
+  const double phi = 50.0 * std::numbers::pi / 180.0;
+  const double strength = 2.0 * 30e6 * std::cos(phi) / (1.0 - std::sin(phi));
+  EXPECT_NEAR(row("Mohr-Coulomb", "axial_stress_Pa", 40), strength, 1e-4 * strength); // Sample/Newton tolerance
+  const auto test = nlohmann::json::parse(contents(folder.path() / "out/summary.json")).at("tests").at(0);
+  EXPECT_NEAR(test.at("peak_stress_Pa").get<double>(), strength, 1e-4 * strength); // though it never falls
+  EXPECT_TRUE(test.at("energy_imbalance").is_null());
+
+  const auto refused = run_feldspar(folder.path(), "multiscale out --extract 0:0");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.error.find("the points of this sample have no grains"), std::string::npos) << refused.error;
 }
 
 TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
@@ -95,6 +353,9 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
   expect("subsection Specimen\n  set Shape = box\nend\n", "bad.prm: Specimen/Shape = box: the volume at a point needs");
   expect(input("", "", "  set Dimension = 3\n"), "bad.prm: Specimen/Dimension = 3: ");
   expect(input("  set Order = 3\n", ""), "Sample/Order = 3: must be an integer in [1, 2]");
+  expect(input("  set Material = linear elasticity\n", ""), "bad.prm: Tests/Stop strain = none: without grains");
+  expect(input("", "  set Stop strain = 1e-5\nend\nsubsection Continuum\n  set Dilation angle = 60 deg\n"),
+         "bad.prm: Continuum/Dilation angle: must be at most Continuum/Friction angle");
 }
 
 TEST(Multiscale, WarnsOfElementsLargerThanTheVolume)

@@ -219,6 +219,33 @@ TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
   EXPECT_TRUE(all[0].tests[0].results.peak_stress.value);
 }
 
+TEST(ResultFolder, KnowsTestsOnFiniteElementsAndWhatTheyCannotHave)
+{
+  FinishedTest test = compression(3);
+  test.record.body = TestBody::finite_elements;
+  test.record.grains_at_end.clear();
+  test.record.ended_early = "no equilibrium was found";
+  test.results = evaluate(test.record);
+  const TemporaryFolder folder;
+  write_result_folder({}, {test}, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "grains"));
+
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].kind, SeriesKind::finite_elements);
+  EXPECT_TRUE(all[0].problems.empty()); // that there are no grains is none
+  const TestResults& results = all[0].tests[0].results;
+  EXPECT_TRUE(results.peak_stress.value);
+  EXPECT_EQ(results.kinetic_to_strain_energy.reason, "equilibrium is sought without time");
+  EXPECT_EQ(results.p_wave_transits_to_peak.reason, "equilibrium is sought without time");
+  EXPECT_EQ(results.n_fragments.reason, "there are no grains to be counted");
+  std::string said;
+  for (const auto& sentence : warnings(all[0]))
+    said += sentence + "\n";
+  EXPECT_NE(said.find("ended early: no equilibrium was found."), std::string::npos) << said;
+  EXPECT_NE(said.find("Only 1 sample:"), std::string::npos) << said;
+}
+
 TEST(Band, IsMeanAndDeviationAtTheSameStrain)
 {
   // Two tests whose stresses are in the ratio of 1 to 1.1: mean 1.05, s.d. 0.1/sqrt(2) of the first.

@@ -1,0 +1,209 @@
+#include "app/multiscale_run.h"
+
+#include "app/interrupt.h"
+#include "app/run_record.h"
+#include "app/specimen_source.h"
+#include "dem/input_error.h"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace feldspar
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+std::vector<std::uint64_t> packing_seeds(const Input& input)
+{
+  std::vector<std::uint64_t> seeds;
+  for (const std::uint64_t seed : input.seeds)
+    for (std::uint64_t k = 0; k < input.sample.n_realisations; ++k)
+      seeds.push_back(seed * input.sample.n_realisations + k);
+  return seeds;
+}
+
+SampleTest from_the_start(const PlannedSample& planned, const Input& input)
+{
+  if (input.sample.material != SampleMaterial::grains)
+    return {planned.test, input.sample, input.tests, input.continuum};
+  return {planned.test,
+          input.sample,
+          input.tests,
+          input.equilibrium,
+          planned.rock->realisations,
+          planned.rock->specimens.front().report,
+          planned.rock->seed};
+}
+
+/// Writes the state of a test as often as costs no more than a fiftieth of the time.
+class StateWriter
+{
+public:
+  StateWriter(std::filesystem::path its_file, std::string its_identity)
+    : file(std::move(its_file))
+    , identity(std::move(its_identity))
+  {
+    std::filesystem::create_directories(file.parent_path());
+  }
+
+  void row_done(const SampleTest& test)
+  {
+    const auto begin = Clock::now();
+    if (!test.has_ended() && begin - last_write < 50 * cost)
+      return;
+    test.write_state(file, identity);
+    last_write = Clock::now();
+    cost = last_write - begin;
+  }
+
+private:
+  std::filesystem::path file;
+  std::string identity;
+  Clock::time_point last_write;
+  Clock::duration cost{0};
+};
+} // namespace
+
+std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
+                             const std::filesystem::path& folder, Progress& progress)
+{
+  if (input.sample.material != SampleMaterial::grains)
+    return {{input.seeds.front(), {}, {}}}; // no seed makes a difference
+  Input of_packings = input;
+  of_packings.seeds = packing_seeds(input);
+  const std::vector<Variant> one{{"", of_packings}};
+  const auto orders = specimen_orders(one);
+  std::filesystem::create_directories(folder / "volumes");
+  auto specimens = provide_specimens<2>(one, orders, folder / "volumes", progress);
+  std::vector<Rock> rocks;
+  for (std::size_t k = 0; k < specimens.size(); ++k)
+    {
+      if (!specimens[k].periodic)
+        throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; the volume at a point "
+                                     "needs a periodic cell (feldspar lab takes walls)",
+                                     input_file.string()));
+      if (k % input.sample.n_realisations == 0)
+        rocks.push_back({input.seeds[rocks.size()], {}, {}});
+      Rock& rock = rocks.back();
+      rock.realisations.push_back(std::make_shared<const Network<2>>(specimens[k]));
+      rock.specimens.push_back(std::move(specimens[k]));
+    }
+  return rocks;
+}
+
+namespace
+{
+/// Geometrically linear volumes bear any pressure: beyond small strains that means nothing.
+void check_confinement(const double pressure, const Network<2>& network)
+{
+  constexpr double largest = 0.01;
+  const Voigt<2> strain = network.intact_stiffness().partialPivLu().solve(Voigt<2>(-pressure, -pressure, 0.0));
+  if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
+    throw InputError(
+      fmt::format("Tests/Confinements: {:g} MPa would strain the intact volume by {:.2g} %; small strains end "
+                  "at {:g} %, which is {:.0f} MPa",
+                  pressure / 1e6, 100.0 * size, 100.0 * largest, pressure * largest / size / 1e6));
+}
+} // namespace
+
+std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks)
+{
+  for (const Rock& rock : rocks)
+    for (const double pressure : input.confinements)
+      if (!rock.realisations.empty() &&
+          std::count(input.test_list.begin(), input.test_list.end(), TestKind::triaxial_compression) > 0)
+        check_confinement(pressure, *rock.realisations.front());
+  std::vector<PlannedSample> planned;
+  for (const Rock& rock : rocks)
+    {
+      const auto add = [&](const TestCase& test, const std::string& group) {
+        const std::string name = fmt::format("{}_seed_{}", group, rock.seed);
+        planned.push_back({test, &rock, group, name, run_identity(input, name)});
+      };
+      for (const TestKind kind : input.test_list)
+        if (kind == TestKind::triaxial_compression)
+          for (const double pressure : input.confinements)
+            add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
+        else
+          add({kind}, name(kind));
+    }
+  return planned;
+}
+
+std::filesystem::path state_file(const std::filesystem::path& folder, const PlannedSample& planned)
+{
+  return folder / "states" / (planned.name + ".h5");
+}
+
+SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder)
+{
+  SampleTest test = from_the_start(planned, input);
+  const auto file = state_file(folder, planned);
+  if (!std::filesystem::exists(file))
+    return test;
+  try
+    {
+      test.read_state(file, planned.identity, folder / "fields", planned.name);
+      return test;
+    }
+  catch (const InputError& error)
+    {
+      fmt::print(stderr, "feldspar: {}; going back to the start of this test\n", error.what());
+      return from_the_start(planned, input);
+    }
+}
+
+FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
+                 const std::function<void(const std::string&)>& show)
+{
+  SampleTest test = open(planned, input, folder);
+  StateWriter state(state_file(folder, planned), planned.identity);
+  const double sign = laboratory_sign(planned.test.kind);
+  const double strain_between_fields = planned.test.kind == TestKind::direct_tension ? 2.5e-5 : 2.5e-4;
+  const auto draw = [&](const SampleStanding& standing) {
+    if (interrupted())
+      throw Interrupted();
+    if (standing.n_newton_iterations + standing.n_cascades > 0)
+      show(
+        fmt::format(", {} iterations and {} cascades in this step", standing.n_newton_iterations, standing.n_cascades));
+  };
+  bool was_interrupted = false;
+  std::string failure;
+  try
+    {
+      while (!test.has_ended())
+        {
+          test.advance(draw);
+          const CurveSample& row = test.last_row();
+          const SampleStanding standing = test.standing();
+          show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
+                           100.0 * sign * row.axial_strain, sign * row.axial_stress / 1e6,
+                           row.n_tension_cracks + row.n_shear_cracks,
+                           100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
+          if (sign * row.axial_strain >= double(test.n_fields_written()) * strain_between_fields || test.has_ended())
+            test.write_fields(folder / "fields", planned.name);
+          state.row_done(test);
+        }
+    }
+  catch (const Interrupted&)
+    {
+      was_interrupted = true;
+    }
+  catch (const InputError& error) // a confinement it cannot bear; other tests may
+    {
+      failure = error.what();
+    }
+  FinishedTest finished;
+  finished.record = test.finish(was_interrupted);
+  finished.record.failure = failure;
+  finished.group = planned.group;
+  finished.name = planned.name;
+  finished.results = evaluate(finished.record);
+  return finished;
+}
+} // namespace feldspar

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "app/input.h"
+#include "app/progress.h"
+#include "coupling/sample_test.h"
+#include "dem/specimen.h"
+#include "report/run.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// The parts of a multiscale run: its volumes, its programme, and one test of it.
+namespace feldspar
+{
+/// The volumes that one seed's samples share.
+struct Rock
+{
+  std::uint64_t seed;
+  std::vector<Specimen<2>> specimens;
+  std::vector<std::shared_ptr<const Network<2>>> realisations; ///< of the specimens; shared by the points that got them
+};
+
+/// Makes the volumes of every seed, or reads those that lie in the folder of the run. Throws InputError, and Interrupted.
+std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
+                             const std::filesystem::path& folder, Progress& progress);
+
+struct PlannedSample
+{
+  TestCase test;
+  const Rock* rock;
+  std::string group;
+  std::string name;
+  std::string identity; ///< of its state: program, input and test
+};
+
+/// The rocks must outlive it.
+std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks);
+
+/// The state of a test in the folder of its run.
+std::filesystem::path state_file(const std::filesystem::path& folder, const PlannedSample& planned);
+
+/// The test as its state in the folder has it, else from the start.
+SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder);
+
+/// Runs a test to its end, or to Ctrl-C. `show` gets ": …" for every row and ", …" within one.
+FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
+                 const std::function<void(const std::string&)>& show);
+} // namespace feldspar
