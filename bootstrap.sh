@@ -18,7 +18,7 @@ build_packages=(
   libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
-test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium)
+test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium)
 
 say() { printf '\n==> %s\n' "$*"; }
 die()
