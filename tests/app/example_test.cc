@@ -163,9 +163,12 @@ TEST(Documentation, ParametersAreThoseOfTheCommand)
 TEST(Example, TheInputsAreValid)
 {
   const TemporaryFolder folder;
-  for (const char* name : {"beishan", "ensemble", "radius-as-diameter", "rate-study"})
+  const std::string examples = std::string(FELDSPAR_SOURCE_DIR) + "/examples/";
+  for (const char* name :
+       {"beishan-granite/beishan", "beishan-granite/ensemble", "beishan-granite/radius-as-diameter",
+        "beishan-granite/rate-study", "beishan-cylinder/beishan-cylinder", "beishan-cylinder/full-size"})
     {
-      const auto outcome = run_feldspar(folder.path(), "parameters --check '" + example + name + ".prm'");
+      const auto outcome = run_feldspar(folder.path(), "parameters --check '" + examples + name + ".prm'");
       EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     }
 }
