@@ -16,9 +16,12 @@ build_packages=(
   libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
   libdeal.ii-dev petsc-dev
   libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libkainjow-mustache-dev
-  gnuplot-nox fonts-dejavu-core python3-vtk9 xvfb
+  gnuplot-nox fonts-dejavu-core
 )
-test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium)
+test_packages=(
+  clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium
+  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing
+)
 
 say() { printf '\n==> %s\n' "$*"; }
 die()
