@@ -18,7 +18,10 @@ build_packages=(
   libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
-test_packages=(clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium)
+test_packages=(
+  clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium
+  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing
+)
 
 say() { printf '\n==> %s\n' "$*"; }
 die()

@@ -15,23 +15,27 @@ namespace feldspar
 {
 namespace
 {
-/// One array of the HDF5 file as XDMF points to it: all `n_stored` rows, or the first `n` of them.
-std::string data_item(const std::string& path, const std::size_t n, const std::size_t n_stored,
-                      const unsigned int n_components, const bool is_real)
+std::string shape(const std::size_t n, const unsigned int n_components)
 {
-  const std::string type = is_real ? R"(NumberType="Float" Precision="8")" : R"(NumberType="UInt" Precision="4")";
-  const auto shape = [&](const std::size_t rows) {
-    return n_components > 1 ? fmt::format("{} {}", rows, n_components) : std::to_string(rows);
-  };
-  const std::string stored =
-    fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">{}</DataItem>)", shape(n_stored), type, path);
-  if (n == n_stored)
-    return stored;
-  const std::string start_stride_count =
-    n_components > 1 ? fmt::format("0 0 1 1 {} {}", n, n_components) : fmt::format("0 1 {}", n);
+  return n_components > 1 ? fmt::format("{} {}", n, n_components) : std::to_string(n);
+}
+
+/// An array of the HDF5 file as XDMF points to it.
+std::string data_item(const std::string& path, const std::string& its_shape, const bool is_real)
+{
+  return fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">{}</DataItem>)", its_shape,
+                     is_real ? R"(NumberType="Float" Precision="8")" : R"(NumberType="UInt" Precision="4")", path);
+}
+
+/// The first `n` rows of one that lies flat, [n_stored * n_components]: of slabs in two dimensions the XDMF library takes
+/// other values.
+std::string first_rows(const std::string& path, const std::size_t n, const std::size_t n_stored,
+                       const unsigned int n_components, const bool is_real)
+{
   return fmt::format(R"(<DataItem ItemType="HyperSlab" Dimensions="{}" Type="HyperSlab">)"
-                     R"(<DataItem Dimensions="3 {}" NumberType="Int" Format="XML">{}</DataItem>{}</DataItem>)",
-                     shape(n), n_components > 1 ? 2 : 1, start_stride_count, stored);
+                     R"(<DataItem Dimensions="3 1" NumberType="Int" Format="XML">0 1 {}</DataItem>{}</DataItem>)",
+                     shape(n, n_components), n * n_components,
+                     data_item(path, shape(n_stored * n_components, 1), is_real));
 }
 
 /// Points with their attributes at one time.
@@ -122,8 +126,8 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
         is_shear.push_back(crack.kind == CrackKind::shear);
         step.push_back(std::uint32_t(crack.step));
       }
-    cracks.array("centroid_m", centroid, 3);
-    cracks.array("normal", normal, 3);
+    cracks.array("centroid_m", centroid);
+    cracks.array("normal", normal);
     cracks.array("size_m", size);
     cracks.array("released_energy_J", energy);
     cracks.array("is_shear", is_shear);
@@ -136,10 +140,10 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
       const Snapshot& snapshot = record.snapshots[k];
       const double time = 100.0 * sign * snapshot.axial_strain + 0.0;
       const auto of_grains = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
-        return data_item(fmt::format("{}:/snapshot_{}/{}", file, k, array), n_grains, n_grains, n_components, is_real);
+        return data_item(fmt::format("{}:/snapshot_{}/{}", file, k, array), shape(n_grains, n_components), is_real);
       };
       PointGrid grains(time, n_grains, of_grains("position_m", 3, true));
-      grains.attribute("radius", false, data_item(file + ":/radius_m", n_grains, n_grains, 1, true));
+      grains.attribute("radius", false, data_item(file + ":/radius_m", shape(n_grains, 1), true));
       grains.attribute("displacement", true, of_grains("displacement_m", 3, true));
       grains.attribute("fragment", false, of_grains("fragment", 1, false));
       grains.attribute("broken elements", false, of_grains("n_broken_segments", 1, false));
@@ -152,7 +156,7 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
       if (n == 0)
         continue; // an empty grid is none to ParaView
       const auto of_cracks = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
-        return data_item(fmt::format("{}:/cracks/{}", file, array), n, n_cracks, n_components, is_real);
+        return first_rows(fmt::format("{}:/cracks/{}", file, array), n, n_cracks, n_components, is_real);
       };
       PointGrid cracks(time, n, of_cracks("centroid_m", 3, true));
       cracks.attribute("normal", true, of_cracks("normal", 3, true));

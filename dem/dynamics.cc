@@ -476,9 +476,8 @@ void Dynamics<dim>::choose_time_step()
   resize<dim>(k, n_own);
   Components<n_rotations<dim>> k_turning;
   resize<n_rotations<dim>>(k_turning, n_own);
-  const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
-                       const double arm, const double k_bending, const double k_twist) {
-    const std::uint32_t i = owner(grain);
+  const auto add = [&](const std::uint32_t i, const auto& normal, const double k_n, const double k_s, const double arm,
+                       const double k_bending, const double k_twist) {
     for (int c = 0; c < dim; ++c)
       k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
     for (int c = 0; c < n_rotations<dim>; ++c)
@@ -487,26 +486,32 @@ void Dynamics<dim>::choose_time_step()
         k_turning[c][i] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
       }
   };
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    {
-      const double area = joints.face_area(j);
-      const double k_n = joints.normal_stiffness[j] * area;
-      const double k_s = joints.shear_stiffness[j] * area;
-      const double k_bending = joints.normal_stiffness[j] * joints.face_second_moment(j);
-      const double k_twist = joints.shear_stiffness[j] * joints.face_polar_moment(j);
-      const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
-      const auto normal = at<dim>(joints.normal, j);
-      add(joints.grain_1[j], normal, k_n, k_s, a.one, k_bending, k_twist);
-      add(joints.grain_2[j], normal, k_n, k_s, a.two, k_bending, k_twist);
-    }
-  for (const auto& touch : touches)
-    if (touch.touching)
+  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (auto i = std::uint32_t(begin); i < end; ++i)
       {
-        const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
-        const auto a = arms(touch.frame.distance, touch.half_radius_difference);
-        add(touch.grain_1, touch.frame.normal, touch.stiffness.normal, k_s, a.one, 0.0, 0.0);
-        add(touch.grain_2, touch.frame.normal, touch.stiffness.normal, k_s, a.two, 0.0, 0.0);
+        for (auto e = joint_incidence.first[i]; e < joint_incidence.first[i + 1]; ++e)
+          {
+            const std::uint32_t j = joint_incidence.entries[e] / 2;
+            const bool is_second = joint_incidence.entries[e] % 2;
+            const double area = joints.face_area(j);
+            const double k_bending = joints.normal_stiffness[j] * joints.face_second_moment(j);
+            const double k_twist = joints.shear_stiffness[j] * joints.face_polar_moment(j);
+            const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
+            add(i, at<dim>(joints.normal, j), joints.normal_stiffness[j] * area, joints.shear_stiffness[j] * area,
+                is_second ? a.two : a.one, k_bending, k_twist);
+          }
+        for (auto e = touch_incidence.first[i]; e < touch_incidence.first[i + 1]; ++e)
+          {
+            const Touch& touch = touches[touch_incidence.entries[e] / 2];
+            const bool is_second = touch_incidence.entries[e] % 2;
+            if (!touch.touching)
+              continue;
+            const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
+            const auto a = arms(touch.frame.distance, touch.half_radius_difference);
+            add(i, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? a.two : a.one, 0.0, 0.0);
+          }
       }
+  });
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     for (const auto& touch : wall_touches[w])
       if (touch.overlap > 0.0)

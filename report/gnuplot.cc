@@ -3,6 +3,7 @@
 #include "report/text_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
 #include <utility>
@@ -16,14 +17,13 @@ namespace feldspar
 {
 namespace
 {
-/// Runs gnuplot on a script; false if there is no gnuplot or it failed.
-bool run_gnuplot(const std::filesystem::path& script)
+/// Runs a program on a script; false if there is no such program or it failed.
+bool run(std::string program, const std::filesystem::path& script)
 {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-  std::string program = "gnuplot";
   std::string file = script.string();
   char* const arguments[] = {program.data(), file.data(), nullptr};
   pid_t child = 0;
@@ -49,18 +49,32 @@ std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
   return result;
 }
 
-std::string draw_one(const Picture& picture, const std::filesystem::path& folder)
+/// The script as a file of its own that leaves its pictures in the folder.
+std::string whole_script(const Picture& picture, const std::filesystem::path& folder)
 {
+  if (picture.drawn_by == DrawnBy::vtk)
+    return fmt::format("output = {}\nsize = ({}, {})\n{}",
+                       nlohmann::json((folder / (picture.name + ".png")).string()).dump(), picture.width,
+                       picture.height, picture.script);
   std::string script = "set encoding utf8\n";
   for (const auto& [ending, terminal] : outputs(picture))
     script += fmt::format("set terminal {}\nset output {}\n{}unset output\nreset\n", terminal,
                           quoted((folder / (picture.name + ending)).string()), picture.script);
-  const std::filesystem::path file = folder / (picture.name + ".gp");
-  write_text_file(file, script);
-  const bool done = run_gnuplot(file);
+  return script;
+}
+
+std::string draw_one(const Picture& picture, const std::filesystem::path& folder)
+{
+  const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
+  const std::filesystem::path file = folder / (picture.name + (by_vtk ? ".py" : ".gp"));
+  write_text_file(file, whole_script(picture, folder));
+  // Debian's Python: another that comes first in the path lacks Debian's modules.
+  const bool done = by_vtk ? run("/usr/bin/python3", file) : run("gnuplot", file);
   for (const auto& [ending, terminal] : outputs(picture))
     if (!done || !std::filesystem::exists(folder / (picture.name + ending)))
-      return fmt::format("{} was not drawn: is gnuplot (package gnuplot-nox) installed?", picture.name + ending);
+      return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
+                         by_vtk ? "are VTK and Xvfb (packages python3-vtk9 and xvfb)"
+                                : "is gnuplot (package gnuplot-nox)");
   return "";
 }
 } // namespace

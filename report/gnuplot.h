@@ -6,7 +6,13 @@
 
 namespace feldspar
 {
-/// A picture to be drawn by gnuplot.
+enum class DrawnBy
+{
+  gnuplot,
+  vtk ///< bodies in space: a Python script, by report/space_scene.py; PNG only
+};
+
+/// A picture to be drawn.
 struct Picture
 {
   std::string name;        ///< of its files, without ending
@@ -16,7 +22,8 @@ struct Picture
   int height = 0;
   bool raster = false; ///< thousands of shapes: shown as PNG; else as SVG
   bool vector = true;  ///< drawn as SVG and PDF
-  std::string script;  ///< commands of gnuplot: data and plots
+  DrawnBy drawn_by = DrawnBy::gnuplot;
+  std::string script; ///< data and what draws it
 
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }

@@ -8,6 +8,7 @@
 #include "report/plot_style.h"
 #include "report/result_folder.h"
 #include "report/result_table.h"
+#include "report/space_pictures.h"
 #include "report/statistics.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
@@ -542,6 +543,7 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
           {
             const std::string title = group.title() + (findings.all.size() > 1 ? ", " + series.label : "");
             append(maps, crack_map(*test, title));
+            append(maps, space_picture(*test, title));
             append(fragments, fragment_map(*test, title));
           }
       if (!findings.one_folder)

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "report/gnuplot.h"
+#include "report/run.h"
+
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// A test in space as it stands: its cracks as discs of their size and direction at the peak and at the end, and the
+/// fragments at the end, cut open at the mid-plane. Nothing of a test in the plane or one without grains.
+std::vector<Picture> space_picture(const FinishedTest& test, const std::string& title);
+} // namespace feldspar
