@@ -200,7 +200,7 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
 TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
 {
   // Mean of three packings of more than 800 spheres, gap by gap; benchmarks/networks_in_space.cc.
-  const auto rows =
+  const auto networks =
     nlohmann::json::parse(content(std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/results/networks-in-space.json"));
   const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/rve-beishan/README.md");
   struct Expected
@@ -213,7 +213,7 @@ TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
       double mean_coordination = 0.0;
       double mean_modulus = 0.0;
       int n = 0;
-      for (const auto& row : rows)
+      for (const auto& row : networks)
         if (row["installation_gap_ratio"] == gap)
           {
             EXPECT_GT(row["n_grains"], 800);
