@@ -104,6 +104,8 @@ subsection Strain path
   set Size = 2e-3
   set Confining pressure = 20 MPa
   set Largest step = 3e-6
+  set Solver = explicit
+  set Steps per millistrain = 3000
 end
 subsection Representative volume
   set Event tolerance = 1e-4
@@ -112,6 +114,8 @@ subsection Representative volume
   set Most iterations = 50
 end
 subsection Sample
+  set Material = Mohr-Coulomb
+  set Mesh file = sample.msh
   set Width = 40 mm
   set Height = 80 mm
   set Elements across = 3
@@ -125,6 +129,13 @@ subsection Sample
   set Most broken share = 0.02
   set Smallest step share = 0.25
   set Newton tolerance = 1e-7
+end
+subsection Continuum
+  set Modulus = 50 GPa
+  set Poisson ratio = 0.25
+  set Cohesion = 20 MPa
+  set Friction angle = 45 deg
+  set Dilation angle = 30 deg
 end
 subsection Report
   set Reference file = rock.json
@@ -176,6 +187,7 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("grains.txt", "");
   folder.write("path.csv", "");
   folder.write("rock.json", "{}");
+  folder.write("sample.msh", "");
   const Input input = read_input(folder.write("everything.prm", everything));
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size(), parameter_table().size());
 
@@ -247,9 +259,13 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.strain_path.size, 2e-3);
   EXPECT_EQ(input.strain_path.confining_pressure, 20e6);
   EXPECT_EQ(input.strain_path.largest_step, 3e-6);
+  EXPECT_EQ(input.strain_path.solver, PathSolver::explicit_dynamics);
+  EXPECT_EQ(input.strain_path.steps_per_millistrain, 3000u);
   EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
   EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
+  EXPECT_EQ(input.sample.material, SampleMaterial::mohr_coulomb);
+  EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
   EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
   EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
   EXPECT_EQ(input.sample.elements_across, 3u);
@@ -263,6 +279,11 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.sample.most_broken_share, 0.02);
   EXPECT_EQ(input.sample.smallest_step_share, 0.25);
   EXPECT_EQ(input.sample.newton_tolerance, 1e-7);
+  EXPECT_DOUBLE_EQ(input.continuum.modulus, 50e9);
+  EXPECT_EQ(input.continuum.poissons_ratio, 0.25);
+  EXPECT_DOUBLE_EQ(input.continuum.cohesion, 20e6);
+  EXPECT_DOUBLE_EQ(input.continuum.friction_angle, 0.25 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(input.continuum.dilation_angle, std::numbers::pi / 6.0);
   EXPECT_EQ(input.equilibrium.most_iterations, 50u);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
 }
