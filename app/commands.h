@@ -16,7 +16,7 @@ inline constexpr int output_error = 3;  // a full disk
 inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 } // namespace exit_code
 
-/// What `lab`, `rve`, `specimen` and `contact` have in common on the command line.
+/// What `lab`, `rve`, `multiscale`, `specimen` and `contact` have in common on the command line.
 struct CommonOptions
 {
   std::filesystem::path input;

@@ -4,7 +4,7 @@
 #include "app/output_folder.h"
 #include "dem/input_error.h"
 #include "dem/joint_update.h"
-#include "report/text_file.h"
+#include "dem/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -144,7 +144,7 @@ int run_contact(const CommonOptions& options)
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", options.input.string()));
   const std::string table = input.specimen.dimension == 2 ? answer<2>(input) : answer<3>(input);
   const OutputFolder folder(options.output, options.input, options.force);
-  write_text_file(folder.path() / "contact.csv", table);
+  write_whole_file(folder.path() / "contact.csv", table);
   if (!options.quiet)
     fmt::print("{}\n", (folder.path() / "contact.csv").string());
   return 0;

@@ -1,7 +1,7 @@
 #include "app/field_output.h"
 
 #include "dem/hdf5_archive.h"
-#include "report/text_file.h"
+#include "dem/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -166,8 +166,8 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
       cracks.attribute("step", false, of_cracks("step", 1, false));
       crack_grids += cracks.finish();
     }
-  write_text_file(folder / (test.name + "_grains.xdmf"), time_series("grains", grain_grids));
+  write_whole_file(folder / (test.name + "_grains.xdmf"), time_series("grains", grain_grids));
   if (!crack_grids.empty())
-    write_text_file(folder / (test.name + "_cracks.xdmf"), time_series("cracks", crack_grids));
+    write_whole_file(folder / (test.name + "_cracks.xdmf"), time_series("cracks", crack_grids));
 }
 } // namespace feldspar

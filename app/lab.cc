@@ -10,12 +10,12 @@
 #include "app/run_record.h"
 #include "app/specimen_source.h"
 #include "dem/input_error.h"
+#include "dem/whole_file.h"
 #include "report/comparison.h"
 #include "report/reference.h"
 #include "report/result_folder.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
-#include "report/text_file.h"
 
 #include <fmt/format.h>
 
@@ -101,7 +101,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
                                std::filesystem::copy_options::overwrite_existing);
   const auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder});
   const std::string text = describe_run(all_variants, specimens, tests, missing);
-  write_text_file(folder / "log.txt", text);
+  write_whole_file(folder / "log.txt", text);
   if (!quiet)
     fmt::print("\n{}\n", text);
   fmt::print("{}\n", folder.string());

@@ -15,7 +15,6 @@
 #include "report/result_folder.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
-#include "report/text_file.h"
 
 #include <deal.II/base/mpi.h>
 #include <fmt/format.h>
@@ -64,6 +63,8 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
     refuse("Specimen/Dimension = 3: the plane sample takes volumes in the plane; set Dimension = 2");
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
+  if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
+    refuse("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
   if (std::find(input.test_list.begin(), input.test_list.end(), TestKind::brazilian) != input.test_list.end())
@@ -164,7 +165,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     for (auto& sentence : report_on({{folder}, {}, {}, folder}))
       remarks.push_back(std::move(sentence));
   const std::string text = describe_run(input, rocks, tests, remarks);
-  write_text_file(folder / "log.txt", text);
+  write_whole_file(folder / "log.txt", text);
   if (!quiet)
     fmt::print("\n{}\n", text);
   fmt::print("{}\n", folder.string());
@@ -187,7 +188,11 @@ int run_multiscale(const CommonOptions& options)
   int n_arguments = 0;
   char** no_arguments = nullptr;
   setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    throw InputError(
+      "multiscale runs as one process yet, on as many threads as --threads says; start it without mpirun");
 
   if (options.input.empty() && !options.resume)
     throw InputError("multiscale needs an INPUT, or --resume with the folder of a run; see feldspar multiscale --help");

@@ -2,8 +2,8 @@
 
 #include "app/parameter_table.h"
 #include "dem/input_error.h"
+#include "dem/whole_file.h"
 #include "feldspar_version.h"
-#include "report/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -40,7 +40,7 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["input_file"] = contents.input_file.string();
   json["relative_to"] = contents.relative_to.string();
   json["complete"] = contents.complete;
-  write_text_file(folder / record_name, json.dump(2) + "\n");
+  write_whole_file(folder / record_name, json.dump(2) + "\n");
 }
 
 Contents read(const std::filesystem::path& folder)
@@ -65,7 +65,7 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
 {
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  write_text_file(copy_of_input(folder, input_file), text);
+  write_whole_file(copy_of_input(folder, input_file), text);
   write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), false});
 }
 

@@ -12,7 +12,7 @@
 #include "coupling/explicit_run.h"
 #include "coupling/volume_file.h"
 #include "dem/input_error.h"
-#include "report/text_file.h"
+#include "dem/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -191,7 +191,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   std::string text;
   for (const auto& volume : volumes)
     text += describe(volume) + "\n";
-  write_text_file(folder / "log.txt", text);
+  write_whole_file(folder / "log.txt", text);
   if (!quiet)
     fmt::print("\n{}", text);
   fmt::print("{}\n", folder.string());

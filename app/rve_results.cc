@@ -1,8 +1,8 @@
 #include "app/rve_results.h"
 
 #include "coupling/homogenisation.h"
+#include "dem/whole_file.h"
 #include "report/provenance_json.h"
-#include "report/text_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -51,7 +51,7 @@ void write_curve(const FinishedVolume<dim>& volume, const std::filesystem::path&
                      row.work.settled, row.energy_imbalance(), row.unbalanced_ratio, row.hill_mandel_residual,
                      row.boundary_stress_error, row.crack_density);
     }
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 /// Centroid of a joint's segment, in the cell's box or just outside [m].
@@ -92,7 +92,7 @@ void write_cracks(const std::vector<FinishedVolume<dim>>& volumes, const std::fi
         fmt::format_to(std::back_inserter(text), ",{},{}\n",
                        dim == 2 ? area / volume.network->thickness() : std::sqrt(area), crack.released_energy);
       }
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 template <typename Matrix>
@@ -217,7 +217,7 @@ void write_results(const Provenance& provenance, const std::vector<FinishedVolum
   json["volumes"] = Json::array();
   for (const auto& volume : volumes)
     json["volumes"].push_back(as_json(volume));
-  write_text_file(folder / "summary.json", json.dump(2) + "\n");
+  write_whole_file(folder / "summary.json", json.dump(2) + "\n");
 }
 
 template <int dim>

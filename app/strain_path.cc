@@ -117,6 +117,11 @@ void check(const StrainPathParameters& path)
     throw InputError("Strain path/Direction: excludes File, which is given too; keep one of them");
   if (!path.path_file.empty() && path.confining_pressure > 0.0)
     throw InputError("Strain path/Confining pressure: goes with a Direction; in a File give the stresses");
+  for (const auto& component : path.direction)
+    if (component && std::abs(path.size * *component) > largest_strain)
+      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; the kinematics are "
+                                   "those of small strains, at most {:g}",
+                                   *component, path.size * *component, largest_strain));
 }
 
 template <int dim>

@@ -16,22 +16,13 @@ constexpr double tie = 1e-9; // overloads so near each other are the same; the s
 constexpr double lent_stiffness = 1e-7;
 constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
 constexpr unsigned int most_work_intervals = 512;
-constexpr double work_tolerance = 1e-3;      // imbalance over what was moved between two events
-constexpr double least_work = 1e-8;          // below this share of what is stored nothing is refined
+constexpr double work_tolerance = 1e-3; // imbalance over what was moved between two events
+constexpr double least_work = 1e-8;     // below this share of what is stored nothing is refined
+// Of the mean link's force nothing is asked below that at this strain: a body that has come apart balances at nothing.
+constexpr double least_strain = 1e-9;
 constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
 constexpr unsigned int most_long_steps = 40; // then the body flies apart
 constexpr unsigned int most_rounds = 12;     // of damped motion and Newton's method after it
-
-/// Mean force of a link at a strain so small that nothing is held: a body that has come apart balances at nothing.
-template <int dim>
-double least_force(const Network<dim>& network)
-{
-  constexpr double least_strain = 1e-9;
-  double sum = 0.0;
-  for (std::size_t j = 0; j < network.n_joints(); ++j)
-    sum += network.bonded_stiffness(j)(0, 0) * network.links()[j].branch.norm();
-  return least_strain * sum / double(std::max<std::size_t>(1, network.n_joints()));
-}
 } // namespace
 
 template <int dim>
@@ -128,7 +119,7 @@ typename Equilibrium<dim>::Balance Equilibrium<dim>::balance(const Unknowns& at)
       largest = std::max({largest, force.template head<dim>().norm(),
                           force.template tail<n_rotations<dim>>().norm() / network.radii()[i]});
     }
-  const double least = least_force(network);
+  const double least = least_strain * network.mean_normal_stiffness();
   const double mean_force = n_carrying > 0 ? carried / double(n_carrying) : 0.0;
   result.unbalanced_ratio = largest / std::max(mean_force, least);
   result.carried_stress =

@@ -47,7 +47,7 @@ fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
           strain_to_volume.transpose() * *tried.tangent * strain_to_volume};
 }
 
-/// From what Newton's method found, if that was at this strain.
+/// From where Newton's method was last.
 template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
 {
@@ -64,19 +64,25 @@ std::size_t GrainPoint<dim>::relax(const Voigt<dim>& strain)
   if (!broken.in_equilibrium)
     throw fem::PointFailure("the grains of a volume find no equilibrium after a break");
   const std::size_t n_events = broken.breaks.size();
-  if (n_events > 0)
+  if (n_events == 0)
     {
-      events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
-      at_work.accept(std::move(broken));
-      forget_trial();
+      stable = {to_volume(strain), std::move(broken)};
+      return 0;
     }
+  events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
+  at_work.accept(std::move(broken));
+  forget_trial();
   return n_events;
 }
 
 template <int dim>
 void GrainPoint<dim>::accept(const Voigt<dim>& strain)
 {
-  at_work.accept(settle(strain, Bonds::frozen));
+  Trial<dim> found =
+    stable && stable->first == to_volume(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen);
+  if (!found.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium");
+  at_work.accept(std::move(found));
   forget_trial();
   accepted = at_work;
   events_accepted = std::exchange(events_at_work, {});
@@ -115,6 +121,7 @@ void GrainPoint<dim>::forget_trial()
 {
   tried_strain.reset();
   tried = {};
+  stable.reset();
 }
 
 template <int dim>

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 /// The law made of grains: a representative volume at every point of a sample; docs/theory.md §11.
@@ -59,6 +61,7 @@ private:
   std::vector<BreakEvent<dim>> events_accepted;
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the volume's axes; what `tried` answers
   mutable Trial<dim> tried;
+  std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the volume's axes: nothing breaks there
 };
 
 struct GrainMaterialParameters

@@ -73,6 +73,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   using Pair = std::pair<std::uint32_t, PeriodicImage<dim>>;
   std::set<Pair> jointed;
   mean_branch_length = 0.0;
+  mean_stiffness = 0.0;
   for (std::size_t j = 0; j < number_of_joints; ++j)
     {
       const Vector<dim> normal = at<dim>(joints.normal, j);
@@ -103,6 +104,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
                                                 face[i].second_moment * r * r * r * plane_thickness);
         }
       bonded_stiffnesses.push_back(stiffness);
+      mean_stiffness += bonded_stiffnesses.back()(0, 0) * distance / double(number_of_joints);
     }
 
   // Pairs that may come to touch.

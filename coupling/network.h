@@ -44,6 +44,8 @@ public:
   Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
   double volume() const { return cell_volume; }
   double mean_branch() const { return mean_branch_length; }
+  /// Of the joints, normal stiffness times length of the branch [N].
+  double mean_normal_stiffness() const { return mean_stiffness; }
 
   /// Joints first, then pairs that may come to touch.
   const std::vector<Link<dim>>& links() const { return all_links; }
@@ -108,6 +110,7 @@ private:
   double plane_thickness;
   double tan_bond_friction;
   double mean_branch_length;
+  double mean_stiffness;
   Tensor<dim> edges;
   std::vector<FaceElement<dim>> face;
   std::vector<Link<dim>> all_links;

@@ -72,7 +72,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
         trial.share_until_break = equilibrium.share_until(overloads);
       equilibrium.break_segments(overloads, trial.breaks);
     }
-  if (options.with_tangent)
+  if (options.with_tangent && trial.in_equilibrium)
     trial.tangent = equilibrium.tangent();
   trial.unbalanced_ratio = equilibrium.unbalanced_ratio();
   trial.state = options.provisional ? equilibrium.provisional_state() : equilibrium.state();

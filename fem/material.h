@@ -58,15 +58,16 @@ class MaterialPoint
 public:
   virtual ~MaterialPoint() = default;
 
-  /// The answer to a strain from the accepted state, with the structure at work frozen. Whatever was tried before makes
-  /// no difference; an answer may be kept for the accept() that follows. May throw PointFailure.
+  /// The answer to a strain from the accepted state, with the structure at work frozen. No history comes from what was
+  /// tried before, though a search may begin where the last one ended; an answer may be kept for the accept() that
+  /// follows. May throw PointFailure.
   virtual MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const = 0;
 
   /// Lets the structure at work change (break) at this strain until it is stable. Returns the number of events.
   /// May throw PointFailure.
   virtual std::size_t relax(const StrainVector<dim>& /*strain*/) { return 0; }
 
-  /// Makes the answer to this strain, the last one tried, and the structure at work history. Must not throw.
+  /// Makes the answer to this strain, at which relax() found nothing, and the structure at work history. Must not throw.
   virtual void accept(const StrainVector<dim>& /*strain*/) {}
 
   /// Puts the structure at work back to the accepted one. Must not throw.

@@ -1,7 +1,7 @@
 #include "report/csv_tables.h"
 
 #include "dem/input_error.h"
-#include "report/text_file.h"
+#include "dem/whole_file.h"
 
 #include <fmt/format.h>
 
@@ -237,7 +237,7 @@ void write_curve(const FinishedTest& test, const std::filesystem::path& file)
   append_names(text, curve_columns());
   for (const auto& row : test.record.curve)
     append_row(text, curve_columns(), row, laboratory_sign(test.record.kind));
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind kind)
@@ -260,7 +260,7 @@ void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem:
         fmt::format_to(std::back_inserter(text), "{},{},", test.name, kind_name(crack.kind));
         append_row(text, crack_columns(), crack, laboratory_sign(test.record.kind));
       }
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
@@ -288,7 +288,7 @@ void write_grains(const FinishedTest& test, const std::filesystem::path& file)
   append_names(text, grain_columns());
   for (const auto& grain : test.record.grains_at_end)
     append_row(text, grain_columns(), grain, 1.0);
-  write_text_file(file, text);
+  write_whole_file(file, text);
 }
 
 std::vector<GrainPicture> read_grains(const std::filesystem::path& file)

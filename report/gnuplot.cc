@@ -1,6 +1,6 @@
 #include "report/gnuplot.h"
 
-#include "report/text_file.h"
+#include "dem/whole_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -67,7 +67,7 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
 {
   const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
   const std::filesystem::path file = folder / (picture.name + (by_vtk ? ".py" : ".gp"));
-  write_text_file(file, whole_script(picture, folder));
+  write_whole_file(file, whole_script(picture, folder));
   // Debian's Python: another that comes first in the path lacks Debian's modules.
   const bool done = by_vtk ? run("/usr/bin/python3", file) : run("gnuplot", file);
   for (const auto& [ending, terminal] : outputs(picture))

@@ -1,7 +1,7 @@
 #include "report/page.h"
 
+#include "dem/whole_file.h"
 #include "report/result_folder.h"
-#include "report/text_file.h"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -183,6 +183,6 @@ void write_page(const Page& page, const std::filesystem::path& file, const std::
   kainjow::mustache::mustache filled{std::string(page_template)};
   if (!filled.is_valid())
     throw std::logic_error("report/page.html: " + filled.error_message());
-  write_text_file(file, filled.render(whole));
+  write_whole_file(file, filled.render(whole));
 }
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include "dem/whole_file.h"
 #include "report/comparison.h"
 #include "report/crack_pictures.h"
 #include "report/curve_pictures.h"
@@ -14,7 +15,6 @@
 #include "report/strength_envelopes.h"
 #include "report/test_groups.h"
 #include "report/test_pictures.h"
-#include "report/text_file.h"
 #include "report/trust.h"
 #include "report/verdict.h"
 
@@ -733,8 +733,8 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   for (const auto& section : page.sections)
     for (const auto& block : section.blocks)
       for (const auto& table : block.tables)
-        write_text_file(folder / result_file::tables / (table.name + ".csv"),
-                        as_csv(table.name == "tests" ? test_table(findings, true) : table));
+        write_whole_file(folder / result_file::tables / (table.name + ".csv"),
+                         as_csv(table.name == "tests" ? test_table(findings, true) : table));
   write_page(page, folder / result_file::page, folder / result_file::figures);
 
   std::vector<std::string> missing;

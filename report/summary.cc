@@ -1,11 +1,11 @@
 #include "report/summary.h"
 
+#include "dem/whole_file.h"
 #include "report/provenance_json.h"
 #include "report/result_table.h"
 #include "report/statistics.h"
 #include "report/strength_data.h"
 #include "report/strength_envelopes.h"
-#include "report/text_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -121,6 +121,6 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
     json["tests"].push_back(describe(test));
   json["ensemble"] = ensemble(tests);
   json["fits"] = fits(tests);
-  write_text_file(file, json.dump(2) + "\n");
+  write_whole_file(file, json.dump(2) + "\n");
 }
 } // namespace feldspar

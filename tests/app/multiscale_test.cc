@@ -262,6 +262,30 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
           "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
 }
 
+TEST(Multiscale, RunsAsOneProcess)
+{
+  TemporaryFolder folder;
+  folder.write("pull.prm", input("", "  set List = direct_tension\n"));
+  const auto outcome =
+    run_feldspar(folder.path(), "multiscale pull.prm --output out",
+                 "mpirun --allow-run-as-root --oversubscribe -np 2 --mca btl_base_warn_component_unused 0");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("multiscale runs as one process yet"), std::string::npos) << outcome.error;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Multiscale, ASpecimenFileIsOneRealisation)
+{
+  TemporaryFolder folder;
+  folder.write("cell.prm", input("", "  set List = direct_tension\n"));
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen cell.prm --output cell --quiet").exit_code, 0);
+  folder.write("pull.prm", input("", "  set List = direct_tension\n", "  set Specimen file = cell/specimen.h5\n"));
+  const auto outcome = run_feldspar(folder.path(), "multiscale pull.prm --output out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("Sample/Realisations: a Specimen file is one realisation"), std::string::npos)
+    << outcome.error;
+}
+
 TEST(Multiscale, RefusesAConfinementBeyondSmallStrains)
 {
   // Below that no confinement is too much: in small strains pressure on all sides breaks no volume for good.
