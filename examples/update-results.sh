@@ -14,7 +14,7 @@ studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
-  rve-beishan/{tension,break-rules,explicit-tension,triaxial-20}
+  rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60}
 )
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)
