@@ -422,6 +422,24 @@ NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double
   return iterate();
 }
 
+/// As much of a correction as all points have an answer to, halved down to a sixteenth; 0 where there is none.
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::correct(const Vector& correction)
+{
+  const Vector before = tried.displacement;
+  for (double share = 1.0; share > 0.05; share *= 0.5)
+    {
+      Vector displacement = owned_vector();
+      displacement = before;
+      displacement.add(share, correction);
+      tried.displacement = displacement;
+      update_strains(tried);
+      if (update_points(tried))
+        return share;
+    }
+  return 0.0;
+}
+
 template <int dim, int material_dim>
 NewtonReport Solid<dim, material_dim>::iterate()
 {
@@ -485,15 +503,17 @@ NewtonReport Solid<dim, material_dim>::iterate()
                         parameters.linear_tolerance))
         return failed("the tangent is singular or the linear solver did not converge");
       asked.distribute(correction);
-      Vector displacement = owned_vector();
-      displacement = tried.displacement;
-      displacement += correction;
-      tried.displacement = displacement;
-      boundary_moves = false;
       ++report.n_iterations;
-      update_strains(tried);
-      if (!update_points(tried))
+      const double share = correct(correction);
+      if (share == 0.0)
         return failed("a material point has no answer to its strain");
+      if (boundary_moves)
+        {
+          for (const auto& line : constraints.get_lines())
+            first_constraints.set_inhomogeneity(line.index,
+                                                (1.0 - share) * first_constraints.get_inhomogeneity(line.index));
+          boundary_moves = share < 1.0;
+        }
       parameters.watch(report);
     }
 }

@@ -137,6 +137,7 @@ private:
   bool update_points(State& state);
   void update_strains(State& state) const;
   NewtonReport iterate();
+  double correct(const Vector& correction);
   bool tangents_are_symmetric(const State& state) const;
   double pressure_of(const State& state, dealii::types::boundary_id boundary) const;
   Vector owned_vector() const { return Vector(owned, communicator()); }

@@ -103,6 +103,57 @@ TEST(Newton, ConvergesQuadraticallyWithTheConsistentTangent)
   EXPECT_FALSE(wrong.solve(load).converged);
 }
 
+/// Springs along both axes, each σ = E ε + B ε³, that answer to small strains only.
+class StiffeningPoint : public MaterialPoint<2>
+{
+public:
+  StiffeningPoint(const double its_cubic, const double its_limit)
+    : cubic(its_cubic)
+    , limit(its_limit)
+  {
+  }
+
+  MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+  {
+    if (strain.cwiseAbs().maxCoeff() > limit)
+      throw PointFailure("too far");
+    MaterialAnswer<2> answer{StressVector<2>::Zero(), StiffnessMatrix<2>::Zero()};
+    for (int i = 0; i < 3; ++i)
+      {
+        answer.stress[i] = E * strain[i] + cubic * strain[i] * strain[i] * strain[i];
+        answer.tangent(i, i) = E + 3.0 * cubic * strain[i] * strain[i];
+      }
+    return answer;
+  }
+
+private:
+  double cubic;
+  double limit;
+};
+
+TEST(Newton, GoesOnlyAsFarAsThePointsAnswer)
+{
+  // The strain is 0.4 P/E, for B = 0.6/0.4³ E³/P²; the first step of Newton's method would go to P/E.
+  const double pressure = 10e6;
+  const double first = pressure / E;
+  const double cubic = 0.6 / 0.064 * pressure / (first * first * first);
+  const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 2}, 0);
+  Solid<2> solid(mesh, {},
+                 {[&](const PointPlace&) { return std::make_unique<StiffeningPoint>(cubic, 0.7 * first); }, {}});
+  PlatenTest<2> test;
+  test.confining_pressure = pressure;
+  auto report = solid.solve(test.seating());
+  ASSERT_TRUE(report.converged) << report.failure;
+  solid.accept();
+  EXPECT_NEAR(solid.mean_strain()[0], -0.4 * first, 1e-6 * first);
+
+  Solid<2> short_of_breath(
+    mesh, {}, {[&](const PointPlace&) { return std::make_unique<StiffeningPoint>(cubic, 0.01 * first); }, {}});
+  report = short_of_breath.solve(test.seating());
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.failure, "a material point has no answer to its strain");
+}
+
 // ---- freeze, solve, break
 
 constexpr double limit_strain = 1e-4;
