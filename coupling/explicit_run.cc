@@ -1,7 +1,7 @@
 #include "coupling/explicit_run.h"
 
 #include "coupling/homogenisation.h"
-#include "dem/hdf5_archive.h"
+#include "coupling/path_checkpoint.h"
 
 #include <fmt/format.h>
 
@@ -213,9 +213,7 @@ void ExplicitRun<dim>::transfer(Archive& archive)
 template <int dim>
 void ExplicitRun<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity) const
 {
-  write_hdf5(file, [&](Hdf5Writer& root) {
-    std::string of_run = identity;
-    root.text("identity", of_run);
+  write_path_checkpoint(file, identity, [&](Hdf5Writer& root) {
     ExplicitRun copy = *this; // one description serves writing and reading, and reading changes
     copy.transfer(root);
   });
@@ -224,13 +222,7 @@ void ExplicitRun<dim>::write_checkpoint(const std::filesystem::path& file, const
 template <int dim>
 void ExplicitRun<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
 {
-  read_hdf5(file, "a checkpoint of `feldspar rve`", [&](Hdf5Reader& root) {
-    std::string of_run;
-    root.text("identity", of_run);
-    if (of_run != identity)
-      throw InputError("of another input or program");
-    transfer(root);
-  });
+  read_path_checkpoint(file, identity, [&](Hdf5Reader& root) { transfer(root); });
 }
 
 template class ExplicitRun<2>;

@@ -1,8 +1,8 @@
 #include "coupling/path_run.h"
 
 #include "coupling/homogenisation.h"
+#include "coupling/path_checkpoint.h"
 #include "coupling/state_archive.h"
-#include "dem/hdf5_archive.h"
 
 #include <fmt/format.h>
 
@@ -214,9 +214,7 @@ void PathRun<dim>::transfer(Archive& archive)
 template <int dim>
 void PathRun<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity) const
 {
-  write_hdf5(file, [&](Hdf5Writer& root) {
-    std::string of_run = identity;
-    root.text("identity", of_run);
+  write_path_checkpoint(file, identity, [&](Hdf5Writer& root) {
     PathRun copy = *this; // one description serves writing and reading, and reading changes
     copy.transfer(root);
   });
@@ -225,13 +223,7 @@ void PathRun<dim>::write_checkpoint(const std::filesystem::path& file, const std
 template <int dim>
 void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
 {
-  read_hdf5(file, "a checkpoint of `feldspar rve`", [&](Hdf5Reader& root) {
-    std::string of_run;
-    root.text("identity", of_run);
-    if (of_run != identity)
-      throw InputError("of another input or program");
-    transfer(root);
-  });
+  read_path_checkpoint(file, identity, [&](Hdf5Reader& root) { transfer(root); });
 }
 
 template struct LegCourse<2>;
