@@ -241,13 +241,13 @@ template <int dim>
 void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double tolerance)
 {
   constexpr unsigned int most_steps = 1000;
-  constexpr double first_step = 0.3;
-  constexpr double longest_step = 1.0; // over the inverse frequency of the stiffest modes
-  constexpr double first_turn = 0.1;   // share of the velocity that is turned towards the force
+  constexpr double first_time_step = 0.3;
+  constexpr double longest_time_step = 1.0; // over the inverse frequency of the stiffest modes
+  constexpr double first_turn = 0.1;        // share of the velocity that is turned towards the force
   constexpr unsigned int n_steps_before_faster = 5;
   Unknowns velocity = Unknowns::Zero(network.n_unknowns());
   Unknowns momentum = velocity;
-  double step = first_step;
+  double time_step = first_time_step;
   double turn = first_turn;
   unsigned int n_downhill = 0;
   for (unsigned int k = 0; k < most_steps && !(measure(present, control) <= tolerance); ++k)
@@ -262,7 +262,7 @@ void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double
           momentum = (1.0 - turn) * momentum + turn * speed * force;
           if (++n_downhill > n_steps_before_faster)
             {
-              step = std::min(1.1 * step, longest_step);
+              time_step = std::min(1.1 * time_step, longest_time_step);
               turn *= 0.99;
             }
         }
@@ -271,12 +271,12 @@ void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double
           velocity.setZero();
           momentum.setZero();
           n_downhill = 0;
-          step *= 0.5;
+          time_step *= 0.5;
           turn = first_turn;
         }
-      velocity += step * acceleration;
-      momentum += step * force;
-      position += step * velocity;
+      velocity += time_step * acceleration;
+      momentum += time_step * force;
+      position += time_step * velocity;
       present = balance(position);
     }
 }

@@ -326,17 +326,20 @@ TEST(Example, TheVolumesReadmeShowsTheCommittedResults)
   const auto compression = [&](const std::string& name, const std::string& group, const std::vector<double>& by_events,
                                const std::vector<double>& by_dynamics) {
     shown(fmt::format("| {} | {} | {} | {} |", name, mean_and_deviation(laboratory, group, "peak_stress_Pa", 1e6, 0),
-                      by_events.empty() ? "-" : mean_and_deviation(by_events, 0), mean_and_deviation(by_dynamics, 0)));
-    shown(fmt::format("| {} | {} | {:.0f} |", name,
-                      by_events.empty() ? "-" : fmt::format("{:.0f}", fmt::join(by_events, ", ")),
-                      fmt::join(by_dynamics, ", ")));
+                      mean_and_deviation(by_events, 0),
+                      by_dynamics.empty() ? "-" : mean_and_deviation(by_dynamics, 0)));
+    shown(fmt::format("| {} | {:.0f} | {} |", name, fmt::join(by_events, ", "),
+                      by_dynamics.empty() ? "-" : fmt::format("{:.0f}", fmt::join(by_dynamics, ", "))));
   };
-  compression("uniaxial compression", "uniaxial_compression", {},
+  compression("uniaxial compression", "uniaxial_compression",
+              over_volumes(volume_results("uniaxial"), "", compressive_peak),
               over_volumes(volume_results("size-32.5-mm-compression"), "", compressive_peak));
   const auto confined = volume_results("triaxial-20");
   compression("triaxial compression at 20 MPa", "triaxial_compression_20_MPa",
               over_volumes(confined, "Strain path/Solver = event by event", compressive_peak),
               over_volumes(confined, "Strain path/Solver = explicit", compressive_peak));
+  compression("triaxial compression at 60 MPa", "triaxial_compression_60_MPa",
+              over_volumes(volume_results("triaxial-60"), "", compressive_peak), {});
 }
 
 TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
@@ -362,7 +365,7 @@ TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
       error = smaller;
     }
   EXPECT_LT(error, 0.02 * rate_free);
-  for (const char* study : {"tension", "break-rules", "triaxial-20"})
+  for (const char* study : {"tension", "break-rules", "uniaxial", "triaxial-20", "triaxial-60"})
     for (const auto& volume : volume_results(study)["volumes"])
       if (!volume.contains("variant") || volume["variant"] != "Strain path/Solver = explicit")
         {

@@ -45,9 +45,9 @@ TEST(StepControl, GivesUpBelowTheSmallestStepWhereItStands)
 {
   StepControl steps(0.5, 0.1, 0.5);
   steps.succeeded();
-  EXPECT_TRUE(steps.cut());  // 0.25
-  EXPECT_TRUE(steps.cut());  // 0.125
-  EXPECT_FALSE(steps.cut()); // 0.0625
+  EXPECT_TRUE(steps.cut());              // 0.25
+  EXPECT_TRUE(steps.cut());              // 0.125
+  EXPECT_FALSE(steps.cut());             // 0.0625
   EXPECT_DOUBLE_EQ(steps.next(), 0.625); // as it was: not even smaller
   EXPECT_DOUBLE_EQ(steps.done(), 0.5);
 }
