@@ -8,13 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 namespace feldspar
 {
@@ -102,13 +99,7 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
 
 Series read_laboratory_curve(const std::filesystem::path& file)
 {
-  std::ifstream stream(file);
-  if (!stream)
-    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
-  std::string header;
-  std::getline(stream, header);
-  stream.close();
-  header = std::string(trim(header));
+  const std::string header = read_csv_header(file);
   const auto places = places_of(header, file);
   const auto rows = read_csv(file, header);
 

@@ -202,8 +202,8 @@ struct Section
 private:
   static double read_number(const std::string_view text, const Range& range, const std::string& demand)
   {
-    if (const std::size_t space = text.find(' '); space != std::string_view::npos)
-      throw InputError(fmt::format("must be a number without unit, e.g. \"{}\"", text.substr(0, space)));
+    if (text.find(' ') != std::string_view::npos)
+      throw InputError(fmt::format("is a number without unit; it {}", demand));
     const double value = parse_number(text);
     if (!range.contains(value))
       throw InputError(demand);

@@ -256,7 +256,11 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
   std::vector<double> values;
   values.reserve(numbers.size());
   for (const std::string_view number : numbers)
-    values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
+    {
+      if (number.find(' ') != std::string_view::npos)
+        throw InputError(fmt::format("\"{}\": the unit stands once, after the last number", number));
+      values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
+    }
   return values;
 }
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace feldspar
 {
@@ -53,9 +52,7 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
 template <int dim>
 std::array<bool, n_voigt<dim>> read_header(const std::string& file, std::string& header)
 {
-  std::ifstream stream(file);
-  std::getline(stream, header);
-  header = std::string(trim(header));
+  header = read_csv_header(file);
   const auto columns = split_at_commas(header);
   std::string strains, names;
   for (int k = 0; k < n_voigt<dim>; ++k)

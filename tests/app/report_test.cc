@@ -320,6 +320,11 @@ TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
   refused(header + "\n0,0,5,5\n0.1,-0.02,50,9\n0.2,-0.04,40,5\n", "confining_pressure is");
   refused(header + "\n0,0,0,0\n0.1,-0.02,much,0\n", "core.csv:3: axial_stress [MPa]: \"much\" is not a decimal number");
   refused("", "core.csv:1: there is no column axial_strain");
+  std::string semicolons = header;
+  std::replace(semicolons.begin(), semicolons.end(), ',', ';');
+  refused(semicolons + "\n0;0;0;0\n", "core.csv:1: columns are separated by commas, not semicolons");
+  // Only of its values: a byte-order mark, as spreadsheets write it, is no part of the header.
+  refused("\xef\xbb\xbf" + header + "\r\n0,0,0,0\r\n0.1,-0.02,much,0\r\n", "core.csv:3: axial_stress [MPa]: \"much\"");
 }
 
 /// Headless Chromium, which the report itself does not need.

@@ -345,6 +345,7 @@ TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
   folder.write("grains.txt", "");
   folder.write("path.csv", "");
   folder.write("rock.json", "{}");
+  folder.write("sample.msh", "");
   const std::filesystem::path prm = folder.write("everything.prm", everything);
   const std::filesystem::path json = folder.write("a.json", R"({"Flat joint": {"Friction": 0.35}})");
   const Input in_c = read_input(prm);
@@ -454,7 +455,9 @@ TEST(Input, ChecksEveryRange)
 TEST(Input, ADimensionlessEntryHasNoUnit)
 {
   EXPECT_EQ(error_of_entry("Flat joint", "Friction = 0.5 MPa"),
-            "a.prm:2: Flat joint/Friction = 0.5 MPa: must be a number without unit, e.g. \"0.5\"");
+            "a.prm:2: Flat joint/Friction = 0.5 MPa: is a number without unit; it must be >= 0");
+  EXPECT_EQ(error_of_entry("Tests", "Confinements = 5 MPa, 20 MPa"),
+            "a.prm:2: Tests/Confinements = 5 MPa, 20 MPa: \"5 MPa\": the unit stands once, after the last number");
 }
 
 TEST(Input, TheInstallationGapFollowsFromOneEntry)
