@@ -37,17 +37,12 @@ std::vector<PlannedTest<dim>> plan(const std::vector<Variant>& variants, const s
   std::vector<PlannedTest<dim>> planned;
   const auto add_tests = [&](const std::size_t v, const Specimen<dim>& specimen) {
     const Variant& variant = variants[v];
-    const auto add = [&](const TestCase& test, const std::string& test_name) {
-      const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", test_name, v + 1) : test_name;
-      const std::string full_name = fmt::format("{}_seed_{}", group, specimen.seed);
-      planned.push_back({test, &variant, &specimen, group, full_name, run_identity(variant.input, full_name)});
-    };
-    for (const TestKind kind : variant.input.test_list)
-      if (kind == TestKind::triaxial_compression)
-        for (const double pressure : variant.input.confinements)
-          add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
-      else
-        add({kind}, name(kind));
+    for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
+      {
+        const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", name(test), v + 1) : name(test);
+        const std::string full_name = fmt::format("{}_seed_{}", group, specimen.seed);
+        planned.push_back({test, &variant, &specimen, group, full_name, run_identity(variant.input, full_name)});
+      }
   };
   for (std::size_t v = 0; v < variants.size(); ++v)
     for (std::size_t s = 0; s < orders.size(); ++s)

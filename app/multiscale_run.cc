@@ -120,18 +120,12 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
         check_confinement(pressure, *rock.realisations.front());
   std::vector<PlannedSample> planned;
   for (const Rock& rock : rocks)
-    {
-      const auto add = [&](const TestCase& test, const std::string& group) {
-        const std::string name = fmt::format("{}_seed_{}", group, rock.seed);
-        planned.push_back({test, &rock, group, name, run_identity(input, name)});
-      };
-      for (const TestKind kind : input.test_list)
-        if (kind == TestKind::triaxial_compression)
-          for (const double pressure : input.confinements)
-            add({kind, pressure}, fmt::format("{}_{}_MPa", name(kind), pressure / 1e6));
-        else
-          add({kind}, name(kind));
-    }
+    for (const TestCase& test : test_cases(input.test_list, input.confinements))
+      {
+        const std::string group = name(test);
+        const std::string full_name = fmt::format("{}_seed_{}", group, rock.seed);
+        planned.push_back({test, &rock, group, full_name, run_identity(input, full_name)});
+      }
   return planned;
 }
 

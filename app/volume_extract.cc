@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -41,8 +40,6 @@ Place place_of(const std::string& text)
   const std::size_t colon = std::min(all.find(':'), all.size());
   return {number(all.substr(0, colon)), number(all.substr(std::min(colon + 1, all.size())))};
 }
-
-std::array<double, 3> in_space(const Vector<2>& point) { return {point[0], point[1], 0.0}; }
 
 /// At rest and as it is, turned and moved to where it stands in the sample.
 FinishedTest as_seen(const Specimen<2>& specimen, const SampleVolume& volume, const TestRecord& of_sample,
@@ -90,7 +87,7 @@ FinishedTest as_seen(const Specimen<2>& specimen, const SampleVolume& volume, co
             snapshot.position[c].push_back(position[Eigen::Index(c)]);
           if (now)
             seen.record.grains_at_end.push_back(
-              {in_space(placed(rest)), in_space(position), specimen.grains.radius[i], fragment[i]});
+              {in_space<2>(placed(rest)), in_space<2>(position), specimen.grains.radius[i], fragment[i]});
         }
       snapshot.fragment = now ? fragment : std::vector<std::uint32_t>(n_grains, 0);
       snapshot.n_broken_segments = now ? n_broken : std::vector<std::uint32_t>(n_grains, 0);
@@ -105,8 +102,8 @@ FinishedTest as_seen(const Specimen<2>& specimen, const SampleVolume& volume, co
         const Vector<2> along(-normal[1], normal[0]);
         const double arm =
           0.5 * (joints.rest_distance[joint] + joints.opening[joint]) + joints.half_radius_difference[joint];
-        crack.centroid = in_space(placed(at<2>(specimen.grains.position, joints.grain_1[joint]) + arm * normal +
-                                         joints.half_length[joint] * joints.elements[i].offset[0] * along));
+        crack.centroid = in_space<2>(placed(at<2>(specimen.grains.position, joints.grain_1[joint]) + arm * normal +
+                                            joints.half_length[joint] * joints.elements[i].offset[0] * along));
         crack.joint = joint;
         crack.segment = std::uint32_t(i);
         seen.record.cracks.push_back(crack);

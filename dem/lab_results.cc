@@ -1,5 +1,7 @@
 #include "dem/lab_results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,6 +24,25 @@ std::string name(const TestKind kind)
       return "brazilian";
     }
   throw std::logic_error("a test kind without a name");
+}
+
+std::string name(const TestCase& test)
+{
+  return test.kind == TestKind::triaxial_compression
+           ? fmt::format("{}_{}_MPa", name(test.kind), test.confining_pressure / 1e6)
+           : name(test.kind);
+}
+
+std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements)
+{
+  std::vector<TestCase> tests;
+  for (const TestKind kind : kinds)
+    if (kind == TestKind::triaxial_compression)
+      for (const double pressure : confinements)
+        tests.push_back({kind, pressure});
+    else
+      tests.push_back({kind});
+  return tests;
 }
 
 std::string name(const TestBody body) { return body == TestBody::grains ? "grains" : "finite_elements"; }

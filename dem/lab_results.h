@@ -37,6 +37,12 @@ struct TestCase
   double confining_pressure = 0.0; ///< of a triaxial test, compression positive [Pa]
 };
 
+/// The name used in result files: the kind, and of a triaxial test the pressure.
+std::string name(const TestCase& test);
+
+/// Each kind, and each triaxial test under each of the pressures [Pa], in this order.
+std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements);
+
 /// +1 where the test pulls, -1 where it presses: turns tension-positive figures into those of the laboratory curve.
 double laboratory_sign(TestKind kind);
 

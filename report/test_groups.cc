@@ -33,12 +33,7 @@ std::string TestGroup::title() const
   return "";
 }
 
-std::string TestGroup::name() const
-{
-  const std::string kind_name = feldspar::name(kind);
-  return kind == TestKind::triaxial_compression ? fmt::format("{}_{}_MPa", kind_name, megapascals(confining_pressure))
-                                                : kind_name;
-}
+std::string TestGroup::name() const { return feldspar::name(TestCase{kind, confining_pressure}); }
 
 std::vector<TestGroup> groups_of(const Series& series)
 {
