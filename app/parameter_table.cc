@@ -549,7 +549,7 @@ std::vector<Parameter> make_parameter_table()
                                   {{"near worst", BreakRule::near_worst}, {"only worst", BreakRule::only_worst}},
                                   "whether segments with 0.98 of the worst overload break together with it"),
     equilibrium.integer("Most iterations", &E::most_iterations, {'[', 1.0, 1e6, ']'},
-                        "in search of one equilibrium, before there is said to be none"),
+                        "by Newton's method in search of one equilibrium, before damped motion brings it nearer"),
 
     sample.choice<SampleMaterial>(
       "Material", &M::material,

@@ -52,6 +52,12 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
 }
 
 template <int dim>
+void Equilibrium<dim>::begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby)
+{
+  factorised = std::move(nearby);
+}
+
+template <int dim>
 void Equilibrium<dim>::begin_at(const NetworkState<dim>& nearby)
 {
   position = unknowns_of(network, nearby);
@@ -194,7 +200,7 @@ Unknowns Equilibrium<dim>::solve_linear(const Apply& apply, const bool symmetric
     stiffnesses[active[a].link] = &present.active[a].tangent;
   for (const auto& [k, touch] : present.touches)
     stiffnesses[k] = &touch.tangent;
-  factorised = std::make_unique<FactorisedNetwork<dim>>(
+  factorised = std::make_shared<const FactorisedNetwork<dim>>(
     network.factorise([&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness));
   constexpr unsigned int most_iterations = 400;
   return solve(*factorised, most_iterations).x;
@@ -234,9 +240,10 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
     }
 }
 
-/// Damped motion from the present position, with the intact network's stiffness as mass, so that no mode is faster than a
-/// step (FIRE: Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201). Where contacts open, close and slide by turns
-/// Newton's method may go in circles; what loses its energy comes nearer to rest.
+/// Damped motion from the present position (FIRE: Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201). Where contacts
+/// open, close and slide by turns Newton's method may go in circles; what loses its energy comes nearer to rest. The mass
+/// is the stiffness with all that can touch touching, so that no mode is faster than a step: with the intact one grains
+/// that no joint holds had none, and flew off once they were hit.
 template <int dim>
 void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double tolerance)
 {
@@ -254,7 +261,7 @@ void Equilibrium<dim>::relax_by_motion(const Control<dim>& control, const double
     {
       ++iterations;
       const Unknowns force = unbalanced(present, control);
-      const Unknowns acceleration = network.factorised_intact().solve(force, control.stress_given);
+      const Unknowns acceleration = network.factorised_stiffest().solve(force, control.stress_given);
       if (force.dot(velocity) > 0.0)
         {
           const double speed = std::sqrt(velocity.dot(momentum) / acceleration.dot(force));
@@ -314,9 +321,10 @@ bool Equilibrium<dim>::relax_by_newton(const Control<dim>& control, const double
             y[n_own + c] = 0.0;
         return y;
       };
-      const double precision = std::max(1e-10, std::min(1e-4, 0.01 * tolerance / error));
+      // Far from the goal contacts change more than a precise step would gain.
+      const double precision = std::clamp(0.01 * tolerance / error, 1e-10, 1e-2);
       Unknowns step = step_share > 0.1 ? solve_linear(apply, symmetric, right, control.stress_given, precision)
-                                       : network.factorised_intact().solve(right, control.stress_given);
+                                       : network.factorised_stiffest().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)

@@ -56,6 +56,10 @@ public:
   /// Where the search begins, instead of at the last event: the position of a state found from it.
   void begin_at(const NetworkState<dim>& nearby);
 
+  /// What its linear systems are solved with until that takes too long; may be empty.
+  void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby);
+  const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
+
   /// Bonds frozen: unknowns at which the forces balance to `tolerance`. False if there is no equilibrium to be found;
   /// then it stands where the search ended.
   bool relax(const Control<dim>& control, double tolerance);
@@ -127,7 +131,8 @@ private:
   Balance at_event;
   Unknowns position;
   Balance present;
-  std::unique_ptr<FactorisedNetwork<dim>> factorised; ///< with some stiffnesses there were; empty: the intact ones
+  std::shared_ptr<const FactorisedNetwork<dim>>
+    factorised; ///< with some stiffnesses there were; empty: the intact ones
   unsigned int iterations = 0;
 };
 } // namespace feldspar

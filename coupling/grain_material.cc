@@ -33,12 +33,13 @@ fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
   const Voigt<dim> wanted = to_volume(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true};
+      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised};
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
         options.nearby = &nearby;
       tried = at_work.trial(strain_control<dim>(wanted), options);
       tried_strain = wanted;
+      factorised = tried.factorised;
     }
   if (!tried.in_equilibrium)
     throw fem::PointFailure("the grains of a volume find no equilibrium");
@@ -51,10 +52,12 @@ fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
 template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
 {
-  TrialOptions<dim> options{bonds, false, nullptr, false};
+  TrialOptions<dim> options{bonds, false, nullptr, false, factorised};
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
-  return at_work.trial(strain_control<dim>(to_volume(strain)), options);
+  Trial<dim> settled = at_work.trial(strain_control<dim>(to_volume(strain)), options);
+  factorised = settled.factorised;
+  return settled;
 }
 
 template <int dim>
@@ -84,6 +87,7 @@ void GrainPoint<dim>::accept(const Voigt<dim>& strain)
     throw fem::PointFailure("the grains of a volume find no equilibrium");
   at_work.accept(std::move(found));
   forget_trial();
+  factorised.reset();
   accepted = at_work;
   events_accepted = std::exchange(events_at_work, {});
 }
@@ -94,6 +98,7 @@ void GrainPoint<dim>::reject()
   at_work = accepted;
   events_at_work.clear();
   forget_trial();
+  factorised.reset();
 }
 
 template <int dim>

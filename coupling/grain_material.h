@@ -61,6 +61,7 @@ private:
   std::vector<BreakEvent<dim>> events_accepted;
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the volume's axes; what `tried` answers
   mutable Trial<dim> tried;
+  mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
   std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the volume's axes: nothing breaks there
 };
 

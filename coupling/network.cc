@@ -189,6 +189,14 @@ void Network<dim>::factorise_intact()
     return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
   };
   factorised = std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, bonded, regularity * stiffness_scale);
+
+  std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
+  for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
+    stiffest.push_back(bonded_element_stiffness(all_links[k], element_rows(point, all_links[k].half_length),
+                                                segment_area(all_links[k], 0), 0.0));
+  factorised_all = std::make_unique<FactorisedNetwork<dim>>(
+    all_links, *pattern, [&](const std::uint32_t link) { return &stiffest[link]; }, regularity * stiffness_scale);
 }
 
 template <int dim>

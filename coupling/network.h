@@ -76,6 +76,8 @@ public:
   Unknowns apply_bonded(const Unknowns& unknowns) const;
   /// Nearly its inverse.
   const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
+  /// The same with every pair that may come to touch touching: no state is stiffer.
+  const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
   /// With other stiffnesses of its links, and a little lent to what floats.
   FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share) const
   {
@@ -123,6 +125,7 @@ private:
 
   std::unique_ptr<StiffnessPattern<dim>> pattern; ///< on the heap: what is factorised refers to it
   std::unique_ptr<FactorisedNetwork<dim>> factorised;
+  std::unique_ptr<FactorisedNetwork<dim>> factorised_all;
   Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
   Stiffness<dim> c_0;
   Eigen::MatrixXd unit_motion;

@@ -17,6 +17,6 @@ struct EquilibriumParameters
   double event_tolerance = 1e-3; ///< largest unbalanced over mean contact force, between events
   double final_tolerance = 1e-6; ///< of the stress that is handed out
   BreakRule break_rule = BreakRule::near_worst;
-  unsigned int most_iterations = 200; ///< of one search by Newton's method
+  unsigned int most_iterations = 10; ///< by Newton's method, before damped motion brings it nearer
 };
 } // namespace feldspar

@@ -56,6 +56,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
   Equilibrium<dim> equilibrium(*reference, current, parameters);
   if (options.nearby)
     equilibrium.begin_at(*options.nearby);
+  equilibrium.begin_with(options.factorised);
   for (;;)
     {
       trial.in_equilibrium = equilibrium.relax(control, parameters.event_tolerance);
@@ -75,6 +76,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
   if (options.with_tangent && trial.in_equilibrium)
     trial.tangent = equilibrium.tangent();
   trial.unbalanced_ratio = equilibrium.unbalanced_ratio();
+  trial.factorised = equilibrium.last_factorised();
   trial.state = options.provisional ? equilibrium.provisional_state() : equilibrium.state();
   return trial;
 }

@@ -18,6 +18,9 @@ struct Trial
   double share_until_break = 1.0;        ///< of the way from the state before, about; 1: nothing broke
   std::optional<Stiffness<dim>> tangent; ///< on request [Pa]
   double unbalanced_ratio = 0.0;         ///< largest unbalanced over mean contact force
+  /// What its linear systems were solved with last; empty: the intact network. Shared with the next trial, which changes
+  /// nothing in it.
+  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
 };
 
 enum class Bonds
@@ -37,6 +40,8 @@ struct TrialOptions
   /// Only strain, stress and motions of the state are wanted, as between the iterations of a solver: it cannot be
   /// accepted.
   bool provisional = false;
+  /// Of an earlier trial, so that none is made anew; may be empty.
+  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
 };
 
 /// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
@@ -51,7 +56,7 @@ public:
   Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {
-    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false});
+    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr});
   }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
