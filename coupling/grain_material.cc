@@ -1,9 +1,12 @@
 #include "coupling/grain_material.h"
 
+#include "coupling/homogenisation.h"
 #include "coupling/state_archive.h"
 #include "dem/random.h"
 
 #include <Eigen/Geometry>
+
+#include <fmt/format.h>
 
 #include <numbers>
 #include <utility>
@@ -162,8 +165,16 @@ NetworkWork GrainPoint<dim>::work_density() const
 
 namespace
 {
-const std::vector<std::string> names_of_fields{"broken_segments_share", "broken_in_shear_share",
-                                               "dissipation_J_per_m3"};
+/// Of GrainPoint::fields(); components along the axes of the sample.
+template <int dim>
+std::vector<std::string> names_of_fields()
+{
+  std::vector<std::string> names{"broken_segments_share", "broken_in_shear_share", "dissipation_J_per_m3",
+                                 "crack_density_per_m"};
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    names.push_back(fmt::format("crack_orientation_{}_per_m", voigt_name<dim>(k)));
+  return names;
+}
 } // namespace
 
 template <int dim>
@@ -172,8 +183,12 @@ std::vector<double> GrainPoint<dim>::fields() const
   const NetworkState<dim>& state = accepted.state();
   const auto n = double(accepted.network().n_segments());
   const NetworkWork work = work_density();
-  return {(state.n_tension_breaks + state.n_shear_breaks) / n, state.n_shear_breaks / n,
-          work.slip + work.released + work.settled};
+  const CrackMeasures<dim> cracks = crack_measures(accepted.network(), state);
+  std::vector<double> values{(state.n_tension_breaks + state.n_shear_breaks) / n, state.n_shear_breaks / n,
+                             work.slip + work.released + work.settled, cracks.density};
+  const Voigt<dim> orientation = stress_voigt<dim>(turn * cracks.orientation * turn.transpose());
+  values.insert(values.end(), orientation.begin(), orientation.end());
+  return values;
 }
 
 namespace
@@ -213,7 +228,7 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
                                   const GrainMaterialParameters& parameters)
 {
   fem::Material<dim> material;
-  material.field_names = names_of_fields;
+  material.field_names = names_of_fields<dim>();
   material.make_point = [realisations = std::move(realisations),
                          parameters](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters.seed, place), RandomStream::dealing);

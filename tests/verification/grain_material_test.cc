@@ -98,7 +98,7 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   ASSERT_GT(point.relax(strain), 0u);
   point.reject();
   EXPECT_TRUE(point.volume().state().intact);
-  EXPECT_EQ(point.fields(), (std::vector<double>{0.0, 0.0, 0.0}));
+  EXPECT_EQ(point.fields(), std::vector<double>(7, 0.0));
   EXPECT_TRUE(point.cracks_of_last_step().empty());
 
   // What is accepted is told, once.
@@ -109,6 +109,29 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   EXPECT_GT(point.fields()[0], 0.0);
   point.accept(strain);
   EXPECT_TRUE(point.cracks_of_last_step().empty());
+}
+
+// A quarter turn and the pull turned with it: the same cracks, their normals along x instead of y.
+TEST(GrainMaterial, CracksAreFieldsInTheAxesOfTheSample)
+{
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  const auto pulled = [&](const Tensor<2>& turn, const Voigt<2>& strain) {
+    GrainPoint<2> point(network, turn, {});
+    point.trial(strain);
+    EXPECT_GT(point.relax(strain), 0u);
+    point.accept(strain);
+    return point.fields();
+  };
+  const std::vector<double> upright = pulled(Tensor<2>::Identity(), {0.0, 3e-4, 0.0});
+  Tensor<2> quarter;
+  quarter << 0.0, -1.0, 1.0, 0.0;
+  const std::vector<double> lying = pulled(quarter, {3e-4, 0.0, 0.0});
+  constexpr int density = 3, xx = 4, yy = 5, xy = 6;
+  EXPECT_GT(upright[yy], 0.7 * upright[density]); // across the pull
+  EXPECT_NEAR(upright[xx] + upright[yy], upright[density], 1e-12 * upright[density]);
+  EXPECT_DOUBLE_EQ(lying[density], upright[density]);
+  EXPECT_NEAR(lying[xx], upright[yy], 1e-12 * upright[yy]);
+  EXPECT_NEAR(lying[xy], -upright[xy], 1e-12 * upright[yy]);
 }
 
 // Each point draws by itself: the same seed deals the same whatever the order, another seed otherwise.
