@@ -112,8 +112,9 @@ void PathRun<dim>::advance()
   const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
   std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
   next_is_short = false;
-  Trial<dim> trial = body.trial(control_at(position + increment));
-  if (trial.in_equilibrium && !trial.breaks.empty() && increment > 1)
+  Trial<dim> trial =
+    body.trial(control_at(position + increment), increment > 1 ? Bonds::until_break : Bonds::may_break);
+  if (trial.would_break)
     {
       // As far as nothing breaks; the break itself is then within one of the smallest cuts.
       const auto until_break = std::uint64_t(std::ceil(trial.share_until_break * double(increment)));

@@ -46,7 +46,7 @@ Trial<dim> RepresentativeVolume<dim>::intact_trial(const Voigt<dim>& strain, con
 template <int dim>
 Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const TrialOptions<dim>& options) const
 {
-  const bool may_break = options.bonds == Bonds::may_break;
+  const bool may_break = options.bonds != Bonds::frozen;
   if (current.intact)
     if (const Voigt<dim> strain = intact_strain(control);
         may_break ? reference->stays_intact(strain) : reference->stays_linear(strain))
@@ -71,6 +71,9 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
         break;
       if (trial.breaks.empty())
         trial.share_until_break = equilibrium.share_until(overloads);
+      trial.would_break = options.bonds == Bonds::until_break;
+      if (trial.would_break)
+        return trial;
       equilibrium.break_segments(overloads, trial.breaks);
     }
   if (options.with_tangent && trial.in_equilibrium)

@@ -15,6 +15,7 @@ struct Trial
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
   NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
   std::vector<BreakEvent<dim>> breaks;
+  bool would_break = false;              ///< it stands overloaded; with Bonds::until_break
   double share_until_break = 1.0;        ///< of the way from the state before, about; 1: nothing broke
   std::optional<Stiffness<dim>> tangent; ///< on request [Pa]
   double unbalanced_ratio = 0.0;         ///< largest unbalanced over mean contact force
@@ -26,6 +27,7 @@ struct Trial
 enum class Bonds
 {
   may_break,
+  until_break, ///< as frozen, but says whether and where the first would break; then it cannot be accepted
   frozen
 };
 
