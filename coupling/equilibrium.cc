@@ -20,9 +20,10 @@ constexpr double work_tolerance = 1e-3; // imbalance over what was moved between
 constexpr double least_work = 1e-8;     // below this share of what is stored nothing is refined
 // Of the mean link's force nothing is asked below that at this strain: a body that has come apart balances at nothing.
 constexpr double least_strain = 1e-9;
-constexpr double longest_step = 0.1;         // of one iteration, over the mean branch
-constexpr unsigned int most_long_steps = 40; // then the body flies apart
-constexpr unsigned int most_rounds = 12;     // of damped motion and Newton's method after it
+constexpr double longest_step = 0.1;           // of one iteration, over the mean branch
+constexpr unsigned int most_long_steps = 40;   // then the body flies apart
+constexpr unsigned int most_rounds = 24;       // of damped motion and Newton's method after it
+constexpr unsigned int rounds_before_slip = 2; // is made history
 } // namespace
 
 template <int dim>
@@ -237,6 +238,10 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       relax_by_motion(control, tolerance);
       if (!is_small()) // it flies apart
         return false;
+      // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only
+      // a circle about one. What was lost on the way there is lost: from here it is a short way.
+      if (round % rounds_before_slip == rounds_before_slip - 1)
+        make_event();
     }
 }
 
@@ -528,6 +533,14 @@ void Equilibrium<dim>::commit()
 }
 
 template <int dim>
+void Equilibrium<dim>::make_event()
+{
+  commit();
+  at_event = balance(position);
+  present = at_event;
+}
+
+template <int dim>
 void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events)
 {
   commit();
@@ -567,9 +580,7 @@ NetworkState<dim> Equilibrium<dim>::provisional_state() const
 template <int dim>
 NetworkState<dim> Equilibrium<dim>::state()
 {
-  commit();
-  at_event = balance(position);
-  present = at_event;
+  make_event();
   NetworkState<dim> result = last;
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   result.strain = position.template tail<n_voigt<dim>>();

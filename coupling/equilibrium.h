@@ -121,6 +121,7 @@ private:
   double slip_energy(const Balance& from, const Balance& to) const;
   NetworkWork work_since_event(unsigned int n_intervals) const;
   void commit();
+  void make_event();
 
   const Network<dim>& network;
   EquilibriumParameters parameters;
