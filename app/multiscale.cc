@@ -35,9 +35,9 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
 {
   std::string text;
   for (const Rock& rock : rocks)
-    if (!rock.specimens.empty())
-      text += fmt::format("The first of {} volumes of seed {}\n{}\n", rock.realisations.size(), rock.seed,
-                          describe(rock.specimens.front().report));
+    if (const auto reports = rock.reports(); !reports.empty())
+      text +=
+        fmt::format("The first of {} volumes of seed {}\n{}\n", reports.size(), rock.seed, describe(reports.front()));
   std::optional<Reference> reference;
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file);
@@ -59,8 +59,12 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
 {
   const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
   const bool has_grains = input.sample.material == SampleMaterial::grains;
-  if (has_grains && input.specimen.dimension != 2)
-    refuse("Specimen/Dimension = 3: the plane sample takes volumes in the plane; set Dimension = 2");
+  const SampleGeometry geometry = input.sample.geometry;
+  if (const unsigned int needed = dimension_of_volumes(geometry); has_grains && input.specimen.dimension != needed)
+    refuse(fmt::format("Specimen/Dimension = {}: {}; set Dimension = {}", input.specimen.dimension,
+                       needed == 2 ? "the volumes of a plane sample are of discs (those of plane strain of spheres)"
+                                   : "the volumes of such a Sample/Geometry are of spheres",
+                       needed));
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
@@ -68,8 +72,8 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
   if (std::find(input.test_list.begin(), input.test_list.end(), TestKind::brazilian) != input.test_list.end())
-    refuse("Tests/List: brazilian: the sample is a rectangle; it makes direct_tension, uniaxial_compression and "
-           "triaxial_compression");
+    refuse("Tests/List: brazilian: the sample stands between platens; it makes direct_tension, uniaxial_compression "
+           "and triaxial_compression");
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
@@ -78,6 +82,10 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
            "strain at which it is to stop");
   if (input.continuum.dilation_angle > input.continuum.friction_angle)
     refuse("Continuum/Dilation angle: must be at most Continuum/Friction angle");
+  if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
+    refuse("Continuum/Poisson ratio: must be below 0.5 in space");
+  if (input.sample.reduced_quadrature && input.sample.order != 2)
+    refuse("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
   SampleSize size{};
   try
     {
@@ -91,18 +99,21 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   // Elements larger than the volume would have to dissipate more than it holds; docs/theory.md §11.
   if (!has_grains || !input.specimen.specimen_file.empty())
     return {};
-  const double volume = std::sqrt(input.specimen.width * input.specimen.height);
+  const SampleParameters& sample = input.sample;
+  const double width = input.specimen.width;
+  const double volume = dimension_of_volumes(geometry) == 2 ? std::sqrt(width * input.specimen.height)
+                                                            : std::cbrt(width * width * input.specimen.height);
   if (size.largest_element <= volume * (1.0 + 1e-9))
     return {};
-  const SampleParameters& sample = input.sample;
   const std::string larger =
     fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for "
                 "them",
                 1e3 * size.largest_element, 1e3 * volume);
   if (!sample.mesh_file.empty())
     return {fmt::format("{}; mesh with elements of at most {:.1f} mm", larger, 1e3 * volume * sample.order)};
+  const double across = geometry == SampleGeometry::axisymmetric ? 0.5 * size.width : size.width;
   return {fmt::format("{}; take at least Elements across = {}, Elements along = {}", larger,
-                      unsigned(std::ceil(size.width / (volume * sample.order))),
+                      unsigned(std::ceil(across / (volume * sample.order))),
                       unsigned(std::ceil(size.height / (volume * sample.order))))};
 }
 

@@ -31,13 +31,12 @@ SampleTest from_the_start(const PlannedSample& planned, const Input& input)
 {
   if (input.sample.material != SampleMaterial::grains)
     return {planned.test, input.sample, input.tests, input.continuum};
-  return {planned.test,
-          input.sample,
-          input.tests,
-          input.equilibrium,
-          planned.rock->realisations,
-          planned.rock->specimens.front().report,
-          planned.rock->seed};
+  return std::visit(
+    [&](const auto& packings) {
+      return SampleTest(planned.test, input.sample, input.tests, input.equilibrium, packings.realisations,
+                        packings.specimens.front().report, planned.rock->seed);
+    },
+    planned.rock->packings);
 }
 
 /// Writes the state of a test as often as costs no more than a fiftieth of the time.
@@ -67,19 +66,16 @@ private:
   Clock::time_point last_write;
   Clock::duration cost{0};
 };
-} // namespace
-
+template <int dim>
 std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
                              const std::filesystem::path& folder, Progress& progress)
 {
-  if (input.sample.material != SampleMaterial::grains)
-    return {{input.seeds.front(), {}, {}}}; // no seed makes a difference
   Input of_packings = input;
   of_packings.seeds = packing_seeds(input);
   const std::vector<Variant> one{{"", of_packings}};
   const auto orders = specimen_orders(one);
   std::filesystem::create_directories(folder / "volumes");
-  auto specimens = provide_specimens<2>(one, orders, folder / "volumes", progress);
+  auto specimens = provide_specimens<dim>(one, orders, folder / "volumes", progress);
   std::vector<Rock> rocks;
   for (std::size_t k = 0; k < specimens.size(); ++k)
     {
@@ -88,21 +84,45 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
                                      "needs a periodic cell (feldspar lab takes walls)",
                                      input_file.string()));
       if (k % input.sample.n_realisations == 0)
-        rocks.push_back({input.seeds[rocks.size()], {}, {}});
-      Rock& rock = rocks.back();
-      rock.realisations.push_back(std::make_shared<const Network<2>>(specimens[k]));
-      rock.specimens.push_back(std::move(specimens[k]));
+        rocks.push_back({input.seeds[rocks.size()], Packings<dim>()});
+      auto& packings = std::get<Packings<dim>>(rocks.back().packings);
+      packings.realisations.push_back(std::make_shared<const Network<dim>>(specimens[k]));
+      packings.specimens.push_back(std::move(specimens[k]));
     }
   return rocks;
+}
+} // namespace
+
+std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
+                             const std::filesystem::path& folder, Progress& progress)
+{
+  if (input.sample.material != SampleMaterial::grains)
+    return {{input.seeds.front(), {}}}; // no seed makes a difference
+  return input.specimen.dimension == 2 ? make_rocks<2>(input, input_file, folder, progress)
+                                       : make_rocks<3>(input, input_file, folder, progress);
+}
+
+std::vector<SpecimenReport> Rock::reports() const
+{
+  std::vector<SpecimenReport> all;
+  std::visit(
+    [&](const auto& of) {
+      for (const auto& specimen : of.specimens)
+        all.push_back(specimen.report);
+    },
+    packings);
+  return all;
 }
 
 namespace
 {
 /// Geometrically linear volumes bear any pressure: beyond small strains that means nothing.
-void check_confinement(const double pressure, const Network<2>& network)
+template <int dim>
+void check_confinement(const double pressure, const Network<dim>& network)
 {
   constexpr double largest = 0.01;
-  const Voigt<2> strain = network.intact_stiffness().partialPivLu().solve(Voigt<2>(-pressure, -pressure, 0.0));
+  const Voigt<dim> all_round = stress_voigt<dim>(-pressure * Tensor<dim>::Identity());
+  const Voigt<dim> strain = network.intact_stiffness().partialPivLu().solve(all_round);
   if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
     throw InputError(
       fmt::format("Tests/Confinements: {:g} MPa would strain the intact volume by {:.2g} %; small strains end "
@@ -115,9 +135,13 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
 {
   for (const Rock& rock : rocks)
     for (const double pressure : input.confinements)
-      if (!rock.realisations.empty() &&
-          std::count(input.test_list.begin(), input.test_list.end(), TestKind::triaxial_compression) > 0)
-        check_confinement(pressure, *rock.realisations.front());
+      if (std::count(input.test_list.begin(), input.test_list.end(), TestKind::triaxial_compression) > 0)
+        std::visit(
+          [&](const auto& packings) {
+            if (!packings.realisations.empty())
+              check_confinement(pressure, *packings.realisations.front());
+          },
+          rock.packings);
   std::vector<PlannedSample> planned;
   for (const Rock& rock : rocks)
     for (const TestCase& test : test_cases(input.test_list, input.confinements))

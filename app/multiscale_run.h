@@ -11,17 +11,28 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// The parts of a multiscale run: its volumes, its programme, and one test of it.
 namespace feldspar
 {
-/// The volumes that one seed's samples share.
+/// Of the volumes that one seed's samples share.
+template <int dim>
+struct Packings
+{
+  std::vector<Specimen<dim>> specimens;
+  std::vector<std::shared_ptr<const Network<dim>>>
+    realisations; ///< of the specimens; shared by the points that got them
+};
+
 struct Rock
 {
   std::uint64_t seed;
-  std::vector<Specimen<2>> specimens;
-  std::vector<std::shared_ptr<const Network<2>>> realisations; ///< of the specimens; shared by the points that got them
+  std::variant<Packings<2>, Packings<3>> packings; ///< none in a sample without grains
+
+  /// How the volumes came out.
+  std::vector<SpecimenReport> reports() const;
 };
 
 /// Makes the volumes of every seed, or reads those that lie in the folder of the run. Throws InputError, and Interrupted.

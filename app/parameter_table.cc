@@ -551,6 +551,14 @@ std::vector<Parameter> make_parameter_table()
     equilibrium.integer("Most iterations", &E::most_iterations, {'[', 1.0, 1e6, ']'},
                         "by Newton's method in search of one equilibrium, before damped motion brings it nearer"),
 
+    sample.choice<SampleGeometry>(
+      "Geometry", &M::geometry,
+      {{"plane", SampleGeometry::plane},
+       {"plane strain", SampleGeometry::plane_strain},
+       {"axisymmetric", SampleGeometry::axisymmetric},
+       {"cylinder", SampleGeometry::cylinder}},
+      "plane: volumes of discs, one metre thick; the others have volumes of spheres (Dimension = 3): plane strain "
+      "lets nothing strain across the plane, axisymmetric is a cylinder by half of its section, cylinder the whole"),
     sample.choice<SampleMaterial>(
       "Material", &M::material,
       {{"grains", SampleMaterial::grains},
@@ -559,13 +567,18 @@ std::vector<Parameter> make_parameter_table()
       "at the points of the sample of `feldspar multiscale`: the representative volume, or, "
       "for comparison, what Continuum says"),
     sample.file("Mesh file", &M::mesh_file,
-                "of Gmsh (format 2 or 4, text), quadrilaterals in metres, with the lines of the physical groups left, "
-                "right, bottom and top; instead of the rectangle of Width, Height and both Elements"),
-    sample.quantity("Width", &M::width, length, "mm", above_zero, "of the sample of `feldspar multiscale`"),
+                "of Gmsh (format 2 or 4, text), in metres, instead of Width, Height and both Elements: quadrilaterals "
+                "with the lines of the physical groups left, right, bottom and top, in r-z axis, side, bottom and top "
+                "with the axis at x = 0, or hexahedra along z with the surfaces side, bottom and top"),
+    sample.quantity("Width", &M::width, length, "mm", above_zero,
+                    "of the sample of `feldspar multiscale`; of a cylinder its diameter"),
     sample.quantity("Height", &M::height, length, "mm", above_zero, "of the sample, along the axis of the tests"),
-    sample.integer("Elements across", &M::elements_across, {'[', 1.0, 10000.0, ']'}, "over the width"),
+    sample.integer("Elements across", &M::elements_across, {'[', 1.0, 10000.0, ']'},
+                   "over the width; axisymmetric: over the radius; in a cylinder at least 3"),
     sample.integer("Elements along", &M::elements_along, {'[', 1.0, 10000.0, ']'}, "over the height"),
-    sample.integer("Order", &M::order, {'[', 1.0, 2.0, ']'}, "of the elements; order + 1 points each way"),
+    sample.integer("Order", &M::order, {'[', 1.0, 2.0, ']'}, "of the elements"),
+    sample.choice<bool>("Quadrature", &M::reduced_quadrature, {{"full", false}, {"reduced", true}},
+                        "full: order + 1 points each way; reduced: as many as the order, which must be 2"),
     sample.choice<bool>("Platens", &M::rough_platens, {{"smooth", false}, {"rough", true}},
                         "whether the ends are held sideways"),
     sample.integer("Realisations", &M::n_realisations, {'[', 1.0, 1000.0, ']'},
@@ -583,7 +596,7 @@ std::vector<Parameter> make_parameter_table()
                   "unbalanced over internal force of the sample"),
 
     continuum.quantity("Modulus", &K::modulus, stress, "GPa", above_zero,
-                       "Young's, as a test in the plane shows it (free across the plane)"),
+                       "Young's; as a test in the plane shows it (free across the plane)"),
     continuum.number("Poisson ratio", &K::poissons_ratio, {'[', 0.0, 1.0, ')'}, "as a test in the plane shows it"),
     continuum.quantity("Cohesion", &K::cohesion, stress, "MPa", above_zero, "of Mohr-Coulomb; there is no softening"),
     continuum.quantity("Friction angle", &K::friction_angle, angle, "deg", {'(', 0.0, 90.0, ')'}, "of Mohr-Coulomb"),

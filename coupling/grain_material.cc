@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -221,6 +222,16 @@ Tensor<dim> random_turn(Random& random)
       return turn.normalized().toRotationMatrix();
     }
 }
+
+/// From r, θ, z to x, y, z.
+template <int dim>
+Tensor<dim> local_axes(const fem::PointPlace& place)
+{
+  Tensor<dim> axes = Tensor<dim>::Identity();
+  axes.template topLeftCorner<2, 2>() =
+    Eigen::Rotation2Dd(std::atan2(place.position[1], place.position[0])).toRotationMatrix();
+  return axes;
+}
 } // namespace
 
 template <int dim>
@@ -233,8 +244,11 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
                          parameters](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters.seed, place), RandomStream::dealing);
     const auto& network = realisations[std::size_t(random.uniform() * double(realisations.size()))];
-    const Tensor<dim> turn =
-      parameters.random_orientation ? random_turn<dim>(random) : Tensor<dim>(Tensor<dim>::Identity());
+    Tensor<dim> turn = Tensor<dim>::Identity();
+    if (parameters.random_orientation)
+      turn = random_turn<dim>(random);
+    if (parameters.in_local_axes)
+      turn = local_axes<dim>(place) * turn;
     return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium);
   };
   return material;

@@ -69,6 +69,7 @@ struct GrainMaterialParameters
 {
   std::uint64_t seed = 1;         ///< of the dealing
   bool random_orientation = true; ///< each volume turned by an angle of its own
+  bool in_local_axes = false;     ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
   EquilibriumParameters equilibrium;
 };
 

@@ -13,8 +13,23 @@ enum class SampleMaterial
   mohr_coulomb
 };
 
-/// A material without grains, for comparison. Modulus and Poisson's ratio are those that a test in the plane shows: the
-/// out-of-plane direction is free.
+/// What a sample is, and how its mesh stands for it.
+enum class SampleGeometry
+{
+  plane,        ///< volumes of discs, one metre thick
+  plane_strain, ///< volumes of spheres; nothing strains across the plane
+  axisymmetric, ///< a cylinder of spheres by half of its section, r and z
+  cylinder      ///< of spheres, as a whole
+};
+
+/// Of the volumes at its points.
+constexpr unsigned int dimension_of_volumes(const SampleGeometry geometry)
+{
+  return geometry == SampleGeometry::plane ? 2 : 3;
+}
+
+/// A material without grains, for comparison. Modulus and Poisson's ratio are those that a test shows; in a plane sample:
+/// with the out-of-plane direction free.
 struct ContinuumParameters
 {
   double modulus = 62.5e9; ///< [Pa]
@@ -27,13 +42,15 @@ struct ContinuumParameters
 /// The sample of a multiscale run: a mesh, and how its points get their volumes.
 struct SampleParameters
 {
+  SampleGeometry geometry = SampleGeometry::plane;
   SampleMaterial material = SampleMaterial::grains;
-  std::string mesh_file; ///< of Gmsh; empty: a rectangle
-  double width = 0.050;  ///< of the rectangle [m]
-  double height = 0.100; ///< along the axis of the test [m]
-  unsigned int elements_across = 2;
+  std::string mesh_file;            ///< of Gmsh; empty: a rectangle or a cylinder
+  double width = 0.050;             ///< of the rectangle, diameter of the cylinder [m]
+  double height = 0.100;            ///< along the axis of the test [m]
+  unsigned int elements_across = 2; ///< over the width; axisymmetric: over the radius
   unsigned int elements_along = 4;
   unsigned int order = 1;
+  bool reduced_quadrature = false; ///< order instead of order + 1 points a direction
   bool rough_platens = false;
   unsigned int n_realisations = 4;       ///< volumes packed, dealt to the points
   bool random_orientation = true;        ///< each turned by an angle of its own
@@ -43,4 +60,16 @@ struct SampleParameters
   double smallest_step_share = 1.0 / 16; ///< of a step, before there is said to be no equilibrium
   double newton_tolerance = 1e-5;        ///< unbalanced over internal force
 };
+
+/// What the mesh of a sample measures.
+struct SampleSize
+{
+  double width;           ///< of a cylinder the diameter [m]
+  double height;          ///< [m]
+  double largest_element; ///< as PointPlace::element_size [m]
+};
+
+/// Reads or makes the mesh. Throws InputError where it cannot be used: no quadrilaterals or hexahedra, inverted, a
+/// boundary of a laboratory test is missing.
+SampleSize measure(const SampleParameters& sample);
 } // namespace feldspar

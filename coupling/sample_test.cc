@@ -1,18 +1,11 @@
 #include "coupling/sample_test.h"
 
-#include "coupling/grain_material.h"
+#include "coupling/sample_body.h"
 #include "coupling/state_archive.h"
 #include "dem/hdf5_archive.h"
 #include "dem/input_error.h"
 #include "dem/stop_rule.h"
 #include "fem/advance.h"
-#include "fem/linear_elasticity.h"
-#include "fem/mohr_coulomb.h"
-#include "fem/output.h"
-#include "fem/plane_strain.h"
-#include "fem/platen_test.h"
-
-#include <deal.II/grid/grid_tools.h>
 
 #include <fmt/format.h>
 
@@ -21,104 +14,61 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace feldspar
 {
-namespace
-{
-fem::SampleMesh<2> mesh_of(const SampleParameters& sample)
-{
-  if (sample.mesh_file.empty())
-    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height,
-                             {sample.elements_across, sample.elements_along}, 0);
-  try
-    {
-      fem::SampleMesh<2> mesh = fem::read_gmsh<2>(MPI_COMM_WORLD, sample.mesh_file, 0);
-      for (const char* const boundary : {"left", "right", "bottom", "top"})
-        mesh.boundary(boundary);
-      return mesh;
-    }
-  catch (const fem::MeshError& error)
-    {
-      throw InputError(fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
-    }
-}
-
-SampleSize size_of(const fem::SampleMesh<2>& mesh, const unsigned int order)
-{
-  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
-  double largest = 0.0;
-  for (const auto& cell : mesh.triangulation->active_cell_iterators())
-    largest = std::max(largest, std::sqrt(cell->measure()) / order);
-  return {box.side_length(0), box.side_length(1), largest};
-}
-
-fem::Material<2> material_of(const SampleMaterial material, const ContinuumParameters& of)
-{
-  // Plane strain that shows the modulus and the ratio asked for.
-  const auto [E, nu] = fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio});
-  if (material == SampleMaterial::linear_elasticity)
-    return fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu));
-  return fem::plane_strain(fem::mohr_coulomb({E, nu, of.cohesion, of.friction_angle, of.dilation_angle}));
-}
-} // namespace
-
-SampleSize measure(const SampleParameters& sample) { return size_of(mesh_of(sample), sample.order); }
-
 struct SampleTest::Parts
 {
   TestCase test;
   SampleParameters sample;
   TestParameters wanted;
-  fem::SampleMesh<2> mesh;
-  SampleSize size;
   SampleStanding standing;
   std::function<void(const SampleStanding&)> watch;
-  fem::Solid<2> solid;
+  std::unique_ptr<SampleBody> body;
+  SampleSize size{};
   std::optional<fem::FieldOutput> fields;
   StopRule stop_rule;
   TestRecord record;
   bool seated = false;
   bool ended = false;
   double height_at_seating = 0.0; ///< displacement of the top [m]
-  double width_at_seating = 0.0;  ///< widening [m]
+  double lateral_strain_at_seating = 0.0;
   std::uint64_t n_tension = 0;
   std::uint64_t n_shear = 0;
 
-  Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters,
-        const fem::Material<2>& material, const std::uint64_t segments_a_volume)
+  Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters)
     : test(which)
     , sample(of)
     , wanted(parameters)
-    , mesh(mesh_of(sample))
-    , size(size_of(mesh, sample.order))
-    , solid(mesh, set_up(), material)
     , stop_rule(test.kind)
   {
     if (test.kind == TestKind::brazilian)
-      throw InputError("Tests/List: brazilian: a multiscale sample is a rectangle; it makes direct_tension, "
+      throw InputError("Tests/List: brazilian: a multiscale sample stands between platens; it makes direct_tension, "
                        "uniaxial_compression and triaxial_compression");
-    standing.n_points = solid.material_points().size();
-    standing.n_segments = standing.n_points * segments_a_volume;
     record.kind = test.kind;
     record.body = TestBody::finite_elements;
     record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
     record.confining_pressure = test.confining_pressure;
-    record.size = {size.width, size.height, 0.0};
   }
 
-  fem::SolidParameters set_up()
+  void take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_a_volume)
   {
-    fem::SolidParameters parameters;
-    parameters.order = sample.order;
-    parameters.newton_tolerance = sample.newton_tolerance;
-    parameters.watch = [this](const fem::NewtonReport& report) {
-      standing.n_newton_iterations = report.n_iterations;
-      standing.n_cascades = report.n_cascades;
-      if (watch)
-        watch(standing);
-    };
-    return parameters;
+    body = std::move(its_body);
+    size = body->size();
+    standing.n_points = body->n_points();
+    standing.n_segments = standing.n_points * segments_a_volume;
+    record.size = body->box();
+  }
+
+  SampleSetUp set_up()
+  {
+    return {test.confining_pressure, [this](const fem::NewtonReport& report) {
+              standing.n_newton_iterations = report.n_iterations;
+              standing.n_cascades = report.n_cascades;
+              if (watch)
+                watch(standing);
+            }};
   }
 
   /// After Archive::reads `fields_written` tells of what lies in the folder of the fields.
@@ -128,12 +78,13 @@ struct SampleTest::Parts
     transfer_flag(archive, "seated", seated);
     transfer_flag(archive, "ended", ended);
     archive.value("height_at_seating_m", height_at_seating);
-    archive.value("width_at_seating_m", width_at_seating);
+    archive.value("lateral_strain_at_seating", lateral_strain_at_seating);
     archive.value("n_tension", n_tension);
     archive.value("n_shear", n_shear);
     archive.value("steps", record.steps);
     archive.value("wall_time", record.wall_time);
     archive.text("ended_early", record.ended_early);
+    transfer_flag(archive, "came_apart", record.came_apart);
     archive.bytes("curve", record.curve);
     archive.bytes("cracks", record.cracks);
     archive.value("peak_deviator", stop_rule.peak.highest);
@@ -143,14 +94,14 @@ struct SampleTest::Parts
 
     fem::StoredSolid stored;
     if constexpr (!Archive::reads)
-      stored = solid.stored();
+      stored = body->stored();
     archive.array("displacement_m", stored.displacement);
     archive.array("internal_force_N", stored.internal_force);
     archive.array("external_force_N", stored.external_force);
     archive.array("strains", stored.strains);
     archive.array("answers_Pa", stored.answers);
-    for (const char* const boundary : {"left", "right", "bottom", "top"})
-      archive.value(std::string("pressure_") + boundary + "_Pa", stored.pressures[boundary]);
+    for (const std::string& boundary : body->boundaries())
+      archive.value("pressure_" + boundary + "_Pa", stored.pressures[boundary]);
     std::vector<std::uint64_t> sizes;
     std::vector<std::uint8_t> points;
     for (const std::string& bytes : stored.points)
@@ -173,7 +124,7 @@ struct SampleTest::Parts
           }
         try
           {
-            solid.restore(stored);
+            body->restore(stored);
           }
         catch (const std::invalid_argument& error)
           {
@@ -182,31 +133,28 @@ struct SampleTest::Parts
       }
   }
 
-  bool has_grains() const { return sample.material == SampleMaterial::grains; }
-
-  /// Where there are grains.
-  const GrainPoint<2>& point(const std::size_t i) const
-  {
-    return static_cast<const GrainPoint<2>&>(solid.material_points()[i]);
-  }
-
   double sign() const { return laboratory_sign(test.kind); }
-  double widening() const { return solid.mean_displacement("right", 0) - solid.mean_displacement("left", 0); }
 
   /// Pressure all round, the top plate free to follow.
   void seat()
   {
     if (test.confining_pressure > 0.0)
-      go(platens().seating());
-    height_at_seating = solid.mean_displacement("top", 1);
-    width_at_seating = widening();
+      go([this](const double fraction) { return body->seat(fraction); });
+    height_at_seating = body->top_displacement();
+    lateral_strain_at_seating = body->lateral_strain();
     seated = true;
     record.curve.push_back(sample_row());
   }
 
+  void load_to(const double strain)
+  {
+    const double top = height_at_seating + strain * size.height;
+    go([=, this](const double fraction) { return body->press(top, fraction); });
+  }
+
   /// In steps that break no more than their share. Where a step cut twice for that, or the smallest, still does, it is an
-  /// avalanche, which no step divides.
-  void go(const fem::Load<2>& load)
+  /// avalanche, which no step divides. `solve` goes a fraction of the way that is left.
+  void go(const std::function<fem::NewtonReport(double)>& solve)
   {
     fem::StepControl steps(1.0, sample.smallest_step_share, 1.0);
     const auto most_events =
@@ -216,119 +164,85 @@ struct SampleTest::Parts
     bool avalanche = false;
     while (!steps.finished())
       {
-        solid.limit_events(avalanche ? standing.n_segments : most_events);
-        const fem::NewtonReport report = solid.solve(load, (steps.next() - steps.done()) / (1.0 - steps.done()));
+        body->limit_events(avalanche ? standing.n_segments : most_events);
+        const fem::NewtonReport report = solve((steps.next() - steps.done()) / (1.0 - steps.done()));
         if (report.converged)
           {
-            solid.accept();
+            body->accept();
             steps.succeeded();
             gather_cracks();
             avalanche = false;
             n_cuts_for_breaks = 0;
             continue;
           }
-        solid.reject();
+        body->reject();
         const bool breaks_too_much = !avalanche && report.n_events > most_events;
         const bool was_cut = steps.cut();
         if (!was_cut && !breaks_too_much)
-          throw fem::StepFailure(report.failure);
+          {
+            record.came_apart = avalanche;
+            throw fem::StepFailure(report.failure);
+          }
         if (breaks_too_much)
           avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
       }
   }
 
-  void load_to(const double strain) { go(platens().pressing(height_at_seating + strain * size.height)); }
-
-  fem::PlatenTest<2> platens() const
-  {
-    fem::PlatenTest<2> set_up;
-    set_up.platens = sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth;
-    set_up.confining_pressure = test.confining_pressure;
-    return set_up;
-  }
-
-  double axial_strain() const { return (solid.mean_displacement("top", 1) - height_at_seating) / size.height; }
+  double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }
 
   /// After each accepted step.
   void gather_cracks()
   {
     ++record.steps;
-    if (!has_grains())
-      return;
-    for (std::size_t i = 0; i < standing.n_points; ++i)
-      for (const PointCrack<2>& broken : point(i).cracks_of_last_step())
-        {
-          const auto& place = solid.places()[i].position;
-          record.cracks.push_back({broken.kind,
-                                   i,
-                                   broken.segment,
-                                   record.steps,
-                                   seated ? axial_strain() : 0.0,
-                                   {place[0], place[1], 0.0},
-                                   {broken.normal[0], broken.normal[1], 0.0},
-                                   broken.size,
-                                   broken.released_energy});
-          ++(broken.kind == CrackKind::tension ? n_tension : n_shear);
-        }
+    for (Crack& crack : body->cracks_of_last_step())
+      {
+        crack.step = record.steps;
+        crack.axial_strain = seated ? axial_strain() : 0.0;
+        ++(crack.kind == CrackKind::tension ? n_tension : n_shear);
+        record.cracks.push_back(crack);
+      }
   }
 
   CurveSample sample_row()
   {
+    const bool is_first = record.curve.empty();
     CurveSample row;
     row.step = record.steps;
     row.axial_strain = axial_strain();
-    row.axial_stress = record.curve.empty() ? -test.confining_pressure : solid.reaction("top", 1) / size.width;
-    row.end_stress_difference =
-      record.curve.empty() ? 0.0 : (solid.reaction("top", 1) + solid.reaction("bottom", 1)) / size.width;
+    row.axial_stress = is_first ? -test.confining_pressure : body->platen_stress("top");
+    row.end_stress_difference = is_first ? 0.0 : body->platen_stress("top") + body->platen_stress("bottom");
     row.lateral_stress = -test.confining_pressure;
-    row.mid_stress = solid.mean_stress()[1];
+    row.mid_stress = body->mean_axial_stress();
     row.gauge_axial_strain = row.axial_strain;
-    row.gauge_lateral_strain = (widening() - width_at_seating) / size.width;
-    row.gauge_volumetric_strain = row.gauge_axial_strain + row.gauge_lateral_strain;
+    row.gauge_lateral_strain = body->lateral_strain() - lateral_strain_at_seating;
+    row.gauge_volumetric_strain = row.gauge_axial_strain + body->n_lateral_directions() * row.gauge_lateral_strain;
     row.n_tension_cracks = n_tension;
     row.n_shear_cracks = n_shear;
-    standing.n_damaged_points = 0;
-    if (!has_grains())
-      {
-        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-        row.energies = {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
-        return row;
-      }
-    for (std::size_t i = 0; i < standing.n_points; ++i)
-      {
-        const double volume = solid.volumes()[i];
-        const NetworkWork work = point(i).work_density();
-        row.energies.boundary_work += volume * work.boundary;
-        row.energies.strain += volume * point(i).stored_energy_density();
-        row.energies.slip += volume * work.slip;
-        row.energies.released += volume * work.released;
-        row.energies.damping += volume * work.settled;
-        standing.n_damaged_points += !point(i).volume().state().intact;
-      }
+    row.energies = body->energies();
+    standing.n_damaged_points = body->n_damaged_points();
     return row;
   }
 };
 
+template <int dim>
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
                        const EquilibriumParameters& equilibrium,
-                       std::vector<std::shared_ptr<const Network<2>>> realisations, const SpecimenReport& of_volumes,
+                       std::vector<std::shared_ptr<const Network<dim>>> realisations, const SpecimenReport& of_volumes,
                        const std::uint64_t seed)
+  : parts(std::make_unique<Parts>(test, sample, wanted))
 {
   const std::uint64_t segments_a_volume = realisations.front()->n_segments();
-  GrainMaterialParameters material;
-  material.seed = seed;
-  material.random_orientation = sample.random_orientation;
-  material.equilibrium = equilibrium;
-  parts = std::make_unique<Parts>(test, sample, wanted, grain_material<2>(std::move(realisations), material),
-                                  segments_a_volume);
+  parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations), seed),
+              segments_a_volume);
   parts->record.seed = seed;
   parts->record.specimen = of_volumes;
 }
 
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
                        const ContinuumParameters& continuum)
-  : parts(std::make_unique<Parts>(test, sample, wanted, material_of(sample.material, continuum), 0))
+  : parts(std::make_unique<Parts>(test, sample, wanted))
 {
+  parts->take(make_continuous_body(sample, parts->set_up(), continuum), 0);
 }
 SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
@@ -354,8 +268,10 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
         throw InputError(fmt::format("Tests/Confinements: the sample finds no equilibrium under {:g} MPa: {}",
                                      parts->test.confining_pressure / 1e6, failure.what()));
       parts->ended = true;
-      record.ended_early = fmt::format("no equilibrium was found beyond an axial strain of {:.4g} %: {}",
-                                       100.0 * std::abs(parts->axial_strain()), failure.what());
+      record.ended_early =
+        fmt::format("{} beyond an axial strain of {:.4g} %: {}",
+                    record.came_apart ? "it came apart in an avalanche of breaks" : "no equilibrium was found",
+                    100.0 * std::abs(parts->axial_strain()), failure.what());
     }
   parts->watch = nullptr;
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
@@ -370,21 +286,19 @@ void SampleTest::write_fields(const std::filesystem::path& folder, const std::st
 {
   if (!parts->fields)
     parts->fields.emplace(folder, name);
-  parts->fields->write(parts->solid, double(parts->record.curve.size()));
+  parts->body->write_fields(*parts->fields, double(parts->record.curve.size()));
 }
 
-SampleVolume SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
+template <int dim>
+SampleVolume<dim> SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
 {
-  if (!parts->has_grains())
+  if (!parts->body->has_grains())
     throw InputError("Sample/Material: the points of this sample have no grains");
-  const std::size_t n = parts->solid.n_points_per_cell();
+  const std::size_t n = parts->body->n_points_per_cell();
   if (point >= n || cell >= parts->standing.n_points / n)
     throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
                                  cell, parts->standing.n_points / n - 1, n - 1));
-  const std::size_t number = n * cell + point;
-  const GrainPoint<2>& at = parts->point(number);
-  const auto& position = parts->solid.places()[number].position;
-  return {number, Vector<2>(position[0], position[1]), at.orientation(), &at.volume().network(), at.volume().state()};
+  return std::get<SampleVolume<dim>>(parts->body->volume(n * cell + point));
 }
 
 std::size_t SampleTest::n_fields_written() const { return parts->fields ? parts->fields->n_written() : 0; }
@@ -426,4 +340,13 @@ void SampleTest::read_state(const std::filesystem::path& file, const std::string
       parts->fields.emplace(folder, name).restore(fields_written);
   });
 }
+
+template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
+                                const EquilibriumParameters&, std::vector<std::shared_ptr<const Network<2>>>,
+                                const SpecimenReport&, std::uint64_t);
+template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
+                                const EquilibriumParameters&, std::vector<std::shared_ptr<const Network<3>>>,
+                                const SpecimenReport&, std::uint64_t);
+template SampleVolume<2> SampleTest::volume_at<2>(unsigned int, unsigned int) const;
+template SampleVolume<3> SampleTest::volume_at<3>(unsigned int, unsigned int) const;
 } // namespace feldspar

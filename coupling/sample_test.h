@@ -1,9 +1,8 @@
 #pragma once
 
-#include "coupling/network.h"
-#include "coupling/network_state.h"
 #include "coupling/parameters.h"
 #include "coupling/sample_parameters.h"
+#include "coupling/sample_volume.h"
 #include "dem/lab_results.h"
 #include "dem/parameters.h"
 
@@ -26,38 +25,17 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
-/// What the mesh of a sample measures.
-struct SampleSize
-{
-  double width;           ///< [m]
-  double height;          ///< [m]
-  double largest_element; ///< √area / order, as PointPlace::element_size [m]
-};
-
-/// Reads or makes the mesh. Throws InputError where it cannot be used: no quadrilaterals, inverted, a boundary of a
-/// laboratory test is missing.
-SampleSize measure(const SampleParameters& sample);
-
-/// The volume at one point of a sample.
-struct SampleVolume
-{
-  std::uint64_t number;      ///< of the point, as cracks name it
-  Vector<2> position;        ///< [m]
-  Tensor<2> orientation;     ///< turns the axes of the volume into those of the sample
-  const Network<2>* network; ///< of the realisation that was dealt to it
-  NetworkState<2> state;
-};
-
-/// A laboratory test on a plane sample of finite elements with a representative volume at every point; docs/theory.md
+/// A laboratory test on a sample of finite elements with a representative volume at every point; docs/theory.md
 /// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
 class SampleTest
 {
 public:
-  /// The volumes of `realisations` are dealt to the points by the seed. Throws InputError for a test that such a sample
-  /// cannot make.
+  /// The volumes of `realisations`, of dimension_of_volumes(sample.geometry), are dealt to the points by the seed.
+  /// Throws InputError for a test that such a sample cannot make.
+  template <int dim>
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
-             const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<2>>> realisations,
+             const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<dim>>> realisations,
              const SpecimenReport& of_volumes, std::uint64_t seed);
   /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
@@ -76,7 +54,8 @@ public:
 
   /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
   /// or no grains.
-  SampleVolume volume_at(unsigned int cell, unsigned int point) const;
+  template <int dim>
+  SampleVolume<dim> volume_at(unsigned int cell, unsigned int point) const;
 
   /// Adds the present fields to a time series for ParaView.
   void write_fields(const std::filesystem::path& folder, const std::string& name);

@@ -371,7 +371,7 @@ std::optional<std::size_t> peak_row(const TestRecord& record)
   for (std::size_t k = 0; k < record.curve.size(); ++k)
     if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
       peak = k;
-  if (peak == 0 || peak + 1 == record.curve.size())
+  if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart))
     return std::nullopt;
   return peak;
 }

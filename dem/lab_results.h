@@ -180,6 +180,7 @@ struct TestRecord
   bool interrupted = false;
   std::string failure;     ///< why the test could not be made; empty if it could
   std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did
+  bool came_apart = false; ///< it ended early because beyond its last row nothing held it
 
   int dimension() const { return size[2] > 0.0 ? 3 : 2; }
 };

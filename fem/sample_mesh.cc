@@ -2,12 +2,16 @@
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cctype>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -23,12 +27,17 @@ std::unique_ptr<parallel::distributed::Triangulation<dim>> empty_triangulation(c
   return std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
 }
 
-SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const double height,
-                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+void expect_positive(const double width, const double height, const std::array<unsigned int, 2> divisions)
 {
   if (!(width > 0.0 && height > 0.0) || divisions[0] == 0 || divisions[1] == 0)
     throw MeshError(fmt::format("a sample of {:g} m by {:g} m in {} by {} cells: all must be positive", width, height,
                                 divisions[0], divisions[1]));
+}
+
+SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const double height,
+                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  expect_positive(width, height, divisions);
   SampleMesh<2> mesh{empty_triangulation<2>(communicator), {}};
   GridGenerator::subdivided_hyper_rectangle(*mesh.triangulation, {divisions[0], divisions[1]}, Point<2>(),
                                             Point<2>(width, height), true);
@@ -63,6 +72,86 @@ SampleMesh<2> axisymmetric_sample(const MPI_Comm communicator, const double radi
 {
   SampleMesh<2> mesh = rectangle(communicator, radius, height, divisions, n_refinements);
   mesh.boundaries = {{"axis", 0}, {"side", 1}, {"bottom", 2}, {"top", 3}};
+  return mesh;
+}
+
+namespace
+{
+/// A disc about the origin in n_across cells from side to side. A square of k by k cells with rings of 4k cells about
+/// it, as many as make up n_across; k is about half of it.
+///
+/// The nodes of a ring are numbered against the clock from the corner at the lower left, ring 0 on the square.
+void make_disc(Triangulation<2>& disc, const double radius, const unsigned int n_across)
+{
+  unsigned int k = n_across / 2;
+  if ((n_across - k) % 2 == 1)
+    --k;
+  const unsigned int n_rings = (n_across - k) / 2;
+  const unsigned int n_around = 4 * k;
+  const double half_width = radius * k / n_across;
+
+  std::vector<Point<2>> nodes;
+  for (unsigned int j = 0; j <= k; ++j)
+    for (unsigned int i = 0; i <= k; ++i)
+      nodes.emplace_back(half_width * (2.0 * i / k - 1.0), half_width * (2.0 * j / k - 1.0));
+  const auto in_square = [&](const unsigned int i, const unsigned int j) { return j * (k + 1) + i; };
+  const auto on_square = [&](const unsigned int around) {
+    const unsigned int along = around % k;
+    switch (around % n_around / k)
+      {
+      case 0:
+        return in_square(along, 0);
+      case 1:
+        return in_square(k, along);
+      case 2:
+        return in_square(k - along, k);
+      default:
+        return in_square(0, k - along);
+      }
+  };
+  for (unsigned int ring = 1; ring <= n_rings; ++ring)
+    for (unsigned int around = 0; around < n_around; ++around)
+      {
+        const double angle = std::numbers::pi * (-0.75 + 2.0 * around / n_around);
+        const Point<2> on_circle(radius * std::cos(angle), radius * std::sin(angle));
+        const Point<2> from = nodes[on_square(around)];
+        nodes.push_back(from + double(ring) / n_rings * (on_circle - from));
+      }
+  const auto in_ring = [&](const unsigned int around, const unsigned int ring) {
+    return ring == 0 ? on_square(around) : (k + 1) * (k + 1) + (ring - 1) * n_around + around % n_around;
+  };
+
+  std::vector<CellData<2>> cells;
+  const auto add = [&](const std::array<unsigned int, 4>& corners) {
+    CellData<2> cell;
+    cell.vertices.assign(corners.begin(), corners.end());
+    cells.push_back(cell);
+  };
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; i < k; ++i)
+      add({in_square(i, j), in_square(i + 1, j), in_square(i, j + 1), in_square(i + 1, j + 1)});
+  for (unsigned int ring = 0; ring < n_rings; ++ring)
+    for (unsigned int around = 0; around < n_around; ++around)
+      add({in_ring(around, ring), in_ring(around, ring + 1), in_ring(around + 1, ring), in_ring(around + 1, ring + 1)});
+  GridTools::consistently_order_cells(cells);
+  disc.create_triangulation(nodes, cells, SubCellData());
+}
+} // namespace
+
+SampleMesh<3> cylinder_sample(const MPI_Comm communicator, const double radius, const double height,
+                              const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  expect_positive(radius, height, divisions);
+  if (divisions[0] < 3)
+    throw MeshError(fmt::format("a cylinder of {} cells across: there must be at least 3", divisions[0]));
+  Triangulation<2> disc;
+  make_disc(disc, radius, divisions[0]);
+  SampleMesh<3> mesh{empty_triangulation<3>(communicator), {{"side", 0}, {"bottom", 1}, {"top", 2}}}; // as extruded
+  GridGenerator::extrude_triangulation(disc, divisions[1] + 1, height, *mesh.triangulation);
+  constexpr types::manifold_id round = 1;
+  mesh.triangulation->set_all_manifold_ids_on_boundary(mesh.boundary("side"), round);
+  mesh.triangulation->set_manifold(round, CylindricalManifold<3>(2));
+  mesh.triangulation->refine_global(n_refinements);
   return mesh;
 }
 

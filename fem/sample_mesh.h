@@ -21,6 +21,18 @@
 ///        y +---------+                    z +---------+
 ///        ^    bottom                      ^    bottom
 ///        +--> x                           +--> r
+///
+///     cylinder_sample: x, y, z         its section, 3 cells across
+///
+///             .--top--.                    .-------.
+///            (_________)                  |`.     .'|
+///            |    :    |                  |  +---+  |
+///            |  axis   | side             |  |   |  | side
+///            |    :    |                  |  +---+  |
+///          z |    :    |                y |.'     `.|
+///          ^ (____:____)                ^  '-------'
+///          |    bottom                  |
+///          +--> x                       +--> x
 namespace feldspar::fem
 {
 /// A mesh or boundary that cannot be used, told in one line.
@@ -47,6 +59,12 @@ SampleMesh<2> plane_sample(MPI_Comm communicator, double width, double height, s
 /// Half of the section of a cylinder standing at the origin, its axis the line r = 0.
 SampleMesh<2> axisymmetric_sample(MPI_Comm communicator, double radius, double height,
                                   std::array<unsigned int, 2> divisions, unsigned int n_refinements);
+
+/// A cylinder standing on the origin, its axis the last coordinate. divisions: cells across its diameter, at least 3,
+/// and along the axis. About half of those across make a square in the middle; rings of cells about it lead over to the
+/// circle, on which refinement and elements of order 2 lie.
+SampleMesh<3> cylinder_sample(MPI_Comm communicator, double radius, double height,
+                              std::array<unsigned int, 2> divisions, unsigned int n_refinements);
 
 /// A Gmsh file (.msh, format 2 or 4, text) of quadrilaterals or hexahedra. Boundaries are its named physical groups of
 /// lines or surfaces. Throws MeshError.

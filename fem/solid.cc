@@ -69,7 +69,9 @@ Solid<dim, material_dim>::Solid(const SampleMesh<dim>& its_mesh, const SolidPara
                                 const Material<material_dim>& material)
   : mesh(its_mesh)
   , parameters(its_parameters)
-  , mapping(parameters.order)
+  , mapping(parameters.reduced_quadrature
+              ? 1
+              : parameters.order) // reduced: too few points for constant stress in curved cells
   , fe(FE_Q<dim>(parameters.order), dim)
   , quadrature(n_quadrature_points(parameters))
   , face_quadrature(parameters.order + 1)
@@ -594,29 +596,47 @@ double Solid<dim, material_dim>::reaction(const std::string& boundary, const uns
   return Utilities::MPI::sum(force, communicator());
 }
 
+/// Over a boundary, of a function of the displacement and the outer normal.
 template <int dim, int material_dim>
-double Solid<dim, material_dim>::mean_displacement(const std::string& boundary, const unsigned int component) const
+template <typename Value>
+double Solid<dim, material_dim>::integral(const std::string& boundary, const Value& value) const
 {
   const types::boundary_id wanted = mesh.boundary(boundary);
-  FEFaceValues<dim> values(mapping, fe, face_quadrature, update_values | update_quadrature_points | update_JxW_values);
-  std::vector<dealii::Vector<double>> u(face_quadrature.size(), dealii::Vector<double>(dim));
-  double integral = 0.0;
-  double area = 0.0;
+  FEFaceValues<dim> values(mapping, fe, face_quadrature,
+                           update_values | update_normal_vectors | update_quadrature_points | update_JxW_values);
+  const FEValuesExtractors::Vector displacements(0);
+  std::vector<Tensor<1, dim>> u(face_quadrature.size());
+  double sum = 0.0;
   for (const auto& cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       for (const auto& face : cell->face_iterators())
         if (face->at_boundary() && face->boundary_id() == wanted)
           {
             values.reinit(cell, face);
-            values.get_function_values(accepted.displacement, u);
+            values[displacements].get_function_values(accepted.displacement, u);
             for (const unsigned int q : values.quadrature_point_indices())
-              {
-                const double part = values.JxW(q) * weight(parameters.kinematics, values.quadrature_point(q)[0]);
-                integral += u[q][component] * part;
-                area += part;
-              }
+              sum += value(u[q], values.normal_vector(q)) * values.JxW(q) *
+                     weight(parameters.kinematics, values.quadrature_point(q)[0]);
           }
-  return Utilities::MPI::sum(integral, communicator()) / Utilities::MPI::sum(area, communicator());
+  return Utilities::MPI::sum(sum, communicator());
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::area(const std::string& boundary) const
+{
+  return integral(boundary, [](const auto&, const auto&) { return 1.0; });
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::mean_displacement(const std::string& boundary, const unsigned int component) const
+{
+  return integral(boundary, [=](const auto& u, const auto&) { return u[component]; }) / area(boundary);
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::swept_volume(const std::string& boundary) const
+{
+  return integral(boundary, [](const auto& u, const auto& normal) { return u * normal; });
 }
 
 namespace

@@ -92,6 +92,11 @@ public:
 
   /// Mean over the boundary [m].
   double mean_displacement(const std::string& boundary, unsigned int component) const;
+  /// Between the boundary at rest and as it is displaced, outwards positive [m³].
+  double swept_volume(const std::string& boundary) const;
+
+  /// Of a boundary [m²].
+  double area(const std::string& boundary) const;
 
   /// Mean over the volume.
   StressVector<material_dim> mean_stress() const;
@@ -139,6 +144,8 @@ private:
   NewtonReport iterate();
   double correct(const Vector& correction);
   bool tangents_are_symmetric(const State& state) const;
+  template <typename Value>
+  double integral(const std::string& boundary, const Value& value) const;
   double pressure_of(const State& state, dealii::types::boundary_id boundary) const;
   Vector owned_vector() const { return Vector(owned, communicator()); }
 

@@ -141,6 +141,7 @@ namespace
 struct PointDamage
 {
   std::array<double, 2> place{};
+  double depth = 0.0; ///< in front of the picture's plane
   std::size_t n_tension = 0;
   std::size_t n_shear = 0;
 
@@ -156,6 +157,7 @@ std::map<std::uint64_t, PointDamage> damage(const TestRecord& record, const std:
       {
         PointDamage& point = points[crack.joint];
         point.place = {crack.centroid[0], crack.centroid[vertical(record)]};
+        point.depth = record.dimension() == 2 ? 0.0 : crack.centroid[1];
         ++(crack.kind == CrackKind::tension ? point.n_tension : point.n_shear);
       }
   return points;
@@ -168,7 +170,7 @@ double room_for_circles(const std::map<std::uint64_t, PointDamage>& points, cons
   for (const auto& [first, a] : points)
     for (const auto& [second, b] : points)
       if (first < second)
-        least = std::min(least, std::hypot(a.place[0] - b.place[0], a.place[1] - b.place[1]));
+        least = std::min(least, std::hypot(a.place[0] - b.place[0], a.place[1] - b.place[1], a.depth - b.depth));
   return 0.48 * least;
 }
 
@@ -187,8 +189,9 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
   const auto radius = [&](const std::size_t n) { return largest_radius * std::sqrt(double(n) / double(most)); };
 
   Frame frame;
-  frame.low = {-0.12 * record.size[0], -0.02 * record.size[1]};
-  frame.high = {1.12 * record.size[0], 1.02 * record.size[1]};
+  const double height = record.size[vertical(record)];
+  frame.low = {-0.12 * record.size[0], -0.02 * height};
+  frame.high = {1.12 * record.size[0], 1.02 * height};
   std::string data;
   std::string plots;
   for (std::size_t s = 0; s < all_stages.size(); ++s)
@@ -215,7 +218,7 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
                            "'shear: {4}'\n",
                            s, tension_colour, n_tension, shear_colour, n_shear);
     }
-  const auto [width, height] = panel_size(frame);
+  const auto [panel_width, panel_height] = panel_size(frame);
   return {
     {.name = test.name + "_cracks",
      .caption = fmt::format("{}, {}: broken segments of the volume at each point, at crack initiation, at the peak "
@@ -224,14 +227,14 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
      .alternative = fmt::format("Maps of the broken segments at the points of {} ({}): {} in tension and {} in "
                                 "shear at the end.",
                                 title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
-     .width = width * int(all_stages.size()),
-     .height = height,
+     .width = panel_width * int(all_stages.size()),
+     .height = panel_height,
      .raster = true,
      .vector = false,
      .script = data + map_set_up(frame) +
                fmt::format("set object 1 rectangle from 0,0 to {:.6g},{:.6g} fc rgb '{}' fs solid noborder behind\n"
                            "set multiplot layout 1,{}\n{}unset multiplot\n",
-                           record.size[0] / milli, record.size[1] / milli, light_grey, all_stages.size(), plots)}};
+                           record.size[0] / milli, height / milli, light_grey, all_stages.size(), plots)}};
 }
 } // namespace
 

@@ -51,6 +51,7 @@ FinishedTest test_of(const Json& json, const TestKind kind)
   test.variant = text_of(json, "variant");
   test.record.failure = text_of(json, "failure");
   test.record.ended_early = text_of(json, "ended_early");
+  test.record.came_apart = json.contains("came_apart") && json["came_apart"] == true;
   if (text_of(json, "body") == name(TestBody::finite_elements)) // layouts from before bodies were written have grains
     test.record.body = TestBody::finite_elements;
   test.record.interrupted = json.contains("interrupted") && json["interrupted"] == true;

@@ -53,6 +53,8 @@ Json describe(const FinishedTest& test)
     json["failure"] = test.record.failure;
   if (!test.record.ended_early.empty())
     json["ended_early"] = test.record.ended_early;
+  if (test.record.came_apart)
+    json["came_apart"] = true;
   json["size_m"] = test.record.size;
   for (const auto& entry : result_table())
     {

@@ -331,6 +331,75 @@ TEST(Multiscale, ComparesWithLinearElasticityAndMohrCoulomb)
   EXPECT_NE(refused.error.find("the points of this sample have no grains"), std::string::npos) << refused.error;
 }
 
+// Without grains, so that the closed form is at hand: a cylinder under pressure, as half of its section and as a whole,
+// answers with Young's modulus and Poisson's ratio; plane strain with E/(1 - ν²) and ν/(1 - ν).
+TEST(Multiscale, TakesCylindersAndPlaneStrain)
+{
+  TemporaryFolder folder;
+  const auto last_row = [&](const std::string& sample, const std::string& column) {
+    folder.write("press.prm", "subsection Sample\n  set Width = 50 mm\n  set Height = 100 mm\n"
+                              "  set Material = linear elasticity\n  set Compression step = 1e-4\n" +
+                                sample +
+                                "end\nsubsection Continuum\n  set Modulus = 60 GPa\n  set Poisson ratio = 0.2\nend\n"
+                                "subsection Tests\n  set List = triaxial_compression\n  set Confinements = 10 MPa\n"
+                                "  set Stop strain = 0.001\nend\n");
+    const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --force --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return cell(folder.path() / "out/curves/triaxial_compression_10_MPa_seed_1.csv", column, 10);
+  };
+  constexpr double E = 60e9;
+  constexpr double nu = 0.2;
+  for (const std::string sample :
+       {"  set Geometry = axisymmetric\n  set Elements across = 2\n  set Elements along = 4\n",
+        "  set Geometry = cylinder\n  set Elements across = 4\n  set Elements along = 4\n  set Order = 2\n"
+        "  set Quadrature = reduced\n"})
+    {
+      EXPECT_NEAR(last_row(sample, "axial_stress_Pa"), 10e6 + E * 1e-3, 1e-6 * E * 1e-3) << sample;
+      EXPECT_NEAR(last_row(sample, "gauge_lateral_strain"), -nu * 1e-3, 1e-6 * 1e-3) << sample;
+      EXPECT_NEAR(last_row(sample, "gauge_volumetric_strain"), (1.0 - 2.0 * nu) * 1e-3, 1e-6 * 1e-3) << sample;
+    }
+  const std::string strip = "  set Geometry = plane strain\n";
+  EXPECT_NEAR(last_row(strip, "axial_stress_Pa"), 10e6 + E / (1.0 - nu * nu) * 1e-3, 1e-6 * E * 1e-3);
+  EXPECT_NEAR(last_row(strip, "gauge_lateral_strain"), -nu / (1.0 - nu) * 1e-3, 1e-6 * 1e-3);
+}
+
+/// Small volumes of spheres.
+std::string input_in_space(const std::string& sample, const std::string& tests)
+{
+  std::string text = input(sample, tests, "  set Dimension = 3\n");
+  for (const std::string entry : {"  set Width = 14 mm\n", "  set Height = 14 mm\n"})
+    text.replace(text.find(entry), entry.size(), entry.substr(0, entry.find("14")) + "6 mm\n");
+  return text;
+}
+
+// A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole and by half of its section,
+// while nothing breaks. A volume of fifty spheres is not isotropic: it has to stand in those axes.
+TEST(Multiscale, ACylinderIsTheSameAsAWholeAndByItsSection)
+{
+  TemporaryFolder folder;
+  const std::string tests = "  set List = direct_tension\n  set Stop strain = 1e-5\n";
+  const auto modulus = [&](const std::string& name, const std::string& sample) {
+    std::string text = input_in_space("  set Orientation = fixed\n  set Order = 2\n" + sample, tests);
+    text.replace(text.find("Realisations = 2"), 16, "Realisations = 1");
+    for (const std::string elements : {"  set Elements across = 1\n", "  set Elements along = 2\n"})
+      text.erase(text.find(elements), elements.size());
+    folder.write(name + ".prm", text);
+    const auto run = run_feldspar(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return cell(folder.path() / name / "curves/direct_tension_seed_1.csv", "axial_stress_Pa", 5) / 1e-5;
+  };
+  const double section =
+    modulus("section", "  set Geometry = axisymmetric\n  set Elements across = 2\n  set Elements along = 4\n");
+  const double whole =
+    modulus("whole", "  set Geometry = cylinder\n  set Elements across = 4\n  set Elements along = 4\n");
+  EXPECT_GT(section, 10e9);
+  EXPECT_NEAR(whole, section, 0.01 * section);
+
+  const auto extract = run_feldspar(folder.path(), "multiscale whole --extract 5:26");
+  ASSERT_EQ(extract.exit_code, 0) << extract.error;
+  EXPECT_NE(extract.output.find(" deg about (0.000, 0.000, "), std::string::npos) << extract.output;
+}
+
 TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
 {
   TemporaryFolder folder;
@@ -363,9 +432,13 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << outcome.error;
   };
-  expect(input("", "  set List = brazilian\n"), "bad.prm: Tests/List: brazilian: the sample is a rectangle");
+  expect(input("", "  set List = brazilian\n"), "bad.prm: Tests/List: brazilian: the sample stands between platens");
   expect("subsection Specimen\n  set Shape = box\nend\n", "bad.prm: Specimen/Shape = box: the volume at a point needs");
   expect(input("", "", "  set Dimension = 3\n"), "bad.prm: Specimen/Dimension = 3: ");
+  expect(input("  set Geometry = cylinder\n", ""), "bad.prm: Specimen/Dimension = 2: the volumes of such a");
+  expect(input_in_space("  set Geometry = cylinder\n", ""),
+         "bad.prm: Sample/Elements across = 1: a cylinder of 1 cells across: there must be at least 3");
+  expect(input("  set Quadrature = reduced\n", ""), "bad.prm: Sample/Quadrature = reduced: needs Order = 2");
   expect(input("  set Order = 3\n", ""), "Sample/Order = 3: must be an integer in [1, 2]");
   expect(input("  set Material = linear elasticity\n", ""), "bad.prm: Tests/Stop strain = none: without grains");
   expect(input("", "  set Stop strain = 1e-5\nend\nsubsection Continuum\n  set Dilation angle = 60 deg\n"),

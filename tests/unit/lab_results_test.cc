@@ -128,6 +128,9 @@ TEST(LabResults, SayWhyWhenACurveNeverPeaks)
   EXPECT_FALSE(results.peak_stress.value);
   EXPECT_EQ(results.peak_stress.reason, "the stress never peaked");
   EXPECT_EQ(results.youngs_modulus_initial.reason, "the stress never peaked");
+  // What came apart beyond its last row was strongest there.
+  record.came_apart = true;
+  EXPECT_EQ(evaluate(record).peak_stress.value, -record.curve.back().axial_stress);
   record.interrupted = true;
   EXPECT_EQ(evaluate(record).peak_stress.reason, "interrupted before its end");
 }

@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <numeric>
 #include <string>
+#include <utility>
 
 namespace feldspar::fem
 {
@@ -102,10 +106,55 @@ TEST(SampleMesh, SaysWhichBoundariesThereAre)
   EXPECT_THROW(solid.solve(load), MeshError);
 }
 
+// Round where it is refined, and no cell is narrower than a third of the diameter over those across.
+TEST(CylinderSample, IsRound)
+{
+  constexpr double R = 0.025;
+  constexpr double H = 0.1;
+  for (const auto& [across, n_in_section] : {std::pair(3u, 5u), {4u, 12u}, {5u, 9u}, {8u, 48u}, {10u, 64u}})
+    {
+      const auto mesh = cylinder_sample(MPI_COMM_WORLD, R, H, {across, 2}, 1);
+      EXPECT_EQ(mesh.triangulation->n_global_active_cells(), 8u * 2u * n_in_section) << across;
+      double least = H;
+      for (const auto& cell : mesh.triangulation->active_cell_iterators())
+        {
+          least = std::min(least, cell->minimum_vertex_distance());
+          for (const auto& face : cell->face_iterators())
+            if (face->at_boundary() && face->boundary_id() == mesh.boundary("side"))
+              for (const unsigned int v : face->vertex_indices())
+                {
+                  EXPECT_NEAR(std::hypot(face->vertex(v)[0], face->vertex(v)[1]), R, 1e-12);
+                }
+        }
+      EXPECT_GT(least, 0.3 * 2.0 * R / (2.0 * across)) << across;
+    }
+}
+
+// The area of its ends as elements have it: a polygon of n_around sides, or arcs of parabolas, wrong by
+// O(n_around^-2) and O(n_around^-4); and the volume beneath.
+TEST(CylinderSample, HasTheVolumeOfACylinder)
+{
+  constexpr double R = 0.025;
+  constexpr double H = 0.1;
+  const double exact = std::numbers::pi * R * R;
+  const auto mesh = cylinder_sample(MPI_COMM_WORLD, R, H, {4, 2}, 1); // 16 sides
+  const auto material = linear_elasticity<3>(isotropic_stiffness<3>(1e9, 0.2));
+  for (const unsigned int order : {1u, 2u})
+    {
+      const Solid<3> solid(mesh, {.kinematics = Kinematics::full, .order = order}, material);
+      const double polygon = 16.0 / 2.0 * R * R * std::sin(2.0 * std::numbers::pi / 16.0);
+      EXPECT_NEAR(solid.area("bottom"), order == 1 ? polygon : exact, (order == 1 ? 1e-9 : 1e-3) * exact);
+      EXPECT_NEAR(std::accumulate(solid.volumes().begin(), solid.volumes().end(), 0.0), H * solid.area("top"),
+                  1e-9 * H * exact);
+    }
+}
+
 TEST(SampleMesh, RefusesAnEmptySample)
 {
   EXPECT_THROW(plane_sample(MPI_COMM_WORLD, 0.0, 0.1, {2, 4}, 0), MeshError);
   EXPECT_THROW(plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 0}, 0), MeshError);
+  EXPECT_THROW(cylinder_sample(MPI_COMM_WORLD, 0.025, 0.0, {4, 2}, 0), MeshError);
+  EXPECT_THROW(cylinder_sample(MPI_COMM_WORLD, 0.025, 0.1, {2, 2}, 0), MeshError);
 }
 
 TEST(Solid, RefusesAnOrderItDoesNotHave)

@@ -6,6 +6,7 @@
 #include "tests/fem_samples.h"
 
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
 
 #include <gtest/gtest.h>
 
@@ -201,6 +202,32 @@ TEST(ElasticCylinder, BetweenSmoothPlatensHasYoungsModulus)
   EXPECT_NEAR(solid.mean_strain()[1], nu * 1e-3, 1e-12); // around the axis
 }
 
+TEST(ElasticCylinder, InSpaceIsTheSameBetweenSmoothPlatens)
+{
+  const double p = 20e6;
+  for (const unsigned int across : {3u, 4u}) // with and without a node on the axis
+    for (const unsigned int order : {1u, 2u})
+      {
+        const auto mesh = cylinder_sample(MPI_COMM_WORLD, 0.025, 0.1, {across, 3}, 0);
+        Solid<3> solid(mesh, {.kinematics = Kinematics::full, .order = order}, in_space);
+        const PlatenTest<3> test{.kinematics = Kinematics::full, .confining_pressure = p};
+        solve(solid, test.seating());
+        for (const auto& answer : solid.answers())
+          EXPECT_LT((answer.stress - (StressVector<3>() << -p, -p, -p, 0.0, 0.0, 0.0).finished()).norm(), 1e-8 * p);
+        const double seated = solid.mean_displacement("top", 2);
+        const double seated_side = solid.swept_volume("side");
+        solve(solid, test.pressing(seated - 1e-4));
+        const double axial = -p - E * 1e-3;
+        for (const auto& answer : solid.answers())
+          EXPECT_LT((answer.stress - (StressVector<3>() << -p, -p, axial, 0.0, 0.0, 0.0).finished()).norm(),
+                    1e-8 * std::abs(axial));
+        EXPECT_NEAR(solid.reaction("top", 2), axial * solid.area("top"), 1e-8 * std::abs(axial) * solid.area("top"));
+        // Both ways across, whatever polygon the section is.
+        const double widening = 2.0 * nu * 1e-3 * solid.area("top") * 0.1;
+        EXPECT_NEAR(solid.swept_volume("side") - seated_side, widening, 1e-8 * widening);
+      }
+}
+
 // ---- convergence
 
 /// Errors of three refinements must fall by 2^order_expected each, within 5 % of the order.
@@ -288,6 +315,44 @@ TEST(Lame, RingInRZ)
               EXPECT_NEAR(solid.reaction("top", 1), 2.0 * nu * ring.A * area,
                           0.01 * std::abs(2.0 * nu * ring.A * area));
             }
+        }
+      expect_order(errors, order + 1.0);
+    }
+}
+
+TEST(Lame, RingInSpace)
+{
+  const LameRing ring;
+  for (const unsigned int order : {1u, 2u})
+    {
+      std::vector<double> errors;
+      const unsigned int finest = order == 1 ? 4 : 3;
+      for (unsigned int n_refinements = finest - 2; n_refinements <= finest; ++n_refinements)
+        {
+          // A quarter of the ring, two cells along the axis and no more: nothing varies along it.
+          dealii::Triangulation<2> section;
+          dealii::GridGenerator::quarter_hyper_shell(section, Point<2>(), ring.a, ring.b, 0, true);
+          section.refine_global(n_refinements);
+          dealii::Triangulation<2> flat;
+          dealii::GridGenerator::flatten_triangulation(section, flat);
+          SampleMesh<3> mesh{std::make_unique<dealii::parallel::distributed::Triangulation<3>>(MPI_COMM_WORLD),
+                             {{"inner", 0}, {"outer", 1}, {"x=0", 2}, {"y=0", 3}, {"bottom", 4}, {"top", 5}}};
+          dealii::GridGenerator::extrude_triangulation(flat, 3, 0.01, *mesh.triangulation);
+          for (const auto& [boundary, manifold] : {std::pair(0u, 1u), {1u, 1u}})
+            mesh.triangulation->set_all_manifold_ids_on_boundary(boundary, manifold);
+          mesh.triangulation->set_manifold(1, dealii::CylindricalManifold<3>(2));
+          Solid<3> solid(mesh, {.kinematics = Kinematics::full, .order = order}, in_space);
+          Load<3> load;
+          load.displacements = {{"x=0", 0, constant<3>(0.0)},
+                                {"y=0", 1, constant<3>(0.0)},
+                                {"bottom", 2, constant<3>(0.0)},
+                                {"top", 2, constant<3>(0.0)}};
+          load.pressures = {{"inner", ring.inner_pressure}, {"outer", ring.outer_pressure}};
+          solve(solid, load);
+          errors.push_back(displacement_error<3, 3>(solid, [&](const Point<3>& x) {
+            const double r = std::hypot(x[0], x[1]);
+            return ring.radial_displacement(r) / r * Tensor<1, 3>({x[0], x[1], 0.0});
+          }));
         }
       expect_order(errors, order + 1.0);
     }

@@ -1,0 +1,321 @@
+#include "coupling/sample_body.h"
+
+#include "coupling/grain_material.h"
+#include "dem/input_error.h"
+#include "fem/linear_elasticity.h"
+#include "fem/mohr_coulomb.h"
+#include "fem/plane_strain.h"
+#include "fem/platen_test.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+fem::Kinematics kinematics_of(const SampleGeometry geometry)
+{
+  return geometry == SampleGeometry::axisymmetric ? fem::Kinematics::axisymmetric
+         : geometry == SampleGeometry::cylinder   ? fem::Kinematics::full
+                                                  : fem::Kinematics::plane;
+}
+
+std::vector<std::string> boundaries_of(const SampleGeometry geometry)
+{
+  switch (geometry)
+    {
+    case SampleGeometry::axisymmetric:
+      return {"axis", "side", "bottom", "top"};
+    case SampleGeometry::cylinder:
+      return {"side", "bottom", "top"};
+    default:
+      return {"left", "right", "bottom", "top"};
+    }
+}
+
+template <int dim>
+fem::SampleMesh<dim> made_mesh(const SampleParameters& sample)
+{
+  const std::array<unsigned int, 2> divisions{sample.elements_across, sample.elements_along};
+  if constexpr (dim == 3)
+    return fem::cylinder_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+  else if (sample.geometry == SampleGeometry::axisymmetric)
+    return fem::axisymmetric_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+  else
+    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height, divisions, 0);
+}
+
+template <int dim>
+fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
+{
+  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0);
+  for (const std::string& boundary : boundaries_of(sample.geometry))
+    mesh.boundary(boundary);
+  if (sample.geometry == SampleGeometry::axisymmetric)
+    {
+      const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+      if (const double inner = box.lower_bound(0); std::abs(inner) > 1e-9 * box.side_length(0))
+        throw fem::MeshError(fmt::format("{}: begins at x = {:g} m; in r-z the axis is x = 0, and the sample reaches "
+                                         "from there to x > 0",
+                                         sample.mesh_file, inner));
+    }
+  return mesh;
+}
+
+template <int dim>
+fem::SampleMesh<dim> mesh_of(const SampleParameters& sample)
+{
+  try
+    {
+      return sample.mesh_file.empty() ? made_mesh<dim>(sample) : read_mesh<dim>(sample);
+    }
+  catch (const fem::MeshError& error)
+    {
+      throw InputError(sample.mesh_file.empty()
+                         ? fmt::format("Sample/Elements across = {}: {}", sample.elements_across, error.what())
+                         : fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
+    }
+}
+
+template <int dim>
+SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample)
+{
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  double largest = 0.0;
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    largest = std::max(largest, std::pow(cell->measure(), 1.0 / dim) / sample.order);
+  const double sides = sample.geometry == SampleGeometry::axisymmetric ? 2.0 : 1.0;
+  return {sides * box.side_length(0), box.side_length(dim - 1), largest};
+}
+
+template <int dim, int material_dim>
+class FiniteElementBody final : public SampleBody
+{
+public:
+  FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up,
+                    const fem::Material<material_dim>& material)
+    : sample(its_sample)
+    , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth,
+              set_up.confining_pressure}
+    , mesh(mesh_of<dim>(sample))
+    , lower_corner(dealii::GridTools::compute_bounding_box(*mesh.triangulation).get_boundary_points().first)
+    , its_size(size_of(mesh, sample))
+    , solid(mesh, parameters_of(set_up), material)
+  {
+  }
+
+  fem::NewtonReport seat(const double fraction) override { return solid.solve(platens.seating(), fraction); }
+  fem::NewtonReport press(const double top_displacement, const double fraction) override
+  {
+    return solid.solve(platens.pressing(top_displacement), fraction);
+  }
+  void accept() override { solid.accept(); }
+  void reject() override { solid.reject(); }
+  void limit_events(const std::uint64_t most_events) override { solid.limit_events(most_events); }
+
+  SampleSize size() const override { return its_size; }
+  std::array<double, 3> box() const override
+  {
+    const auto [width, height, element] = its_size;
+    if (sample.geometry == SampleGeometry::plane)
+      return {width, height, 0.0};
+    constexpr double thickness = 1.0;
+    return {width, sample.geometry == SampleGeometry::plane_strain ? thickness : width, height};
+  }
+  std::size_t n_points() const override { return solid.material_points().size(); }
+  std::size_t n_points_per_cell() const override { return solid.n_points_per_cell(); }
+
+  double top_displacement() const override { return solid.mean_displacement("top", dim - 1); }
+  double lateral_strain() const override
+  {
+    double swept = 0.0;
+    for (const std::string& boundary : boundaries_of(sample.geometry))
+      if (boundary == "left" || boundary == "right" || boundary == "side")
+        swept += solid.swept_volume(boundary);
+    return swept / (n_lateral_directions() * solid.area("top") * its_size.height);
+  }
+  double n_lateral_directions() const override { return platens.kinematics == fem::Kinematics::plane ? 1.0 : 2.0; }
+  double platen_stress(const std::string& end) const override { return solid.reaction(end, dim - 1) / solid.area(end); }
+  double mean_axial_stress() const override { return solid.mean_stress()[material_dim - 1]; }
+
+  bool has_grains() const override { return sample.material == SampleMaterial::grains; }
+
+  std::vector<Crack> cracks_of_last_step() const override
+  {
+    std::vector<Crack> cracks;
+    if (!has_grains())
+      return cracks;
+    for (std::size_t i = 0; i < n_points(); ++i)
+      for (const PointCrack<material_dim>& broken : point(i).cracks_of_last_step())
+        cracks.push_back({broken.kind, i, broken.segment, 0, 0.0, in_box(i), in_space<material_dim>(broken.normal),
+                          broken.size, broken.released_energy});
+    return cracks;
+  }
+
+  Energies energies() const override
+  {
+    if (!has_grains())
+      {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        return {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+      }
+    Energies energies;
+    for (std::size_t i = 0; i < n_points(); ++i)
+      {
+        const double volume = solid.volumes()[i];
+        const NetworkWork work = point(i).work_density();
+        energies.boundary_work += volume * work.boundary;
+        energies.strain += volume * point(i).stored_energy_density();
+        energies.slip += volume * work.slip;
+        energies.released += volume * work.released;
+        energies.damping += volume * work.settled;
+      }
+    return energies;
+  }
+
+  std::uint64_t n_damaged_points() const override
+  {
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; has_grains() && i < n_points(); ++i)
+      n += !point(i).volume().state().intact;
+    return n;
+  }
+
+  std::variant<SampleVolume<2>, SampleVolume<3>> volume(const std::size_t number) const override
+  {
+    const GrainPoint<material_dim>& at = point(number);
+    return SampleVolume<material_dim>{number, position(number), at.orientation(), &at.volume().network(),
+                                      at.volume().state()};
+  }
+
+  void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }
+  std::vector<std::string> boundaries() const override { return boundaries_of(sample.geometry); }
+  fem::StoredSolid stored() const override { return solid.stored(); }
+  void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
+
+private:
+  fem::SolidParameters parameters_of(const SampleSetUp& set_up) const
+  {
+    fem::SolidParameters parameters;
+    parameters.kinematics = platens.kinematics;
+    parameters.order = sample.order;
+    parameters.reduced_quadrature = sample.reduced_quadrature;
+    parameters.newton_tolerance = sample.newton_tolerance;
+    parameters.watch = set_up.watch;
+    return parameters;
+  }
+
+  /// Where there are grains.
+  const GrainPoint<material_dim>& point(const std::size_t i) const
+  {
+    return static_cast<const GrainPoint<material_dim>&>(solid.material_points()[i]);
+  }
+
+  Vector<material_dim> position(const std::size_t i) const
+  {
+    const auto& place = solid.places()[i].position;
+    Vector<material_dim> result = Vector<material_dim>::Zero();
+    for (std::size_t c = 0; c + 1 < place.size(); ++c)
+      result[Eigen::Index(c)] = place[c];
+    result[material_dim - 1] = place.back();
+    return result;
+  }
+
+  /// As seen in box(), with its lower corner as origin.
+  std::array<double, 3> in_box(const std::size_t i) const
+  {
+    Vector<material_dim> result = position(i);
+    result[0] -= lower_corner[0];
+    result[material_dim - 1] -= lower_corner[dim - 1];
+    if (sample.geometry == SampleGeometry::axisymmetric) // the right half of the section in front
+      {
+        result[0] += 0.5 * its_size.width;
+        result[1] += 0.5 * its_size.width;
+      }
+    else if (material_dim == 3)
+      result[1] -= dim == 3 ? lower_corner[1] : -0.5 * box()[1];
+    return in_space<material_dim>(result);
+  }
+
+  SampleParameters sample;
+  fem::PlatenTest<dim> platens;
+  fem::SampleMesh<dim> mesh;
+  dealii::Point<dim> lower_corner;
+  SampleSize its_size;
+  fem::Solid<dim, material_dim> solid;
+};
+
+template <int material_dim>
+std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                      const fem::Material<material_dim>& material)
+{
+  if constexpr (material_dim == 2)
+    return std::make_unique<FiniteElementBody<2, 2>>(sample, set_up, material);
+  else if (sample.geometry == SampleGeometry::cylinder)
+    return std::make_unique<FiniteElementBody<3, 3>>(sample, set_up, material);
+  else
+    return std::make_unique<FiniteElementBody<2, 3>>(sample, set_up, material);
+}
+} // namespace
+
+SampleSize measure(const SampleParameters& sample)
+{
+  return sample.geometry == SampleGeometry::cylinder ? size_of(mesh_of<3>(sample), sample)
+                                                     : size_of(mesh_of<2>(sample), sample);
+}
+
+template <int dim>
+std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                const EquilibriumParameters& equilibrium,
+                                                std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                                const std::uint64_t seed)
+{
+  if (dimension_of_volumes(sample.geometry) != dim)
+    throw std::invalid_argument("volumes of another dimension than the sample's");
+  GrainMaterialParameters material;
+  material.seed = seed;
+  material.random_orientation = sample.random_orientation;
+  material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
+  material.equilibrium = equilibrium;
+  return make_body<dim>(sample, set_up, grain_material<dim>(std::move(realisations), material));
+}
+
+std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                 const ContinuumParameters& continuum)
+{
+  const bool is_elastic = sample.material == SampleMaterial::linear_elasticity;
+  const auto mohr_coulomb = [&](const double E, const double nu) {
+    return fem::mohr_coulomb({E, nu, continuum.cohesion, continuum.friction_angle, continuum.dilation_angle});
+  };
+  if (sample.geometry == SampleGeometry::plane)
+    {
+      // Plane strain that shows the modulus and the ratio asked for.
+      const auto [E, nu] = fem::plane_strain_equal_to_plate({continuum.modulus, continuum.poissons_ratio});
+      return make_body<2>(sample, set_up,
+                          is_elastic ? fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu))
+                                     : fem::plane_strain(mohr_coulomb(E, nu)));
+    }
+  const double E = continuum.modulus;
+  const double nu = continuum.poissons_ratio;
+  return make_body<3>(sample, set_up,
+                      is_elastic ? fem::linear_elasticity<3>(fem::isotropic_stiffness<3>(E, nu)) : mohr_coulomb(E, nu));
+}
+
+template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
+                                                            const EquilibriumParameters&,
+                                                            std::vector<std::shared_ptr<const Network<2>>>,
+                                                            std::uint64_t);
+template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
+                                                            const EquilibriumParameters&,
+                                                            std::vector<std::shared_ptr<const Network<3>>>,
+                                                            std::uint64_t);
+} // namespace feldspar
