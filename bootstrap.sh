@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to results.
 #
-#   ./bootstrap.sh demo      packages, build, the Beishan granite example; ends with its table and the results' path
+#   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains and as finite elements with grains
+#                            inside, both in one report; ends with its path
 #   ./bootstrap.sh test      packages, sanitizer build and its unit tests, the same with clang, release build, all tests
 #   ./bootstrap.sh build     packages and release build
 #   ./bootstrap.sh packages  packages only: everything the other three need
@@ -89,8 +90,13 @@ demo()
 {
   need_packages "${build_packages[@]}"
   build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
-  say "breaking Beishan granite"
-  exec build/release/app/feldspar lab examples/beishan-granite/beishan.prm
+  local feldspar=build/release/app/feldspar
+  say "breaking Beishan granite, a specimen of grains"
+  "$feldspar" lab examples/beishan-granite/beishan.prm --output demo/direct --force
+  say "the same rock as finite elements with grains inside"
+  "$feldspar" multiscale examples/multiscale-beishan/demo.prm --output demo/multiscale --force
+  say "both in one report"
+  "$feldspar" report demo/direct demo/multiscale --output demo/report --force
 }
 
 run_all_tests()
