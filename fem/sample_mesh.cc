@@ -149,7 +149,11 @@ SampleMesh<3> cylinder_sample(const MPI_Comm communicator, const double radius, 
   SampleMesh<3> mesh{empty_triangulation<3>(communicator), {{"side", 0}, {"bottom", 1}, {"top", 2}}}; // as extruded
   GridGenerator::extrude_triangulation(disc, divisions[1] + 1, height, *mesh.triangulation);
   constexpr types::manifold_id round = 1;
-  mesh.triangulation->set_all_manifold_ids_on_boundary(mesh.boundary("side"), round);
+  // Face by face: set_all_manifold_ids_on_boundary() would also take the lines within the ends for some of the side.
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == mesh.boundary("side"))
+        face->set_all_manifold_ids(round);
   mesh.triangulation->set_manifold(round, CylindricalManifold<3>(2));
   mesh.triangulation->refine_global(n_refinements);
   return mesh;

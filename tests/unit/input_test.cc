@@ -118,6 +118,8 @@ subsection Sample
   set Mesh file = sample.msh
   set Width = 40 mm
   set Height = 80 mm
+  set Geometry = cylinder
+  set Quadrature = reduced
   set Elements across = 3
   set Elements along = 6
   set Order = 2
@@ -270,6 +272,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
   EXPECT_EQ(input.sample.elements_across, 3u);
   EXPECT_EQ(input.sample.elements_along, 6u);
+  EXPECT_EQ(input.sample.geometry, SampleGeometry::cylinder);
+  EXPECT_TRUE(input.sample.reduced_quadrature);
   EXPECT_EQ(input.sample.order, 2u);
   EXPECT_TRUE(input.sample.rough_platens);
   EXPECT_EQ(input.sample.n_realisations, 5u);
