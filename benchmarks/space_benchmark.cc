@@ -69,13 +69,13 @@ const Specimen<3>& lattice(const std::size_t n_grains)
 double bytes_per_joint(Joints<3> joints)
 {
   std::size_t n_bytes = 2 * sizeof(std::uint32_t); // the grains
-  const auto pass_joint = [&](const std::string& name, std::vector<double>&) {
+  const auto pass_joint = [&](const std::string& name, auto&) {
     const bool changes = name.starts_with("normal_") ? name != "normal_stiffness"
                                                      : name != "shear_stiffness" && name != "half_length" &&
                                                          name != "half_radius_difference" && name != "rest_distance";
     n_bytes += (changes ? 2 : 1) * sizeof(double);
   };
-  const auto pass_segment = [&](const std::string& name, std::vector<double>&) {
+  const auto pass_segment = [&](const std::string& name, auto&) {
     n_bytes += (name.starts_with("shear_stress") ? 2 : 1) * sizeof(double) * joints.n_segments;
   };
   joints.visit_per_joint(pass_joint);

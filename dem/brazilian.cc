@@ -27,10 +27,9 @@ Specimen<dim> laid_down(Specimen<dim> specimen)
     {
       // (x, y, z) -> (x, z, W - y), a quarter turn about x.
       const double width = specimen.size[1];
-      const auto turn = [](Components<3>& components) {
-        std::swap(components[1], components[2]);
-        for (double& value : components[2])
-          value = -value;
+      const auto turn = [](auto& components) {
+        for (std::size_t i = 0; i < components[1].size(); ++i)
+          components[2][i] = -std::exchange(components[1][i], components[2][i]);
       };
       turn(specimen.grains.position);
       for (double& z : specimen.grains.position[2])

@@ -22,8 +22,8 @@ constexpr double wall_reach_over_skin = 0.25; // as near as a wall may come to a
 
 double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
 
-template <int dim>
-double squared_norm(const Components<dim>& components, const std::size_t i)
+template <int dim, typename Values>
+double squared_norm(const std::array<Values, dim>& components, const std::size_t i)
 {
   double sum = 0.0;
   for (int c = 0; c < dim; ++c)
@@ -210,7 +210,7 @@ void Dynamics<dim>::restart()
 template <int dim>
 void Dynamics<dim>::start()
 {
-  rebuild_incidence();
+  number_contacts();
   find_contacts();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
   update_contacts(0.0);
@@ -272,13 +272,17 @@ auto Dynamics<dim>::find_touch(const GrainPair& pair)
                           [](const Touch& touch, const GrainPair& wanted) { return touch.ends() < wanted; });
 }
 
+/// After joints or touches have come or gone.
 template <int dim>
-void Dynamics<dim>::rebuild_incidence()
+void Dynamics<dim>::number_contacts()
 {
   const auto& joints = body.joints;
   joint_incidence =
     incidence(joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); });
   touch_incidence = incidence(touches.size(), [&](const std::size_t k) { return touches[k].ends(); });
+  looks.clear();
+  for (const auto& touch : touches)
+    looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, touch.touching});
 }
 
 /// Stored in the segments of a joint [J].
@@ -329,7 +333,7 @@ void Dynamics<dim>::remove_torn_faces()
   if (kept.size() < joints.size())
     {
       joints.keep(kept);
-      rebuild_incidence();
+      number_contacts();
     }
 }
 
@@ -379,7 +383,7 @@ void Dynamics<dim>::find_contacts()
         slip_energy_of_lost_contacts += touch.slip_energy;
     }
   touches = std::move(found);
-  rebuild_incidence();
+  number_contacts();
 
   for (std::size_t w = 0; w < wall_list.size(); ++w)
     {
@@ -603,23 +607,26 @@ void Dynamics<dim>::update_touches(const double step)
   for_each_block(touches.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       {
-        Touch& touch = touches[k];
+        TouchLook& look = looks[k];
         std::array<double, dim> centre_1, centre_2;
         double squared = 0.0;
         for (int c = 0; c < dim; ++c)
           {
-            centre_1[c] = grains.position[c][touch.grain_1];
-            centre_2[c] = grains.position[c][touch.grain_2];
+            centre_1[c] = grains.position[c][look.grain_1];
+            centre_2[c] = grains.position[c][look.grain_2];
             squared += (centre_2[c] - centre_1[c]) * (centre_2[c] - centre_1[c]);
           }
-        if (squared >= touch.zero_distance * touch.zero_distance)
+        const bool was_touching = look.touching;
+        look.touching = squared < look.zero_distance * look.zero_distance;
+        if (!was_touching && !look.touching)
+          continue; // as it was; most of those that are kept in mind never touch
+        Touch& touch = touches[k];
+        touch.touching = look.touching;
+        if (!look.touching)
           {
-            if (!touch.touching)
-              continue; // as it was; most of those that are kept in mind never touch
             // Sliding apart dissipates the shear that was stored.
             for (const double shear : touch.shear_force)
               touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
-            touch.touching = false;
             touch.normal_force = 0.0;
             touch.shear_force = {};
             touch.force = {};
@@ -628,7 +635,7 @@ void Dynamics<dim>::update_touches(const double step)
             continue;
           }
         std::array<double, dim - 1> slip{};
-        if (touch.touching && friction > 0.0)
+        if (was_touching && friction > 0.0)
           {
             std::array<double, n_rotations<dim>> turn_1, turn_2;
             for (int c = 0; c < n_rotations<dim>; ++c)
@@ -649,9 +656,8 @@ void Dynamics<dim>::update_touches(const double step)
           }
         const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
                                                           touch.zero_distance - touch.frame.distance, slip);
-        if (!touch.touching)
+        if (!was_touching)
           std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
-        touch.touching = true;
         touch.normal_force = response.normal_force;
         touch.shear_force = response.shear_force;
         touch.slip_energy += response.slip_energy;
@@ -676,20 +682,29 @@ void Dynamics<dim>::sum_forces()
         std::array<double, n_rotations<dim>> couple{};
         for (auto e = joint_incidence.first[i]; e < joint_incidence.first[i + 1]; ++e)
           {
+            // Answers of joints with grains of lower numbers lie far back: asked for some grains ahead.
+            if (constexpr std::size_t ahead = 32; e + ahead < joint_incidence.entries.size())
+              {
+                const double* const later = joints.answer.at(0, joint_incidence.entries[e + ahead] / 2);
+                __builtin_prefetch(later);
+                __builtin_prefetch(later + joints.n_answer_rows - 1);
+              }
             const std::uint32_t entry = joint_incidence.entries[e];
             const std::uint32_t j = entry / 2;
-            const double direction = entry % 2 ? 1.0 : -1.0;
+            const bool is_second = entry % 2;
+            const double direction = is_second ? 1.0 : -1.0;
+            const double* const answer = joints.answer.at(0, j);
             for (int c = 0; c < dim; ++c)
-              force[c] += direction * joints.force[c][j];
+              force[c] += direction * answer[joints.first_force + c];
             for (int c = 0; c < n_rotations<dim>; ++c)
-              couple[c] += (entry % 2 ? joints.couple_2 : joints.couple_1)[c][j];
+              couple[c] += answer[(is_second ? joints.first_couple_2 : 0) + c];
           }
         for (auto e = touch_incidence.first[i]; e < touch_incidence.first[i + 1]; ++e)
           {
             const std::uint32_t entry = touch_incidence.entries[e];
-            const Touch& touch = touches[entry / 2];
-            if (!touch.touching)
+            if (!looks[entry / 2].touching)
               continue;
+            const Touch& touch = touches[entry / 2];
             const double direction = entry % 2 ? 1.0 : -1.0;
             for (int c = 0; c < dim; ++c)
               force[c] += direction * touch.force[c];
@@ -997,12 +1012,18 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.array("grain_1", joints.grain_1);
   archive.array("grain_2", joints.grain_2);
   archive.array("number", joints.number);
-  const auto pass = [&](const std::string& name, std::vector<double>& values) { archive.array(name, values); };
+  if constexpr (Archive::reads)
+    joints.resize_all(joints.grain_1.size());
+  const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(archive, name, values); };
   joints.visit_per_joint(pass);
   joints.visit_per_segment(pass);
-  all_of("joint_force", joints.force);
-  all_of("joint_couple_1", joints.couple_1);
-  all_of("joint_couple_2", joints.couple_2);
+  const auto pass_all = [&](const std::string& name, auto& components) {
+    for (std::size_t c = 0; c < components.size(); ++c)
+      pass(name + "_" + "xyz"[c], components[c]);
+  };
+  pass_all("joint_force", joints.force);
+  pass_all("joint_couple_1", joints.couple_1);
+  pass_all("joint_couple_2", joints.couple_2);
 
   archive.bytes("touches", touches);
   archive.bytes("walls", wall_list);
@@ -1027,7 +1048,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("strain_energy_at_start", strain_energy_at_start);
   archive.value("kinetic_energy_at_start", kinetic_energy_at_start);
   archive.value("slip_energy_of_lost_contacts", slip_energy_of_lost_contacts);
-  rebuild_incidence();
+  number_contacts();
 }
 
 /// The wall is grain 1, without rotation; n points from it to the grain, t = n turned by +90°.

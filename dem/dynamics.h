@@ -133,6 +133,15 @@ private:
     GrainPair ends() const { return {grain_1, grain_2}; }
   };
 
+  /// What a step has to know of a pair that does not press, as most do not: kept together and small, while a Touch takes
+  /// lines of the cache.
+  struct TouchLook
+  {
+    std::uint32_t grain_1, grain_2;
+    double zero_distance;
+    bool touching;
+  };
+
   /// A grain near a wall.
   struct WallTouch
   {
@@ -181,7 +190,7 @@ private:
   std::array<double, dim - 1> slip_on_wall(const Wall& wall, std::uint32_t grain, double distance, double dt) const;
   void add_wall_shear(const Wall& wall, std::uint32_t grain, double distance,
                       const std::array<double, dim - 1>& shear_force);
-  void rebuild_incidence();
+  void number_contacts();
   void sum_forces();
   void add_boundary_work(double dt, double share);
   double smallest_gap_not_listed(std::size_t wall) const;
@@ -204,6 +213,7 @@ private:
   std::vector<std::uint8_t> held; ///< grains that belong to a grip
 
   std::vector<Touch> touches;
+  std::vector<TouchLook> looks;                     ///< of each touch
   std::vector<std::vector<WallTouch>> wall_touches; ///< of each wall
   std::vector<double> wall_forces;
   Incidence joint_incidence, touch_incidence;

@@ -20,8 +20,9 @@ void resize(Components<n_components>& components, const std::size_t n)
     component.assign(n, 0.0);
 }
 
-template <int n_components>
-Eigen::Matrix<double, n_components, 1> at(const Components<n_components>& components, const std::size_t i)
+/// One component an array, of whatever kind.
+template <int n_components, typename Values>
+Eigen::Matrix<double, n_components, 1> at(const std::array<Values, n_components>& components, const std::size_t i)
 {
   Eigen::Matrix<double, n_components, 1> value;
   for (int c = 0; c < n_components; ++c)

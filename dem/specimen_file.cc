@@ -74,7 +74,9 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   joints.array("grain_1", stored.grain_1);
   joints.array("grain_2", stored.grain_2);
   joints.array("number", stored.number);
-  const auto pass = [&](const std::string& name, std::vector<double>& values) { joints.array(name, values); };
+  if constexpr (Archive::reads)
+    stored.resize_all(stored.grain_1.size());
+  const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(joints, name, values); };
   stored.visit_per_joint(pass);
   stored.visit_per_segment(pass);
 }
@@ -101,12 +103,6 @@ void check(Specimen<dim>& specimen)
   require(joints.size() == specimen.report.n_joints && joints.grain_2.size() == joints.size() &&
             joints.number.size() == joints.size(),
           "joints are missing");
-  joints.visit_per_joint([&](const std::string&, const std::vector<double>& values) {
-    require(values.size() == joints.size(), "joints are missing");
-  });
-  joints.visit_per_segment([&](const std::string&, const std::vector<double>& values) {
-    require(values.size() == joints.size() * joints.n_segments, "segments are missing");
-  });
   for (std::size_t j = 0; j < joints.size(); ++j)
     require(joints.grain_1[j] < joints.grain_2[j] + std::uint32_t(specimen.periodic) && // or its own image
               joints.grain_2[j] < grains.size(),
@@ -159,10 +155,6 @@ Specimen<dim> read_specimen(const std::filesystem::path& file)
   grains.mass = masses;
   for (std::size_t i = 0; i < grains.size(); ++i)
     grains.moment_of_inertia[i] = masses[i] * gyration_squared<dim>(grains.radius[i]);
-  auto& joints = specimen.joints;
-  resize<dim>(joints.force, joints.size());
-  resize<n_rotations<dim>>(joints.couple_1, joints.size());
-  resize<n_rotations<dim>>(joints.couple_2, joints.size());
   return specimen;
 }
 

@@ -195,6 +195,25 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
       const std::string row = fmt::format("| {} | {} |", name, mean_and_deviation(study, kind, key, scale, decimals));
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
+
+  // The run at the paper's size; times are processor time.
+  const auto full = nlohmann::json::parse(content(folder + "results/full-size.json"));
+  for (const auto& [name, key, scale, decimals] :
+       {std::tuple("grains", "n_grains", 1.0, 0),
+        {"joints", "n_joints", 1.0, 0},
+        {"steps made", "steps", 1.0, 0},
+        {"memory [MB]", "peak_memory_kB", 1000.0, 0},
+        {"one step [ms]", "step_s", 1e-3, 1},
+        {"one step, per joint [ns]", "step_per_joint_s", 1e-9, 0},
+        {"uniaxial compression, projected [min]", "projected_uniaxial_compression_s", 60.0, 0}})
+    {
+      const std::string row = fmt::format("| {} | {} |", name, number(full[key], scale, decimals));
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+    }
+  EXPECT_NEAR(full["step_per_joint_s"].get<double>(), full["step_s"].get<double>() / full["n_joints"].get<double>(),
+              1e-9);
+  EXPECT_NEAR(full["projected_uniaxial_compression_s"].get<double>(),
+              full["step_s"].get<double>() * full["projected_steps"].get<double>(), 1.0);
 }
 
 TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)

@@ -167,9 +167,9 @@ Specimen<dim> renumbered(const Specimen<dim>& specimen)
   result.grains.place(radii, positions);
   auto& joints = result.joints;
   const auto reverse = [](auto& values) { std::reverse(values.begin(), values.end()); };
-  joints.visit_per_joint([&](const std::string&, std::vector<double>& values) { reverse(values); });
+  joints.visit_per_joint([&](const std::string&, auto& values) { reverse(values); });
   const auto n_joints = std::ptrdiff_t(joints.size());
-  joints.visit_per_segment([&](const std::string&, std::vector<double>& values) {
+  joints.visit_per_segment([&](const std::string&, auto& values) {
     for (auto row = values.begin(); row != values.end(); row += n_joints)
       std::reverse(row, row + n_joints);
   });
@@ -224,13 +224,13 @@ Specimen<dim> replicated(const Specimen<dim>& specimen)
       }
   result.grains.place(radii, positions);
 
-  std::vector<const std::vector<double>*> sources;
+  std::vector<const PackedRow*> sources;
   Joints<dim> source = specimen.joints;
-  source.visit_per_joint([&](const std::string&, std::vector<double>& values) { sources.push_back(&values); });
-  source.visit_per_segment([&](const std::string&, std::vector<double>& values) { sources.push_back(&values); });
+  source.visit_per_joint([&](const std::string&, PackedRow& values) { sources.push_back(&values); });
+  source.visit_per_segment([&](const std::string&, PackedRow& values) { sources.push_back(&values); });
   std::size_t next = 0;
-  const auto copy_rows = [&](const std::string&, std::vector<double>& values) {
-    const std::vector<double>& from = *sources[next++];
+  const auto copy_rows = [&](const std::string&, PackedRow& values) {
+    const PackedRow& from = *sources[next++];
     for (std::size_t row = 0; row < from.size() / n_joints; ++row)
       for (std::size_t copy = 0; copy < n_copies; ++copy)
         for (std::size_t j = 0; j < n_joints; ++j)
