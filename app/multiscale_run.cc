@@ -226,14 +226,10 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
           test.advance(draw, [&] { state.step_done(test); });
           const CurveSample& row = test.last_row();
           const SampleStanding standing = test.standing();
-          show(fmt::format(
-            ": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged{}",
-            100.0 * sign * row.axial_strain, sign * row.axial_stress / 1e6, row.n_tension_cracks + row.n_shear_cracks,
-            100.0 * double(standing.n_damaged_points) / double(standing.n_points),
-            ranks::number() > 1 ? fmt::format(", longest over mean time of the ranks {:.2f}, dealt out anew "
-                                              "{} times",
-                                              standing.imbalance, standing.n_moves)
-                                : ""));
+          show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
+                           100.0 * sign * row.axial_strain, sign * row.axial_stress / 1e6,
+                           row.n_tension_cracks + row.n_shear_cracks,
+                           100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
           if (sign * row.axial_strain >= double(test.n_fields_written()) * strain_between_fields || test.has_ended())
             test.write_fields(folder / "fields", planned.name);
           if (test.has_ended())

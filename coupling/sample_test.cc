@@ -259,9 +259,6 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
       parts->load_to(parts->sign() * step * double(record.curve.size()));
       record.curve.push_back(parts->sample_row());
       parts->ended = parts->stop_rule.is_met_by(record.curve.back(), parts->test.confining_pressure, parts->wanted);
-      const fem::Balance balance = parts->body->rebalance();
-      parts->standing.imbalance = balance.imbalance;
-      parts->standing.n_moves += balance.moved;
     }
   catch (const fem::StepFailure& failure)
     {

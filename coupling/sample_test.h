@@ -23,8 +23,6 @@ struct SampleStanding
   std::uint64_t n_points = 0;
   std::uint64_t n_damaged_points = 0;
   std::uint64_t n_segments = 0; ///< of all points
-  double imbalance = 1.0;       ///< longest over mean time of the ranks in their points, since they last got cells
-  unsigned int n_moves = 0;     ///< times that cells were dealt out to the ranks anew
 };
 
 /// Of the mesh; a rank needs one at least. Throws as measure().
