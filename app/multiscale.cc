@@ -8,6 +8,7 @@
 #include "app/run_record.h"
 #include "app/specimen_source.h"
 #include "app/volume_extract.h"
+#include "coupling/ranks.h"
 #include "dem/input_error.h"
 #include "dem/whole_file.h"
 #include "report/comparison.h"
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <limits>
 
 /// `feldspar multiscale`: laboratory tests on a mesh of finite elements with a representative volume at every point.
@@ -95,6 +97,10 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
     {
       refuse(error.what());
     }
+  if (const std::uint64_t most = n_cells(input.sample); ranks::number() > most)
+    refuse(fmt::format("{} processes for a sample of {} cells: each needs one; start at most {}, and give them more "
+                       "threads",
+                       ranks::number(), most, most));
 
   // Elements larger than the volume would have to dissipate more than it holds; docs/theory.md §11.
   if (!has_grains || !input.specimen.specimen_file.empty())
@@ -126,7 +132,7 @@ void say_how_to_resume(const std::filesystem::path& folder)
 int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
            const bool quiet, std::vector<std::string> remarks)
 {
-  Progress progress(quiet);
+  Progress progress(quiet || !ranks::is_first());
   watch_for_interrupt();
 
   // Make the rock.
@@ -142,12 +148,12 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     {
       throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
     }
-  std::filesystem::create_directories(folder / "fields");
+  ranks::first([&] { std::filesystem::create_directories(folder / "fields"); });
   std::vector<FinishedTest> tests;
   progress.start("tests");
   for (const PlannedSample& one : planned)
     {
-      if (interrupted())
+      if (ranks::any(interrupted()))
         break;
       std::string last;
       tests.push_back(run(one, input, folder, [&](const std::string& text) {
@@ -168,58 +174,58 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     throw InputError(fmt::format("{}: {}", input_file.string(), failed->record.failure));
 
   // Report.
-  write_result_folder(provenance(input, input_file), tests, folder);
-  if (!input.reference_file.empty())
-    std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
-                               std::filesystem::copy_options::overwrite_existing);
-  if (!tests.empty())
-    for (auto& sentence : report_on({{folder}, {}, {}, folder}))
-      remarks.push_back(std::move(sentence));
-  const std::string text = describe_run(input, rocks, tests, remarks);
-  write_whole_file(folder / "log.txt", text);
-  if (!quiet)
-    fmt::print("\n{}\n", text);
-  fmt::print("{}\n", folder.string());
-  if (interrupted())
-    {
+  const bool was_interrupted = ranks::any(interrupted());
+  ranks::first([&] {
+    write_result_folder(provenance(input, input_file), tests, folder);
+    if (!input.reference_file.empty())
+      std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
+                                 std::filesystem::copy_options::overwrite_existing);
+    if (!tests.empty())
+      for (auto& sentence : report_on({{folder}, {}, {}, folder}))
+        remarks.push_back(std::move(sentence));
+    const std::string text = describe_run(input, rocks, tests, remarks);
+    write_whole_file(folder / "log.txt", text);
+    if (!quiet)
+      fmt::print("\n{}\n", text);
+    fmt::print("{}\n", folder.string());
+    if (was_interrupted)
       say_how_to_resume(folder);
-      return exit_code::interrupted;
-    }
-  mark_complete(folder);
-  if (failed == tests.end())
-    return 0;
-  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
-  return exit_code::user_error;
+    else
+      mark_complete(folder);
+    if (!was_interrupted && failed != tests.end())
+      fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  });
+  if (was_interrupted)
+    return exit_code::interrupted;
+  return failed == tests.end() ? 0 : exit_code::user_error;
 }
 } // namespace
 
-int run_multiscale(const CommonOptions& options)
+namespace
 {
-  // No limit of threads here, as deal.II's tutorials have it: it would leave the volumes one worker.
-  int n_arguments = 0;
-  char** no_arguments = nullptr;
-  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
-  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    throw InputError(
-      "multiscale runs as one process yet, on as many threads as --threads says; start it without mpirun");
-
+int run_on_all_ranks(const CommonOptions& options)
+{
   if (options.input.empty() && !options.resume)
     throw InputError("multiscale needs an INPUT, or --resume with the folder of a run; see feldspar multiscale --help");
   if (options.extract)
-    return extract_volume(options.input, *options.extract, options.quiet);
+    {
+      if (ranks::number() > 1)
+        throw InputError("--extract is the work of one process; start it without mpirun");
+      return extract_volume(options.input, *options.extract, options.quiet);
+    }
   const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
     const auto remarks = check(input, input_file);
-    for (const auto& remark : remarks)
-      fmt::print(stderr, "feldspar: {}: {}\n", input_file.string(), remark);
+    if (ranks::is_first())
+      for (const auto& remark : remarks)
+        fmt::print(stderr, "feldspar: {}: {}\n", input_file.string(), remark);
     try
       {
         return run_in(folder, input, input_file, options.quiet, remarks);
       }
     catch (const Interrupted&)
       {
-        say_how_to_resume(folder);
+        if (ranks::is_first())
+          say_how_to_resume(folder);
         return exit_code::interrupted;
       }
     catch (const OutputError& error)
@@ -233,7 +239,8 @@ int run_multiscale(const CommonOptions& options)
       const RunRecord run = read_run_record("multiscale", *options.resume);
       if (run.complete)
         {
-          fmt::print("{}: this run is complete\n", options.resume->string());
+          if (ranks::is_first())
+            fmt::print("{}: this run is complete\n", options.resume->string());
           return 0;
         }
       return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
@@ -241,25 +248,58 @@ int run_multiscale(const CommonOptions& options)
 
   const Input input = read_input(options.input);
   check(input, options.input);
-  const OutputFolder folder(options.output, options.input, options.force);
-  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
+  // The first rank makes the folder and begins the record of the run; the others learn its name.
+  std::optional<OutputFolder> made;
+  std::filesystem::path folder;
+  ranks::first([&] {
+    made.emplace(options.output, options.input, options.force);
+    folder = made->path();
+    remove_run(folder); // with --force: what an earlier run left would be taken for this one's
+    try
+      {
+        write_run_record("multiscale", options.input, folder);
+      }
+    catch (const OutputError&)
+      {
+        remove_run(folder);
+        throw;
+      }
+  });
+  folder = ranks::of_first(folder.string());
   try
     {
-      write_run_record("multiscale", options.input, folder.path());
-    }
-  catch (const OutputError&)
-    {
-      remove_run(folder.path());
-      throw;
-    }
-  try
-    {
-      return run_or_say_how_to_resume(folder.path(), input, options.input);
+      return run_or_say_how_to_resume(folder, input, options.input);
     }
   catch (const InputError&)
     {
-      remove_run(folder.path()); // a mistake leaves nothing
+      ranks::first([&] { remove_run(folder); }); // a mistake leaves nothing
       throw;
     }
+}
+} // namespace
+
+int run_multiscale(const CommonOptions& options)
+{
+  // No limit of threads here, as deal.II's tutorials have it: it would leave the volumes one worker.
+  int n_arguments = 0;
+  char** no_arguments = nullptr;
+  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
+  int exit_code = 0;
+  std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
+  {
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+    try
+      {
+        exit_code = ranks::guarded([&] { return run_on_all_ranks(options); });
+      }
+    catch (...)
+      {
+        failure = std::current_exception();
+      }
+  }
+  if (failure)
+    std::rethrow_exception(failure);
+  return exit_code;
 }
 } // namespace feldspar

@@ -3,6 +3,8 @@
 #include "app/interrupt.h"
 #include "app/run_record.h"
 #include "app/specimen_source.h"
+#include "coupling/checkpoints.h"
+#include "coupling/ranks.h"
 #include "dem/input_error.h"
 
 #include <Eigen/LU>
@@ -43,25 +45,28 @@ SampleTest from_the_start(const PlannedSample& planned, const Input& input)
 class StateWriter
 {
 public:
-  StateWriter(std::filesystem::path its_file, std::string its_identity)
-    : file(std::move(its_file))
+  StateWriter(std::filesystem::path its_folder, std::string its_identity)
+    : folder(std::move(its_folder))
     , identity(std::move(its_identity))
   {
-    std::filesystem::create_directories(file.parent_path());
   }
 
-  void row_done(const SampleTest& test)
+  void step_done(const SampleTest& test)
+  {
+    if (ranks::any(ranks::is_first() && Clock::now() - last_write >= 50 * cost))
+      write(test);
+  }
+
+  void write(const SampleTest& test)
   {
     const auto begin = Clock::now();
-    if (!test.has_ended() && begin - last_write < 50 * cost)
-      return;
-    test.write_state(file, identity);
+    test.write_state(folder, identity);
     last_write = Clock::now();
     cost = last_write - begin;
   }
 
 private:
-  std::filesystem::path file;
+  std::filesystem::path folder;
   std::string identity;
   Clock::time_point last_write;
   Clock::duration cost{0};
@@ -74,7 +79,28 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
   of_packings.seeds = packing_seeds(input);
   const std::vector<Variant> one{{"", of_packings}};
   const auto orders = specimen_orders(one);
-  std::filesystem::create_directories(folder / "volumes");
+  ranks::first([&] { std::filesystem::create_directories(folder / "volumes"); });
+  if (ranks::number() > 1)
+    {
+      // Each rank makes its share; then all read all.
+      std::vector<SpecimenOrder> own;
+      for (std::size_t k = ranks::mine(); k < orders.size(); k += ranks::number())
+        own.push_back(orders[k]);
+      bool was_interrupted = false;
+      ranks::together([&] {
+        try
+          {
+            if (!own.empty())
+              provide_specimens<dim>(one, own, folder / "volumes", progress);
+          }
+        catch (const Interrupted&)
+          {
+            was_interrupted = true;
+          }
+      });
+      if (ranks::any(was_interrupted))
+        throw Interrupted();
+    }
   auto specimens = provide_specimens<dim>(one, orders, folder / "volumes", progress);
   std::vector<Rock> rocks;
   for (std::size_t k = 0; k < specimens.size(); ++k)
@@ -153,38 +179,39 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
   return planned;
 }
 
-std::filesystem::path state_file(const std::filesystem::path& folder, const PlannedSample& planned)
+std::filesystem::path state_folder(const std::filesystem::path& folder, const PlannedSample& planned)
 {
-  return folder / "states" / (planned.name + ".h5");
+  return folder / "states" / planned.name;
 }
 
 SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder)
 {
-  SampleTest test = from_the_start(planned, input);
-  const auto file = state_file(folder, planned);
-  if (!std::filesystem::exists(file))
-    return test;
-  try
-    {
-      test.read_state(file, planned.identity, folder / "fields", planned.name);
-      return test;
-    }
-  catch (const InputError& error)
-    {
-      fmt::print(stderr, "feldspar: {}; going back to the start of this test\n", error.what());
-      return from_the_start(planned, input);
-    }
+  const auto checkpoints = checkpoints_in(state_folder(folder, planned));
+  for (const auto& checkpoint : checkpoints)
+    try
+      {
+        SampleTest test = from_the_start(planned, input);
+        test.read_state(checkpoint, planned.identity, folder / "fields", planned.name);
+        return test;
+      }
+    catch (const InputError& error)
+      {
+        if (ranks::is_first())
+          fmt::print(stderr, "feldspar: {}; going back to the {}\n", error.what(),
+                     checkpoint == checkpoints.back() ? "start of this test" : "checkpoint before it");
+      }
+  return from_the_start(planned, input);
 }
 
 FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
                  const std::function<void(const std::string&)>& show)
 {
   SampleTest test = open(planned, input, folder);
-  StateWriter state(state_file(folder, planned), planned.identity);
+  StateWriter state(state_folder(folder, planned), planned.identity);
   const double sign = laboratory_sign(planned.test.kind);
   const double strain_between_fields = planned.test.kind == TestKind::direct_tension ? 2.5e-5 : 2.5e-4;
   const auto draw = [&](const SampleStanding& standing) {
-    if (interrupted())
+    if (ranks::any(interrupted()))
       throw Interrupted();
     if (standing.n_newton_iterations + standing.n_cascades > 0)
       show(
@@ -196,7 +223,7 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
     {
       while (!test.has_ended())
         {
-          test.advance(draw);
+          test.advance(draw, [&] { state.step_done(test); });
           const CurveSample& row = test.last_row();
           const SampleStanding standing = test.standing();
           show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
@@ -205,12 +232,14 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
                            100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
           if (sign * row.axial_strain >= double(test.n_fields_written()) * strain_between_fields || test.has_ended())
             test.write_fields(folder / "fields", planned.name);
-          state.row_done(test);
+          if (test.has_ended())
+            state.write(test);
         }
     }
   catch (const Interrupted&)
     {
       was_interrupted = true;
+      state.write(test);
     }
   catch (const InputError& error) // a confinement it cannot bear; other tests may
     {

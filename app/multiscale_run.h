@@ -35,7 +35,8 @@ struct Rock
   std::vector<SpecimenReport> reports() const;
 };
 
-/// Makes the volumes of every seed, or reads those that lie in the folder of the run. Throws InputError, and Interrupted.
+/// Makes the volumes of every seed, each on one rank, or reads those that lie in the folder of the run. Collective, as
+/// everything here. Throws InputError, and Interrupted.
 std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
                              const std::filesystem::path& folder, Progress& progress);
 
@@ -51,10 +52,11 @@ struct PlannedSample
 /// The rocks must outlive it.
 std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks);
 
-/// The state of a test in the folder of its run.
-std::filesystem::path state_file(const std::filesystem::path& folder, const PlannedSample& planned);
+/// The checkpoints of a test in the folder of its run.
+std::filesystem::path state_folder(const std::filesystem::path& folder, const PlannedSample& planned);
 
-/// The test as its state in the folder has it, else from the start.
+/// The test as its last checkpoint in the folder has it; where that cannot be used, which is said, as the one before it
+/// has it, else from the start.
 SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder);
 
 /// Runs a test to its end, or to Ctrl-C. `show` gets ": …" for every row and ", …" within one.

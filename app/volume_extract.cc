@@ -177,10 +177,10 @@ int extract_volume(const std::filesystem::path& folder, const std::string& cell_
   std::size_t n_extracted = 0;
   for (const PlannedSample& one : planned)
     {
-      if (!std::filesystem::exists(state_file(folder, one)))
+      if (!std::filesystem::exists(state_folder(folder, one)))
         continue;
       const SampleTest test = open(one, record.input, folder);
-      const TestRecord of_sample = test.finish(true);
+      const TestRecord of_sample = test.finish(false); // to its last step, as the volume is
       if (of_sample.curve.empty())
         continue;
       const std::string text = dimension_of_volumes(record.input.sample.geometry) == 2

@@ -1,6 +1,8 @@
 #include "coupling/sample_body.h"
 
 #include "coupling/grain_material.h"
+#include "coupling/ranks.h"
+#include "coupling/sample_test.h"
 #include "dem/input_error.h"
 #include "fem/linear_elasticity.h"
 #include "fem/mohr_coulomb.h"
@@ -125,13 +127,14 @@ public:
   SampleSize size() const override { return its_size; }
   std::array<double, 3> box() const override
   {
-    const auto [width, height, element] = its_size;
+    const double width = its_size.width;
+    const double height = its_size.height;
     if (sample.geometry == SampleGeometry::plane)
       return {width, height, 0.0};
     constexpr double thickness = 1.0;
     return {width, sample.geometry == SampleGeometry::plane_strain ? thickness : width, height};
   }
-  std::size_t n_points() const override { return solid.material_points().size(); }
+  std::uint64_t n_points() const override { return solid.n_points(); }
   std::size_t n_points_per_cell() const override { return solid.n_points_per_cell(); }
 
   double top_displacement() const override { return solid.mean_displacement("top", dim - 1); }
@@ -154,10 +157,10 @@ public:
     std::vector<Crack> cracks;
     if (!has_grains())
       return cracks;
-    for (std::size_t i = 0; i < n_points(); ++i)
+    for (std::size_t i = 0; i < n_points_here(); ++i)
       for (const PointCrack<material_dim>& broken : point(i).cracks_of_last_step())
-        cracks.push_back({broken.kind, i, broken.segment, 0, 0.0, in_box(i), in_space<material_dim>(broken.normal),
-                          broken.size, broken.released_energy});
+        cracks.push_back({broken.kind, solid.number_of_point(i), broken.segment, 0, 0.0, in_box(i),
+                          in_space<material_dim>(broken.normal), broken.size, broken.released_energy});
     return cracks;
   }
 
@@ -168,37 +171,48 @@ public:
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         return {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
       }
-    Energies energies;
-    for (std::size_t i = 0; i < n_points(); ++i)
+    std::vector<double> sums(5, 0.0);
+    for (std::size_t i = 0; i < n_points_here(); ++i)
       {
         const double volume = solid.volumes()[i];
         const NetworkWork work = point(i).work_density();
-        energies.boundary_work += volume * work.boundary;
-        energies.strain += volume * point(i).stored_energy_density();
-        energies.slip += volume * work.slip;
-        energies.released += volume * work.released;
-        energies.damping += volume * work.settled;
+        sums[0] += volume * work.boundary;
+        sums[1] += volume * point(i).stored_energy_density();
+        sums[2] += volume * work.slip;
+        sums[3] += volume * work.released;
+        sums[4] += volume * work.settled;
       }
+    sums = ranks::sums(sums);
+    Energies energies;
+    energies.boundary_work = sums[0];
+    energies.strain = sums[1];
+    energies.slip = sums[2];
+    energies.released = sums[3];
+    energies.damping = sums[4];
     return energies;
   }
 
   std::uint64_t n_damaged_points() const override
   {
     std::uint64_t n = 0;
-    for (std::size_t i = 0; has_grains() && i < n_points(); ++i)
+    for (std::size_t i = 0; has_grains() && i < n_points_here(); ++i)
       n += !point(i).volume().state().intact;
-    return n;
+    return ranks::sum(n);
   }
 
-  std::variant<SampleVolume<2>, SampleVolume<3>> volume(const std::size_t number) const override
+  std::variant<SampleVolume<2>, SampleVolume<3>> volume(const std::uint64_t number) const override
   {
-    const GrainPoint<material_dim>& at = point(number);
-    return SampleVolume<material_dim>{number, position(number), at.orientation(), &at.volume().network(),
+    std::size_t i = 0;
+    while (solid.number_of_point(i) != number)
+      ++i;
+    const GrainPoint<material_dim>& at = point(i);
+    return SampleVolume<material_dim>{number, position(i), at.orientation(), &at.volume().network(),
                                       at.volume().state()};
   }
 
   void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }
   std::vector<std::string> boundaries() const override { return boundaries_of(sample.geometry); }
+  fem::Balance rebalance() override { return solid.rebalance(); }
   fem::StoredSolid stored() const override { return solid.stored(); }
   void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
 
@@ -213,6 +227,8 @@ private:
     parameters.watch = set_up.watch;
     return parameters;
   }
+
+  std::size_t n_points_here() const { return solid.material_points().size(); }
 
   /// Where there are grains.
   const GrainPoint<material_dim>& point(const std::size_t i) const
@@ -271,6 +287,12 @@ SampleSize measure(const SampleParameters& sample)
 {
   return sample.geometry == SampleGeometry::cylinder ? size_of(mesh_of<3>(sample), sample)
                                                      : size_of(mesh_of<2>(sample), sample);
+}
+
+std::uint64_t n_cells(const SampleParameters& sample)
+{
+  return sample.geometry == SampleGeometry::cylinder ? mesh_of<3>(sample).triangulation->n_global_active_cells()
+                                                     : mesh_of<2>(sample).triangulation->n_global_active_cells();
 }
 
 template <int dim>

@@ -42,7 +42,7 @@ public:
 
   virtual SampleSize size() const = 0;
   virtual std::array<double, 3> box() const = 0; ///< as TestRecord::size
-  virtual std::size_t n_points() const = 0;
+  virtual std::uint64_t n_points() const = 0;
   virtual std::size_t n_points_per_cell() const = 0;
 
   virtual double top_displacement() const = 0; ///< [m]
@@ -55,13 +55,15 @@ public:
 
   // Where there are grains.
   virtual bool has_grains() const = 0;
-  virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< without step and strain
+  virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
   virtual Energies energies() const = 0;                      ///< NaN where there are none
   virtual std::uint64_t n_damaged_points() const = 0;
-  virtual std::variant<SampleVolume<2>, SampleVolume<3>> volume(std::size_t point) const = 0;
+  virtual std::variant<SampleVolume<2>, SampleVolume<3>> volume(
+    std::uint64_t point) const = 0; ///< where there is one rank
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
   virtual std::vector<std::string> boundaries() const = 0;
+  virtual fem::Balance rebalance() = 0; ///< as Solid's
   virtual fem::StoredSolid stored() const = 0;
   /// Throws std::invalid_argument where it is of another mesh.
   virtual void restore(const fem::StoredSolid& stored) = 0;

@@ -1,5 +1,7 @@
 #include "coupling/sample_test.h"
 
+#include "coupling/checkpoints.h"
+#include "coupling/ranks.h"
 #include "coupling/sample_body.h"
 #include "coupling/state_archive.h"
 #include "dem/hdf5_archive.h"
@@ -13,7 +15,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace feldspar
@@ -30,6 +34,10 @@ struct SampleTest::Parts
   std::optional<fem::FieldOutput> fields;
   StopRule stop_rule;
   TestRecord record;
+  std::function<void()> step_done;
+  std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
+  bool avalanche = false;                ///< the next of these steps may break as much as it likes
+  unsigned int n_cuts_for_breaks = 0;    ///< of the step that is tried
   bool seated = false;
   bool ended = false;
   double height_at_seating = 0.0; ///< displacement of the top [m]
@@ -71,9 +79,9 @@ struct SampleTest::Parts
             }};
   }
 
-  /// After Archive::reads `fields_written` tells of what lies in the folder of the fields.
+  /// What all ranks know besides the solid.
   template <typename Archive>
-  void transfer(Archive& archive, std::string& fields_written)
+  void transfer_test(Archive& archive, std::string& fields_written, std::map<std::string, double>& pressures)
   {
     transfer_flag(archive, "seated", seated);
     transfer_flag(archive, "ended", ended);
@@ -86,49 +94,29 @@ struct SampleTest::Parts
     archive.text("ended_early", record.ended_early);
     transfer_flag(archive, "came_apart", record.came_apart);
     archive.bytes("curve", record.curve);
-    archive.bytes("cracks", record.cracks);
     archive.value("peak_deviator", stop_rule.peak.highest);
     transfer_flag(archive, "fallen", stop_rule.peak.fallen);
     archive.value("strain_at_peak", stop_rule.strain_at_peak);
     archive.text("fields_written", fields_written);
-
-    fem::StoredSolid stored;
-    if constexpr (!Archive::reads)
-      stored = body->stored();
-    archive.array("displacement_m", stored.displacement);
-    archive.array("internal_force_N", stored.internal_force);
-    archive.array("external_force_N", stored.external_force);
-    archive.array("strains", stored.strains);
-    archive.array("answers_Pa", stored.answers);
     for (const std::string& boundary : body->boundaries())
-      archive.value("pressure_" + boundary + "_Pa", stored.pressures[boundary]);
-    std::vector<std::uint64_t> sizes;
-    std::vector<std::uint8_t> points;
-    for (const std::string& bytes : stored.points)
-      {
-        sizes.push_back(bytes.size());
-        points.insert(points.end(), bytes.begin(), bytes.end());
-      }
-    archive.array("point_sizes", sizes);
-    archive.array("points", points);
+      archive.value("pressure_" + boundary + "_Pa", pressures[boundary]);
+
+    bool on_its_way = steps.has_value();
+    transfer_flag(archive, "row_on_its_way", on_its_way);
+    transfer_flag(archive, "avalanche", avalanche);
+    fem::StepControl::Standing standing_of_steps;
+    if (steps)
+      standing_of_steps = steps->standing();
+    archive.value("steps_done", standing_of_steps.done);
+    archive.value("steps_size", standing_of_steps.size);
+    archive.value("steps_in_a_row", standing_of_steps.n_in_a_row);
     if constexpr (Archive::reads)
       {
-        std::size_t begin = 0;
-        for (const std::uint64_t n : sizes)
+        steps.reset();
+        if (on_its_way)
           {
-            if (n > points.size() - begin)
-              throw InputError("points are missing");
-            stored.points.emplace_back(points.begin() + std::ptrdiff_t(begin),
-                                       points.begin() + std::ptrdiff_t(begin + n));
-            begin += n;
-          }
-        try
-          {
-            body->restore(stored);
-          }
-        catch (const std::invalid_argument& error)
-          {
-            throw InputError(error.what());
+            steps.emplace(first_steps());
+            steps->go_on_from(standing_of_steps);
           }
       }
   }
@@ -152,32 +140,34 @@ struct SampleTest::Parts
     go([=, this](const double fraction) { return body->press(top, fraction); });
   }
 
+  fem::StepControl first_steps() const { return {1.0, sample.smallest_step_share, 1.0}; }
+
   /// In steps that break no more than their share. Where a step cut twice for that, or the smallest, still does, it is an
-  /// avalanche, which no step divides. `solve` goes a fraction of the way that is left.
+  /// avalanche, which no step divides. From where it was left, if it was. `solve` goes a fraction of the way that is left.
   void go(const std::function<fem::NewtonReport(double)>& solve)
   {
-    fem::StepControl steps(1.0, sample.smallest_step_share, 1.0);
+    if (!steps)
+      steps.emplace(first_steps());
     const auto most_events =
       std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(standing.n_segments)));
     constexpr unsigned int most_cuts_for_breaks = 2;
-    unsigned int n_cuts_for_breaks = 0;
-    bool avalanche = false;
-    while (!steps.finished())
+    while (!steps->finished())
       {
         body->limit_events(avalanche ? standing.n_segments : most_events);
-        const fem::NewtonReport report = solve((steps.next() - steps.done()) / (1.0 - steps.done()));
+        const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
         if (report.converged)
           {
             body->accept();
-            steps.succeeded();
-            gather_cracks();
+            steps->succeeded();
             avalanche = false;
             n_cuts_for_breaks = 0;
+            gather_cracks();
+            step_done();
             continue;
           }
         body->reject();
         const bool breaks_too_much = !avalanche && report.n_events > most_events;
-        const bool was_cut = steps.cut();
+        const bool was_cut = steps->cut();
         if (!was_cut && !breaks_too_much)
           {
             record.came_apart = avalanche;
@@ -186,21 +176,35 @@ struct SampleTest::Parts
         if (breaks_too_much)
           avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
       }
+    steps.reset();
   }
 
   double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }
 
-  /// After each accepted step.
+  /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
   void gather_cracks()
   {
     ++record.steps;
-    for (Crack& crack : body->cracks_of_last_step())
+    std::vector<Crack> broken = body->cracks_of_last_step();
+    const double strain = seated ? axial_strain() : 0.0;
+    for (Crack& crack : broken)
       {
         crack.step = record.steps;
-        crack.axial_strain = seated ? axial_strain() : 0.0;
-        ++(crack.kind == CrackKind::tension ? n_tension : n_shear);
-        record.cracks.push_back(crack);
+        crack.axial_strain = strain;
       }
+    const auto n_of = [&](const CrackKind kind) {
+      const auto is = [=](const Crack& crack) { return crack.kind == kind; };
+      return ranks::sum(std::uint64_t(std::count_if(broken.begin(), broken.end(), is)));
+    };
+    n_tension += n_of(CrackKind::tension);
+    n_shear += n_of(CrackKind::shear);
+    const std::string everywhere =
+      ranks::gathered({reinterpret_cast<const char*>(broken.data()), broken.size() * sizeof(Crack)});
+    broken.resize(everywhere.size() / sizeof(Crack));
+    std::copy(everywhere.begin(), everywhere.end(), reinterpret_cast<char*>(broken.data()));
+    std::stable_sort(broken.begin(), broken.end(),
+                     [](const Crack& one, const Crack& other) { return one.joint < other.joint; });
+    record.cracks.insert(record.cracks.end(), broken.begin(), broken.end());
   }
 
   CurveSample sample_row()
@@ -247,10 +251,12 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
 SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
 
-bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch)
+bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch,
+                         const std::function<void()>& step_done)
 {
   const auto clock = std::chrono::steady_clock::now();
   parts->watch = watch;
+  parts->step_done = step_done;
   TestRecord& record = parts->record;
   try
     {
@@ -267,6 +273,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
       if (!parts->seated)
         throw InputError(fmt::format("Tests/Confinements: the sample finds no equilibrium under {:g} MPa: {}",
                                      parts->test.confining_pressure / 1e6, failure.what()));
+      parts->steps.reset();
       parts->ended = true;
       record.ended_early =
         fmt::format("{} beyond an axial strain of {:.4g} %: {}",
@@ -274,6 +281,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
                     100.0 * std::abs(parts->axial_strain()), failure.what());
     }
   parts->watch = nullptr;
+  parts->step_done = nullptr;
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return !parts->ended;
 }
@@ -316,29 +324,113 @@ TestRecord SampleTest::finish(const bool interrupted) const
   return record;
 }
 
-void SampleTest::write_state(const std::filesystem::path& file, const std::string& identity) const
+namespace
 {
-  write_hdf5(file, [&](Hdf5Writer& root) {
-    std::string of_test = identity;
-    root.text("identity", of_test);
-    std::string fields_written = parts->fields ? parts->fields->stored() : "";
-    parts->transfer(root, fields_written);
+/// Rows of equal length, one a cell; and bytes of each point with their numbers.
+void write_cells(Hdf5Writer& root, const std::vector<fem::StoredCell>& cells)
+{
+  std::vector<std::uint64_t> numbers, sizes;
+  std::vector<double> displacement, answers;
+  std::vector<std::uint8_t> points;
+  for (const fem::StoredCell& cell : cells)
+    {
+      numbers.push_back(cell.number);
+      displacement.insert(displacement.end(), cell.displacement.begin(), cell.displacement.end());
+      answers.insert(answers.end(), cell.answers.begin(), cell.answers.end());
+      for (const std::string& bytes : cell.points)
+        {
+          sizes.push_back(bytes.size());
+          points.insert(points.end(), bytes.begin(), bytes.end());
+        }
+    }
+  root.array("cells", numbers);
+  root.array("displacement_m", displacement);
+  root.array("answers_Pa", answers);
+  root.array("point_sizes", sizes);
+  root.array("points", points);
+}
+
+std::vector<fem::StoredCell> read_cells(Hdf5Reader& root)
+{
+  std::vector<std::uint64_t> numbers, sizes;
+  std::vector<double> displacement, answers;
+  std::vector<std::uint8_t> points;
+  root.array("cells", numbers);
+  root.array("displacement_m", displacement);
+  root.array("answers_Pa", answers);
+  root.array("point_sizes", sizes);
+  root.array("points", points);
+  const std::size_t n = numbers.size();
+  if (n == 0)
+    return {};
+  if (displacement.size() % n != 0 || answers.size() % n != 0 || sizes.size() % n != 0)
+    throw InputError("arrays of cells differ in length");
+  const auto row = [=](const auto& values, const std::size_t k) {
+    const auto length = std::ptrdiff_t(values.size() / n);
+    return std::decay_t<decltype(values)>(values.begin() + std::ptrdiff_t(k) * length,
+                                          values.begin() + std::ptrdiff_t(k + 1) * length);
+  };
+  std::vector<fem::StoredCell> cells;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < n; ++k)
+    {
+      cells.push_back({numbers[k], row(displacement, k), row(answers, k), {}});
+      for (const std::uint64_t size : row(sizes, k))
+        {
+          if (size > points.size() - begin)
+            throw InputError("points are missing");
+          cells.back().points.emplace_back(points.begin() + std::ptrdiff_t(begin),
+                                           points.begin() + std::ptrdiff_t(begin + size));
+          begin += size;
+        }
+    }
+  return cells;
+}
+} // namespace
+
+void SampleTest::write_state(const std::filesystem::path& folder, const std::string& identity) const
+{
+  fem::StoredSolid solid = parts->body->stored();
+  write_checkpoint(folder, parts->record.steps, identity, [&](Hdf5Writer& root) {
+    if (ranks::is_first())
+      {
+        std::string fields_written = parts->fields ? parts->fields->stored() : "";
+        parts->transfer_test(root, fields_written, solid.pressures);
+        root.bytes("cracks", parts->record.cracks);
+      }
+    write_cells(root, solid.cells);
   });
 }
 
-void SampleTest::read_state(const std::filesystem::path& file, const std::string& identity,
+void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::string& identity,
                             const std::filesystem::path& folder, const std::string& name)
 {
-  read_hdf5(file, "a state of `feldspar multiscale`", [&](Hdf5Reader& root) {
-    std::string of_test;
-    root.text("identity", of_test);
-    if (of_test != identity)
-      throw InputError("of another test, input or version of this program");
-    std::string fields_written;
-    parts->transfer(root, fields_written);
-    if (!fields_written.empty())
-      parts->fields.emplace(folder, name).restore(fields_written);
+  fem::StoredSolid solid;
+  std::string fields_written;
+  read_checkpoint(checkpoint, identity, [&](Hdf5Reader& root, const std::uint64_t part) {
+    if (part == 0)
+      {
+        parts->transfer_test(root, fields_written, solid.pressures);
+        root.bytes("cracks", parts->record.cracks);
+      }
+    for (auto& cell : read_cells(root))
+      solid.cells.push_back(std::move(cell));
   });
+  BytesWriter of_first;
+  parts->transfer_test(of_first, fields_written, solid.pressures);
+  const std::string bytes = ranks::of_first(of_first.all);
+  BytesReader reader(bytes);
+  parts->transfer_test(reader, fields_written, solid.pressures);
+  try
+    {
+      parts->body->restore(solid);
+      if (!fields_written.empty())
+        parts->fields.emplace(folder, name).restore(fields_written);
+    }
+  catch (const std::exception& error)
+    {
+      throw InputError(fmt::format("{}: {}", checkpoint.string(), error.what()));
+    }
 }
 
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,

@@ -25,9 +25,15 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
+/// Of the mesh; a rank needs one at least. Throws as measure().
+std::uint64_t n_cells(const SampleParameters& sample);
+
 /// A laboratory test on a sample of finite elements with a representative volume at every point; docs/theory.md
 /// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
+///
+/// All ranks of mpirun make it together: every function is collective, throws on all ranks what it throws on any, and
+/// tells the same on all, but for the cracks, which only the first rank has.
 class SampleTest
 {
 public:
@@ -45,14 +51,15 @@ public:
 
   /// Seats the sample at the first call, then loads it to the next row of the curve. False once the stop rule has ended
   /// the test, or no equilibrium could be found: then the record tells. `watch` is called after every iteration
-  /// and may throw to leave the test as it was at the last row.
-  bool advance(const std::function<void(const SampleStanding&)>& watch);
+  /// and may throw, on all ranks, to leave the test as it was at the last of its steps, of which a row may have many;
+  /// `step_done` after each of these, at a moment for write_state().
+  bool advance(const std::function<void(const SampleStanding&)>& watch, const std::function<void()>& step_done);
 
   bool has_ended() const;
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
-  /// At the last row. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
+  /// At the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
   /// or no grains.
   template <int dim>
   SampleVolume<dim> volume_at(unsigned int cell, unsigned int point) const;
@@ -64,13 +71,13 @@ public:
   /// The test up to its last row.
   TestRecord finish(bool interrupted) const;
 
-  /// The whole state at the last row, so that a test read back runs on to the same bits. `identity` tells whose state it
-  /// is. Not between two rows: where `watch` left a row the last state written is that of the row before.
-  void write_state(const std::filesystem::path& file, const std::string& identity) const;
-  /// `folder` and `name` of the fields that were written. Throws InputError where the file is missing, torn, foreign or
-  /// of another identity; the test is then unusable.
-  void read_state(const std::filesystem::path& file, const std::string& identity, const std::filesystem::path& folder,
-                  const std::string& name);
+  /// The whole state at the last step, as a checkpoint in `folder` (coupling/checkpoints.h), so that a test read back on as
+  /// many ranks runs on to the same bits. `identity` tells whose state it is. Throws OutputError.
+  void write_state(const std::filesystem::path& folder, const std::string& identity) const;
+  /// From any number of ranks. `folder` and `name` of the fields that were written. Throws InputError where the
+  /// checkpoint is missing, torn, foreign or of another identity; the test is then unusable.
+  void read_state(const std::filesystem::path& checkpoint, const std::string& identity,
+                  const std::filesystem::path& folder, const std::string& name);
 
 private:
   struct Parts; ///< deal.II's headers stay out of who includes this one

@@ -44,6 +44,8 @@ void transfer(Archive& archive, NetworkState<dim>& state)
 class BytesWriter
 {
 public:
+  static constexpr bool reads = false;
+
   template <typename T>
   void value(const std::string& /*name*/, T& stored)
   {
@@ -60,6 +62,12 @@ public:
     all.append(reinterpret_cast<const char*>(values.data()), n * sizeof(T));
   }
 
+  void text(const std::string& name, std::string& stored)
+  {
+    std::vector<char> characters(stored.begin(), stored.end());
+    array(name, characters);
+  }
+
   template <typename T>
   void bytes(const std::string& name, std::vector<T>& values)
   {
@@ -72,6 +80,8 @@ public:
 class BytesReader
 {
 public:
+  static constexpr bool reads = true;
+
   explicit BytesReader(const std::string& bytes)
     : all(bytes)
   {
@@ -93,6 +103,13 @@ public:
     values.resize(n);
     if (n > 0)
       take(name, values.data(), n * sizeof(T));
+  }
+
+  void text(const std::string& name, std::string& stored)
+  {
+    std::vector<char> characters;
+    array(name, characters);
+    stored.assign(characters.begin(), characters.end());
   }
 
   template <typename T>

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -86,6 +87,7 @@ public:
 struct PointPlace
 {
   std::string cell;              ///< deal.II's CellId, as in 0_3:201
+  std::uint64_t cell_number;     ///< among all cells of the sample, from 0
   unsigned int quadrature_point; ///< within the cell, from 0
   std::vector<double> position;  ///< [m], in the coordinates of the sample
   double element_size;           ///< (volume, in the plane and in r-z area, of the cell)^(1/dim) / order [m]

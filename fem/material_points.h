@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -21,10 +22,21 @@ public:
   using Strains = std::vector<StrainVector<dim>>;
   using Answers = std::vector<MaterialAnswer<dim>>;
 
-  void add(std::unique_ptr<MaterialPoint<dim>> point) { points.push_back(std::move(point)); }
+  void add(std::unique_ptr<MaterialPoint<dim>> point)
+  {
+    points.push_back(std::move(point));
+    times.push_back(0.0);
+  }
+  void clear()
+  {
+    points.clear();
+    times.clear();
+  }
 
   std::size_t size() const { return points.size(); }
   const MaterialPoint<dim>& operator[](const std::size_t i) const { return *points[i]; }
+  /// What each point took of one core since it was added [s].
+  const std::vector<double>& seconds() const { return times; }
 
   Answers trial(const Strains& strains) const
   {
@@ -40,7 +52,7 @@ public:
       range(), std::size_t(0),
       [&](const Range& part, std::size_t n_events) {
         for (std::size_t i = part.begin(); i != part.end(); ++i)
-          n_events += points[i]->relax(strains[i]);
+          timed(i, [&] { n_events += points[i]->relax(strains[i]); });
         return n_events;
       },
       std::plus<>());
@@ -82,10 +94,20 @@ private:
   {
     oneapi::tbb::parallel_for(range(), [&](const Range& part) {
       for (std::size_t i = part.begin(); i != part.end(); ++i)
-        work(i);
+        timed(i, [&] { work(i); });
     });
   }
 
+  template <typename Work>
+  void timed(const std::size_t i, const Work& work) const
+  {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    work();
+    times[i] += std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
   std::vector<std::unique_ptr<MaterialPoint<dim>>> points;
+  mutable std::vector<double> times; ///< each written by the thread that works on the point
 };
 } // namespace feldspar::fem

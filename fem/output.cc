@@ -5,6 +5,7 @@
 #include <boost/archive/text_iarchive.hpp>
 #include <boost/archive/text_oarchive.hpp>
 #include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
     fields.push_back(std::move(field));
   };
 
+  add("cell", [&](const std::size_t i) { return double(solid.places()[i].cell_number); });
   const auto components = component_names<dim, material_dim>(solid.kinematics());
   for (std::size_t c = 0; c < components.size(); ++c)
     if (!components[c].empty())
@@ -84,9 +86,17 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
   // Nodes are not merged: fields of cells jump between them.
   dealii::DataOutBase::DataOutFilter filter(dealii::DataOutBase::DataOutFilterFlags(false, true));
   out.write_filtered_data(filter);
-  const std::string mesh_file = name + ".h5";
+  // Ranks have their pieces of a curve through all cells one after another, so that how many each has tells the order.
+  const auto of_ranks = dealii::Utilities::MPI::all_gather(
+    solid.communicator(), std::uint64_t(solid.places().size() / solid.n_points_per_cell()));
+  const bool another_mesh = of_ranks != mesh_of_ranks;
+  if (another_mesh)
+    {
+      mesh_file = entries.empty() ? name + ".h5" : fmt::format("{}-mesh-{:04}.h5", name, entries.size());
+      mesh_of_ranks = of_ranks;
+    }
   const std::string fields_file = fmt::format("{}-{:04}.h5", name, entries.size());
-  out.write_hdf5_parallel(filter, entries.empty(), (folder / mesh_file).string(), (folder / fields_file).string(),
+  out.write_hdf5_parallel(filter, another_mesh, (folder / mesh_file).string(), (folder / fields_file).string(),
                           solid.communicator());
   entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
   out.write_xdmf_file(entries, (folder / (name + ".xdmf")).string(), solid.communicator());
@@ -96,7 +106,7 @@ std::string FieldOutput::stored() const
 {
   std::ostringstream text;
   boost::archive::text_oarchive archive(text);
-  archive << entries;
+  archive << entries << mesh_file << mesh_of_ranks;
   return text.str();
 }
 
@@ -104,7 +114,7 @@ void FieldOutput::restore(const std::string& stored)
 {
   std::istringstream text(stored);
   boost::archive::text_iarchive archive(text);
-  archive >> entries;
+  archive >> entries >> mesh_file >> mesh_of_ranks;
 }
 
 template void FieldOutput::write(const Solid<2, 2>&, double);

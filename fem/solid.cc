@@ -1,6 +1,10 @@
 #include "fem/solid.h"
 
+#include "fem/partition.h"
+
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/timer.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
@@ -9,7 +13,10 @@
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 #include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -66,9 +73,10 @@ ComponentMask only(const unsigned int component)
 
 template <int dim, int material_dim>
 Solid<dim, material_dim>::Solid(const SampleMesh<dim>& its_mesh, const SolidParameters& its_parameters,
-                                const Material<material_dim>& material)
+                                const Material<material_dim>& its_material)
   : mesh(its_mesh)
   , parameters(its_parameters)
+  , material(its_material)
   , mapping(parameters.reduced_quadrature
               ? 1
               : parameters.order) // reduced: too few points for constant stress in curved cells
@@ -76,10 +84,15 @@ Solid<dim, material_dim>::Solid(const SampleMesh<dim>& its_mesh, const SolidPara
   , quadrature(n_quadrature_points(parameters))
   , face_quadrature(parameters.order + 1)
   , dof_handler(*mesh.triangulation)
-  , names_of_fields(material.field_names)
+{
+  set_up();
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up()
 {
   set_up_dofs();
-  set_up_points(material);
+  set_up_points();
 }
 
 template <int dim, int material_dim>
@@ -88,15 +101,40 @@ void Solid<dim, material_dim>::set_up_dofs()
   dof_handler.distribute_dofs(fe);
   owned = dof_handler.locally_owned_dofs();
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-  accepted.displacement.reinit(owned, relevant, communicator());
-  accepted.internal_force = owned_vector();
-  accepted.external_force = owned_vector();
-  right_side = owned_vector();
+  // Assigned to each other later, which PETSc takes only where ranks have as many entries of both.
+  for (State* const state : {&accepted, &tried})
+    {
+      state->displacement.reinit(owned, relevant, communicator());
+      state->internal_force.reinit(owned, communicator());
+      state->external_force.reinit(owned, communicator());
+    }
+  right_side.reinit(owned, communicator());
+  constraints.reinit(relevant);
+  constraints.close();
+  constrained.clear();
+  matrix.clear();
 }
 
-template <int dim, int material_dim>
-void Solid<dim, material_dim>::set_up_points(const Material<material_dim>& material)
+namespace
 {
+/// Of all cells of a mesh whose coarse cells are all refined as often, in the order of their CellIds.
+template <typename Cell>
+std::uint64_t number_of(const Cell& cell)
+{
+  const CellId id = cell->id();
+  std::uint64_t number = id.get_coarse_cell_id();
+  for (const auto child : id.get_child_indices())
+    number = number * GeometryInfo<Cell::AccessorType::dimension>::max_children_per_cell + child;
+  return number;
+}
+} // namespace
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::set_up_points()
+{
+  points.clear();
+  point_places.clear();
+  point_volumes.clear();
   FEValues<dim> values(mapping, fe, quadrature, update_quadrature_points | update_JxW_values);
   for (const auto& cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -106,7 +144,11 @@ void Solid<dim, material_dim>::set_up_points(const Material<material_dim>& mater
         for (const unsigned int q : values.quadrature_point_indices())
           {
             const Point<dim>& position = values.quadrature_point(q);
-            PointPlace place{cell->id().to_string(), q, {}, std::pow(measure, 1.0 / dim) / parameters.order};
+            PointPlace place{cell->id().to_string(),
+                             number_of(cell),
+                             q,
+                             {},
+                             std::pow(measure, 1.0 / dim) / parameters.order};
             for (unsigned int component = 0; component < dim; ++component)
               place.position.push_back(position[component]);
             points.add(material.make_point(place));
@@ -536,54 +578,195 @@ void Solid<dim, material_dim>::reject()
 template <int dim, int material_dim>
 StoredSolid Solid<dim, material_dim>::stored() const
 {
-  StoredSolid result;
-  for (const auto dof : owned)
-    {
-      result.displacement.push_back(accepted.displacement(dof));
-      result.internal_force.push_back(accepted.internal_force(dof));
-      result.external_force.push_back(accepted.external_force(dof));
-    }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const auto& [stress, tangent] = accepted.answers[i];
-      result.strains.insert(result.strains.end(), accepted.strains[i].begin(), accepted.strains[i].end());
-      result.answers.insert(result.answers.end(), stress.begin(), stress.end());
-      result.answers.insert(result.answers.end(), tangent.data(), tangent.data() + tangent.size());
-    }
-  result.pressures = accepted.pressures;
-  result.points = points.stored();
+  StoredSolid result{{}, accepted.pressures};
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  std::size_t point = 0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        StoredCell stored{number_of(cell), {}, {}, {}};
+        cell->get_dof_indices(dofs);
+        for (const auto dof : dofs)
+          stored.displacement.push_back(accepted.displacement(dof));
+        for (unsigned int q = 0; q < n_points_per_cell(); ++q, ++point)
+          {
+            const auto& [stress, tangent] = accepted.answers[point];
+            stored.answers.insert(stored.answers.end(), stress.begin(), stress.end());
+            stored.answers.insert(stored.answers.end(), tangent.data(), tangent.data() + tangent.size());
+            stored.points.push_back(points[point].stored());
+          }
+        result.cells.push_back(std::move(stored));
+      }
   return result;
 }
 
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::restore(const StoredSolid& stored)
 {
-  constexpr std::size_t n = n_components<material_dim>;
-  if (stored.displacement.size() != owned.n_elements() || stored.internal_force.size() != owned.n_elements() ||
-      stored.external_force.size() != owned.n_elements() || stored.strains.size() != n * points.size() ||
-      stored.answers.size() != (n + n * n) * points.size() || stored.points.size() != points.size())
-    throw std::invalid_argument("the state of another mesh");
-  const auto fill = [&](const std::vector<double>& values) {
-    Vector vector = owned_vector();
-    std::size_t k = 0;
-    for (const auto dof : owned)
-      vector(dof) = values[k++];
-    vector.compress(VectorOperation::insert);
-    return vector;
-  };
-  accepted.displacement = fill(stored.displacement);
-  accepted.internal_force = fill(stored.internal_force);
-  accepted.external_force = fill(stored.external_force);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const double* const answer = &stored.answers[i * (n + n * n)];
-      auto& [stress, tangent] = accepted.answers[i];
-      std::copy_n(&stored.strains[i * n], n, accepted.strains[i].data());
-      std::copy_n(answer, n, stress.data());
-      std::copy_n(answer + n, n * n, tangent.data());
-    }
   accepted.pressures = stored.pressures;
-  points.restore(stored.points);
+  const bool known = std::all_of(stored.cells.begin(), stored.cells.end(),
+                                 [&](const StoredCell& cell) { return cell.number < n_cells(); });
+  if (Utilities::MPI::min(int(known), communicator()) == 0 || !take(brought_home(stored.cells)))
+    throw std::invalid_argument("the state of another mesh");
+}
+
+/// The cells of this rank among those that all ranks bring.
+template <int dim, int material_dim>
+std::vector<StoredCell> Solid<dim, material_dim>::brought_home(const std::vector<StoredCell>& cells) const
+{
+  IndexSet at_home(n_cells());
+  IndexSet brought(n_cells());
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      at_home.add_index(number_of(cell));
+  for (const StoredCell& cell : cells)
+    brought.add_index(cell.number);
+  const auto owners = Utilities::MPI::compute_index_owner(at_home, brought, communicator());
+  std::map<unsigned int, std::vector<StoredCell>> sent;
+  for (const StoredCell& cell : cells)
+    sent[owners[brought.index_within_set(cell.number)]].push_back(cell);
+  std::vector<StoredCell> result;
+  for (auto& [rank, received] : Utilities::MPI::some_to_some(communicator(), sent))
+    result.insert(result.end(), std::make_move_iterator(received.begin()), std::make_move_iterator(received.end()));
+  return result;
+}
+
+/// Makes these the accepted state of the cells of this rank. False, on every rank, where they are not all of them.
+template <int dim, int material_dim>
+bool Solid<dim, material_dim>::take(const std::vector<StoredCell>& cells)
+{
+  constexpr std::size_t n = n_components<material_dim>;
+  const std::size_t n_of_cell = n_points_per_cell();
+  std::map<std::uint64_t, const StoredCell*> by_number;
+  bool whole = true;
+  for (const StoredCell& cell : cells)
+    whole = by_number.emplace(cell.number, &cell).second && cell.displacement.size() == fe.n_dofs_per_cell() &&
+            cell.answers.size() == (n + n * n) * n_of_cell && cell.points.size() == n_of_cell && whole;
+  for (const PointPlace& place : point_places)
+    whole = whole && by_number.count(place.cell_number) == 1;
+  if (Utilities::MPI::min(int(whole), communicator()) == 0)
+    return false;
+
+  Vector displacement = owned_vector();
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  std::vector<std::string> stored_points;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        const StoredCell& stored = *by_number.at(number_of(cell));
+        cell->get_dof_indices(dofs);
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          if (owned.is_element(dofs[i]))
+            displacement(dofs[i]) = stored.displacement[i];
+        for (std::size_t q = 0; q < n_of_cell; ++q)
+          {
+            const double* const answer = &stored.answers[q * (n + n * n)];
+            auto& [stress, tangent] = accepted.answers[stored_points.size()];
+            std::copy_n(answer, n, stress.data());
+            std::copy_n(answer + n, n * n, tangent.data());
+            stored_points.push_back(stored.points[q]);
+          }
+      }
+  displacement.compress(VectorOperation::insert);
+  accepted.displacement = displacement;
+  update_strains(accepted);
+  bool understood = true;
+  try
+    {
+      points.restore(stored_points);
+    }
+  catch (const std::exception&)
+    {
+      understood = false;
+    }
+  if (Utilities::MPI::min(int(understood), communicator()) == 0)
+    return false;
+  assemble_forces(accepted);
+  return true;
+}
+
+template <int dim, int material_dim>
+Balance Solid<dim, material_dim>::rebalance()
+{
+  const std::size_t n_ranks = Utilities::MPI::n_mpi_processes(communicator());
+  if (n_ranks == 1)
+    return {1.0, 1.0, false};
+  // The cells of this rank as they lie along the curve that p4est cuts into pieces; the ranks' pieces follow each other.
+  const auto& trees = mesh.triangulation->get_coarse_cell_to_p4est_tree_permutation();
+  std::vector<std::pair<std::pair<types::global_dof_index, std::uint64_t>, std::size_t>> along_curve;
+  std::vector<double> seconds;
+  std::size_t point = 0;
+  for (const auto& cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        along_curve.push_back({{trees[cell->id().get_coarse_cell_id()], number_of(cell)}, seconds.size()});
+        seconds.push_back(0.0);
+        for (unsigned int q = 0; q < n_points_per_cell(); ++q, ++point)
+          seconds.back() += points.seconds()[point];
+      }
+  std::sort(along_curve.begin(), along_curve.end());
+  std::vector<double> here;
+  for (const auto& [place, cell] : along_curve)
+    here.push_back(seconds[cell]);
+
+  std::vector<double> everywhere;
+  std::vector<std::size_t> cuts{0};
+  for (const auto& of_rank : Utilities::MPI::all_gather(communicator(), here))
+    {
+      everywhere.insert(everywhere.end(), of_rank.begin(), of_rank.end());
+      cuts.push_back(everywhere.size());
+    }
+  const double mean = std::accumulate(everywhere.begin(), everywhere.end(), 0.0) / double(n_ranks);
+  if (everywhere.size() < n_ranks || mean == 0.0)
+    return {1.0, 1.0, false};
+
+  const auto weights = partition_weights(everywhere, n_ranks);
+  const double longest = longest_share(everywhere, cuts);
+  const double attainable = longest_share(everywhere, partition_cuts(weights, n_ranks));
+  const auto n_threads = double(oneapi::tbb::this_task_arena::max_concurrency());
+  // As with skis: rent until the rent has come to the price. What the first move costs is not known; it is small.
+  constexpr double worth_while = 0.9;
+  const bool pays = attainable < worth_while * longest && (longest - attainable) / n_threads > cost_of_moving;
+  const bool moved = Utilities::MPI::max(int(pays), communicator()) == 1;
+  if (moved)
+    {
+      std::vector<unsigned int> weights_here(here.size());
+      const std::size_t first = cuts[Utilities::MPI::this_mpi_process(communicator())];
+      for (std::size_t k = 0; k < along_curve.size(); ++k)
+        weights_here[along_curve[k].second] = weights[first + k];
+      const Timer timer;
+      move_cells(weights_here);
+      cost_of_moving = Utilities::MPI::max(timer.wall_time(), communicator());
+    }
+  return {longest / mean, attainable / mean, moved};
+}
+
+/// weights: of the cells of this rank.
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::move_cells(const std::vector<unsigned int>& weights)
+{
+  const StoredSolid here = stored();
+  std::map<std::uint64_t, std::size_t> index;
+  for (std::size_t k = 0; k < here.cells.size(); ++k)
+    index[here.cells[k].number] = k;
+
+  auto& triangulation = *mesh.triangulation;
+  const auto weigh = triangulation.signals.weight.connect(
+    [&](const auto& cell, const auto /*status*/) { return weights[index.at(number_of(cell))]; });
+  const auto handle = triangulation.register_data_attach(
+    [&](const auto& cell, const auto /*status*/) {
+      return Utilities::pack(here.cells[index.at(number_of(cell))], false);
+    },
+    true);
+  triangulation.repartition();
+  weigh.disconnect();
+  std::vector<StoredCell> cells;
+  triangulation.notify_ready_to_unpack(handle, [&](const auto&, const auto /*status*/, const auto& bytes) {
+    cells.push_back(Utilities::unpack<StoredCell>(bytes.begin(), bytes.end(), false));
+  });
+  set_up();
+  if (!take(cells))
+    throw std::logic_error("a cell was lost on its way to another rank");
 }
 
 template <int dim, int material_dim>

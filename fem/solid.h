@@ -50,27 +50,45 @@ struct SolidParameters
   std::function<void(const NewtonReport&)> watch = [](const NewtonReport&) {};
 };
 
-/// The accepted state of a solid on one rank, for a file that returns to the same program and mesh.
+/// The accepted state of a cell; the same for any number of ranks.
+struct StoredCell
+{
+  std::uint64_t number;             ///< PointPlace::cell_number
+  std::vector<double> displacement; ///< of its degrees of freedom, in the order of its element
+  std::vector<double> answers;      ///< of its points one after another: stress, then tangent
+  std::vector<std::string> points;  ///< MaterialPoint::stored()
+
+  template <typename Archive>
+  void serialize(Archive& archive, unsigned int /*version*/)
+  {
+    archive& number& displacement& answers& points;
+  }
+};
+
+/// The accepted state of a solid, for a file that returns to the same program and mesh.
 struct StoredSolid
 {
-  std::vector<double> displacement; ///< these three of the degrees of freedom of the rank, ascending
-  std::vector<double> internal_force;
-  std::vector<double> external_force;
-  std::vector<double> strains; ///< these two of the points one after another
-  std::vector<double> answers; ///< stress, then tangent
-  std::map<std::string, double> pressures;
-  std::vector<std::string> points; ///< MaterialPoint::stored()
+  std::vector<StoredCell> cells;           ///< of this rank
+  std::map<std::string, double> pressures; ///< the same on every rank
+};
+
+/// How evenly ranks are at work in their points.
+struct Balance
+{
+  double imbalance;  ///< the longest over the mean time of a rank since cells were last dealt out
+  double attainable; ///< were they dealt out anew
+  bool moved;        ///< they were
 };
 
 /// A body in quasi-static equilibrium, at small strain; docs/theory.md §9.
 ///
 /// solve() looks for equilibrium under a load, from the accepted state; accept() makes it the accepted state. Every
-/// query is about the accepted state.
+/// query is about the accepted state, and of the whole body unless it says that it is of this rank.
 template <int dim, int material_dim = dim>
 class Solid
 {
 public:
-  /// The mesh must outlive the solid.
+  /// The mesh must outlive the solid, which moves its cells between ranks.
   Solid(const SampleMesh<dim>& mesh, const SolidParameters& parameters, const Material<material_dim>& material);
 
   /// Goes this fraction of the way from the accepted state to the load. Collective, as everything below but const
@@ -79,9 +97,15 @@ public:
   void accept();
   void reject();
 
+  /// Of the cells of this rank.
   StoredSolid stored() const;
-  /// Throws std::invalid_argument where it is of another mesh.
+  /// Each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of another mesh;
+  /// the solid is then unusable.
   void restore(const StoredSolid& stored);
+
+  /// Deals the cells out to the ranks anew, by the time each took, if what the present deal has lost would have paid for
+  /// it. What is of this rank is then of other points. Not between solve() and accept() or reject().
+  Balance rebalance();
 
   /// From the next solve on.
   void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
@@ -106,12 +130,20 @@ public:
   const dealii::DoFHandler<dim>& dofs() const { return dof_handler; }
   const dealii::Mapping<dim>& geometry() const { return mapping; }
   Kinematics kinematics() const { return parameters.kinematics; }
-  const std::vector<std::string>& field_names() const { return names_of_fields; }
+  const std::vector<std::string>& field_names() const { return material.field_names; }
   MPI_Comm communicator() const { return dof_handler.get_communicator(); }
+
+  /// On all ranks.
+  std::uint64_t n_points() const { return n_cells() * n_points_per_cell(); }
 
   // The points of this rank, in the order of its cells, n_points_per_cell() each.
   unsigned int n_points_per_cell() const { return quadrature.size(); }
   const MaterialPoints<material_dim>& material_points() const { return points; }
+  /// Among all points; the same for any number of ranks.
+  std::uint64_t number_of_point(const std::size_t i) const
+  {
+    return point_places[i].cell_number * n_points_per_cell() + point_places[i].quadrature_point;
+  }
   const std::vector<PointPlace>& places() const { return point_places; }
   const std::vector<double>& volumes() const { return point_volumes; } ///< [m³]
   const std::vector<StrainVector<material_dim>>& strains() const { return accepted.strains; }
@@ -130,8 +162,9 @@ private:
     std::map<std::string, double> pressures;
   };
 
+  void set_up();
   void set_up_dofs();
-  void set_up_points(const Material<material_dim>& material);
+  void set_up_points();
   void set_up_constraints(const Load<dim>& load, double fraction);
   void set_up_matrix();
   void constrain_displacements(const Load<dim>& load, double fraction);
@@ -146,11 +179,16 @@ private:
   bool tangents_are_symmetric(const State& state) const;
   template <typename Value>
   double integral(const std::string& boundary, const Value& value) const;
+  std::uint64_t n_cells() const { return dof_handler.get_triangulation().n_global_active_cells(); }
+  std::vector<StoredCell> brought_home(const std::vector<StoredCell>& cells) const;
+  bool take(const std::vector<StoredCell>& cells);
+  void move_cells(const std::vector<unsigned int>& weights);
   double pressure_of(const State& state, dealii::types::boundary_id boundary) const;
   Vector owned_vector() const { return Vector(owned, communicator()); }
 
   const SampleMesh<dim>& mesh;
   SolidParameters parameters;
+  Material<material_dim> material;
   dealii::MappingQ<dim> mapping;
   dealii::FESystem<dim> fe;
   dealii::QGauss<dim> quadrature;
@@ -159,10 +197,10 @@ private:
   dealii::IndexSet owned;
   dealii::IndexSet relevant;
 
-  std::vector<std::string> names_of_fields;
   MaterialPoints<material_dim> points;
   std::vector<PointPlace> point_places;
   std::vector<double> point_volumes;
+  double cost_of_moving = 0.0; ///< the last time [s]
 
   State accepted;
   State tried;

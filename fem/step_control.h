@@ -19,6 +19,21 @@ public:
       throw std::invalid_argument("steps must be positive, and none below the smallest");
   }
 
+  /// One that goes on where another was.
+  struct Standing
+  {
+    double done = 0.0;
+    double size = 1.0;
+    unsigned int n_in_a_row = 0; ///< successes
+  };
+  Standing standing() const { return {where, size, n_in_a_row}; }
+  void go_on_from(const Standing& standing)
+  {
+    where = standing.done;
+    size = standing.size;
+    n_in_a_row = standing.n_in_a_row;
+  }
+
   double done() const { return where; }
   bool finished() const { return where >= 1.0; }
   /// Where the next step should end. The last two are made equal rather than leave a sliver.

@@ -30,6 +30,8 @@ public:
   }
   void accept(const StrainVector<2>&) override { accepted = broken; }
   void reject() override { broken = accepted; }
+  std::string stored() const override { return accepted ? "broken" : "whole"; }
+  void restore(const std::string& stored) override { accepted = broken = stored == "broken"; }
   std::vector<double> fields() const override { return {accepted ? 1.0 : 0.0}; }
 
 private:

@@ -338,8 +338,10 @@ TEST(Lame, RingInSpace)
           SampleMesh<3> mesh{std::make_unique<dealii::parallel::distributed::Triangulation<3>>(MPI_COMM_WORLD),
                              {{"inner", 0}, {"outer", 1}, {"x=0", 2}, {"y=0", 3}, {"bottom", 4}, {"top", 5}}};
           dealii::GridGenerator::extrude_triangulation(flat, 3, 0.01, *mesh.triangulation);
-          for (const auto& [boundary, manifold] : {std::pair(0u, 1u), {1u, 1u}})
-            mesh.triangulation->set_all_manifold_ids_on_boundary(boundary, manifold);
+          for (const auto& cell : mesh.triangulation->active_cell_iterators())
+            for (const auto& face : cell->face_iterators())
+              if (face->at_boundary() && face->boundary_id() <= mesh.boundary("outer"))
+                face->set_all_manifold_ids(1);
           mesh.triangulation->set_manifold(1, dealii::CylindricalManifold<3>(2));
           Solid<3> solid(mesh, {.kinematics = Kinematics::full, .order = order}, in_space);
           Load<3> load;

@@ -143,7 +143,7 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
   const auto dealt = [&](const std::uint64_t seed, const unsigned int q) {
     GrainMaterialParameters parameters;
     parameters.seed = seed;
-    const auto point = grain_material<2>(realisations, parameters).make_point({"0_0:", q, {0.0, 0.0}, 0.01});
+    const auto point = grain_material<2>(realisations, parameters).make_point({"0_0:", 0, q, {0.0, 0.0}, 0.01});
     const auto& grains = dynamic_cast<const GrainPoint<2>&>(*point);
     return std::pair(&grains.volume().network(), grains.orientation()(0, 0));
   };
@@ -171,7 +171,7 @@ TEST(GrainMaterial, AnyTurnInSpaceIsAsLikelyAsAnyOther)
   Tensor<3> mean_of_squares = Tensor<3>::Zero();
   for (unsigned int q = 0; q < n; ++q)
     {
-      const auto point = material.make_point({"0_0:", q, {}, 0.01});
+      const auto point = material.make_point({"0_0:", 0, q, {}, 0.01});
       const Tensor<3> R = dynamic_cast<const GrainPoint<3>&>(*point).orientation();
       EXPECT_LT((R * R.transpose() - Tensor<3>::Identity()).norm(), 1e-14);
       EXPECT_GT(R.determinant(), 0.0);

@@ -1,0 +1,213 @@
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// `mpirun feldspar multiscale`, and runs that cannot be lost.
+namespace feldspar
+{
+namespace
+{
+namespace fs = std::filesystem;
+using tests::Outcome;
+using tests::run_feldspar;
+using tests::TemporaryFolder;
+
+/// Eight elements of 12 mm with volumes of some 75 grains. Newton's tolerance is far below what events and fields are
+/// compared to.
+const std::string pull = "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\nend\n"
+                         "subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
+                         "  set Elements across = 2\n  set Elements along = 4\n  set Realisations = 2\n"
+                         "  set Tension step = 1e-5\n  set Newton tolerance = 1e-10\nend\n"
+                         "subsection Tests\n  set List = direct_tension\n  set Stop strain = 2.2e-4\nend\n";
+
+const std::string test_name = "direct_tension_seed_1";
+
+/// Assignments and launcher before the command. Idle ranks give way, as there may be fewer cores.
+std::string mpirun(const unsigned int n_ranks)
+{
+  return fmt::format("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
+                     "mpirun -np {} --oversubscribe",
+                     n_ranks);
+}
+
+std::vector<std::vector<std::string>> table(const fs::path& file)
+{
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    {
+      rows.emplace_back();
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');)
+        rows.back().push_back(cell);
+    }
+  return rows;
+}
+
+/// Same segments of the same points, in the same steps and order; curves to 1e-8 of their largest value.
+void expect_same_run(const fs::path& one, const fs::path& other)
+{
+  const auto cracks = table(one / "cracks.csv");
+  const auto other_cracks = table(other / "cracks.csv");
+  EXPECT_GT(cracks.size(), 15u) << "too little broke for a comparison";
+  ASSERT_EQ(cracks.size(), other_cracks.size());
+  for (std::size_t k = 0; k < cracks.size(); ++k)
+    for (std::size_t c = 0; c < 5; ++c) // test, kind, joint, segment, step
+      ASSERT_EQ(cracks[k][c], other_cracks[k][c]) << "line " << k + 1;
+
+  const auto curve = table(one / "curves" / (test_name + ".csv"));
+  const auto other_curve = table(other / "curves" / (test_name + ".csv"));
+  ASSERT_EQ(curve.size(), other_curve.size());
+  for (const std::string name : {"axial_stress_Pa", "mid_stress_Pa", "gauge_lateral_strain", "released_energy_J"})
+    {
+      const auto column = std::size_t(std::find(curve[0].begin(), curve[0].end(), name) - curve[0].begin());
+      ASSERT_LT(column, curve[0].size()) << name;
+      double largest = 0.0;
+      for (std::size_t k = 1; k < curve.size(); ++k)
+        largest = std::max(largest, std::abs(std::stod(curve[k][column])));
+      for (std::size_t k = 1; k < curve.size(); ++k)
+        EXPECT_NEAR(std::stod(curve[k][column]), std::stod(other_curve[k][column]), 1e-8 * largest)
+          << name << " in row " << k;
+    }
+}
+
+void expect_success(const Outcome& outcome) { ASSERT_EQ(outcome.exit_code, 0) << outcome.error; }
+
+std::vector<fs::path> checkpoints(const fs::path& run)
+{
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(run / "states" / test_name))
+    found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// A shell script that starts a command, waits for so many checkpoints in FOLDER and does something to it; $! is it.
+std::string once_there_are_checkpoints(const unsigned int n, const std::string& folder, const std::string& action)
+{
+  return "\"$@\" &\nuntil [ $(ls -d " + folder + "/states/" + test_name + "/step-* 2>/dev/null | wc -l) -ge " +
+         std::to_string(n) + " ]; do sleep 0.02; done\n" + action + "\nwait $!\n";
+}
+
+TEST(SeveralRanks, BreakTheSameSegments)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 1 --quiet --threads 1"));
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 2 --quiet --threads 2", mpirun(2)));
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 4 --quiet --threads 1", mpirun(4)));
+  expect_same_run(folder.path() / "1", folder.path() / "2");
+  expect_same_run(folder.path() / "1", folder.path() / "4");
+  // The last two checkpoints, a part a rank.
+  const auto kept = checkpoints(folder.path() / "4");
+  ASSERT_EQ(kept.size(), 2u);
+  for (const auto& checkpoint : kept)
+    EXPECT_EQ(std::distance(fs::directory_iterator(checkpoint), fs::directory_iterator()), 4);
+}
+
+TEST(SeveralRanks, OneThatDiesEndsTheRunWhichIsResumedOnAnyNumber)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  folder.write("kill", once_there_are_checkpoints(1, "two", "kill -KILL $(pgrep -P $! | head -n 1)"));
+  const auto killed = run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet", "sh ./kill " + mpirun(2));
+  EXPECT_NE(killed.exit_code, 0);
+  EXPECT_NE(killed.error.find("signal 9"), std::string::npos) << killed.error; // mpirun says so
+  EXPECT_FALSE(fs::exists(folder.path() / "two/summary.json"));
+  fs::copy(folder.path() / "two", folder.path() / "one", fs::copy_options::recursive);
+  expect_success(run_feldspar(folder.path(), "multiscale --resume one --quiet"));
+  expect_same_run(folder.path() / "whole", folder.path() / "one");
+  expect_success(run_feldspar(folder.path(), "multiscale --resume two --quiet", mpirun(3)));
+  expect_same_run(folder.path() / "whole", folder.path() / "two");
+}
+
+TEST(SeveralRanks, EndTogetherWhenAsked)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  folder.write("ask", once_there_are_checkpoints(1, "out", "kill -USR1 $!")); // which mpirun passes on to all
+  const auto asked = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet", "sh ./ask " + mpirun(2));
+  EXPECT_EQ(asked.exit_code, 130) << asked.error;
+  EXPECT_NE(asked.error.find("feldspar: interrupted; go on with: feldspar multiscale --resume out\n"),
+            std::string::npos)
+    << asked.error;
+  expect_success(run_feldspar(folder.path(), "multiscale --resume out --quiet"));
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_same_run(folder.path() / "whole", folder.path() / "out");
+}
+
+TEST(SeveralRanks, SayOnceWhatIsWrong)
+{
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const unsigned int n_ranks, const std::string& words) {
+    folder.write("bad.prm", text);
+    const auto outcome = run_feldspar(folder.path(), "multiscale bad.prm --output out", mpirun(n_ranks));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+    const auto said = outcome.error.find(words);
+    EXPECT_NE(said, std::string::npos) << outcome.error;
+    EXPECT_EQ(outcome.error.find(words, said + 1), std::string::npos) << outcome.error;
+    EXPECT_FALSE(fs::exists(folder.path() / "out"));
+  };
+  refused(pull + "subsection Sample\n  set Order = 3\nend\n", 2, "Sample/Order = 3: must be an integer in [1, 2]");
+  std::string three = pull;
+  three.replace(three.find("across = 2"), 10, "across = 1");
+  three.replace(three.find("along = 4"), 9, "along = 2");
+  refused(three, 3, "bad.prm: 3 processes for a sample of 2 cells: each needs one; start at most 2");
+  std::string of_file = pull;
+  of_file.replace(of_file.find("Realisations = 2"), 16, "Realisations = 1");
+  refused(of_file + "subsection Specimen\n  set Specimen file = none.h5\nend\n", 2, "there is no file none.h5");
+}
+
+TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", pull);
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  folder.write("kill", once_there_are_checkpoints(2, "broken", "kill -KILL $!"));
+  run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
+  const auto kept = checkpoints(folder.path() / "broken");
+  ASSERT_GE(kept.size(), 2u);
+  const std::string last = "broken/states/" + test_name + "/" + kept[1].filename().string() + "/part-00000.h5";
+  const auto resumed = [&](const std::string& name, const auto& damage, const std::string& words) {
+    fs::copy(folder.path() / "broken", folder.path() / name, fs::copy_options::recursive);
+    std::string file = last;
+    file.replace(0, 6, name);
+    damage(folder.path() / file);
+    const auto outcome = run_feldspar(folder.path(), "multiscale --resume " + name + " --quiet");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_NE(outcome.error.find(file + ": " + words), std::string::npos) << outcome.error;
+    EXPECT_NE(outcome.error.find("going back to the checkpoint before it\n"), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    expect_same_run(folder.path() / "whole", folder.path() / name);
+  };
+  resumed(
+    "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); },
+    "not an HDF5 file, cut short");
+  resumed(
+    "missing", [](const fs::path& file) { fs::remove(file); }, "no such file");
+  std::string other = pull;
+  other.replace(other.find("2.2e-4"), 6, "2e-5  ");
+  folder.write("other.prm", other);
+  expect_success(run_feldspar(folder.path(), "multiscale other.prm --output other --quiet"));
+  resumed(
+    "foreign",
+    [&](const fs::path& file) {
+      fs::copy_file(checkpoints(folder.path() / "other").back() / "part-00000.h5", file,
+                    fs::copy_options::overwrite_existing);
+    },
+    "of another test, input or version of this program");
+}
+
+} // namespace
+} // namespace feldspar
