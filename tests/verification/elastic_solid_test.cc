@@ -326,7 +326,7 @@ TEST(Lame, RingInSpace)
   for (const unsigned int order : {1u, 2u})
     {
       std::vector<double> errors;
-      const unsigned int finest = order == 1 ? 4 : 3;
+      const unsigned int finest = order == 1 ? 5 : 4; // with coarser ones the orders are not yet theirs
       for (unsigned int n_refinements = finest - 2; n_refinements <= finest; ++n_refinements)
         {
           // A quarter of the ring, two cells along the axis and no more: nothing varies along it.
