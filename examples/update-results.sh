@@ -14,12 +14,14 @@ studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
-  rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60}
+  rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d}
+  multiscale-beishan/beishan
 )
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)
   command=lab
   [[ $study == rve-* ]] && command=rve
+  [[ $study == multiscale-* ]] && command=multiscale
   "$feldspar" "$command" "$study.prm" --output "$run" --force || (($? == 2)) # a path that ended early is a result too
   cp "$run/summary.json" "$(dirname "$study")/results/$(basename "$study").json"
   rm --recursive "$run"

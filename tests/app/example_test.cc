@@ -4,6 +4,7 @@
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -359,6 +360,54 @@ TEST(Example, TheVolumesReadmeShowsTheCommittedResults)
               over_volumes(confined, "Strain path/Solver = explicit", compressive_peak));
   compression("triaxial compression at 60 MPa", "triaxial_compression_60_MPa",
               over_volumes(volume_results("triaxial-60"), "", compressive_peak), {});
+}
+
+TEST(Example, TheVolumesReadmeShowsTheCommittedResultsInSpace)
+{
+  const std::string readme = content(of_volumes + "README.md");
+  for (const auto& [name, study, which, sign] : {std::tuple("tension to 0.5e-3", "tension-3d", "highest_stress", 1.0),
+                                                 {"compression to 5e-3", "uniaxial-3d", "lowest_stress", -1.0}})
+    {
+      const auto volume = volume_results(study)["volumes"][0];
+      const auto& at_end = volume["at_end"];
+      const std::string row = fmt::format(
+        "| {} | {} | {} | {:.0f} | {} | {:.1e} |", name, number(volume[which]["zz"]["stress_Pa"], sign * 1e6, 1),
+        number(volume[which]["zz"]["strain"], sign * 1e-3, 2), n_cracks(volume),
+        number(at_end["crack_area_share"], 1.0, 2), volume["energy_imbalance"].get<double>());
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      EXPECT_LE(volume["energy_imbalance"].get<double>(), 1e-3);
+      EXPECT_LE(volume["hill_mandel_residual"].get<double>(), 1e-5); // ten times the final tolerance
+    }
+}
+
+TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-beishan/";
+  const std::string readme = content(folder + "README.md");
+  const auto samples = nlohmann::json::parse(content(folder + "results/beishan.json"));
+  const auto specimens = results("ensemble");
+  for (const auto& [name, group] : {std::pair("direct tension", "direct_tension"),
+                                    {"uniaxial compression", "uniaxial_compression"},
+                                    {"triaxial compression at 20 MPa", "triaxial_compression_20_MPa"}})
+    {
+      std::vector<double> peaks;
+      double steps = 0.0;
+      double seconds = 0.0;
+      for (const auto& test : samples["tests"])
+        if (test["name"].get<std::string>().starts_with(group))
+          {
+            peaks.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
+            steps += test["steps"].get<double>() / 3.0;
+            seconds += test["wall_time_s"].get<double>() / 3.0;
+          }
+      EXPECT_EQ(peaks.size(), 3u);
+      const std::string row =
+        fmt::format("| {} | {:.1f} | {} | {} |", name, fmt::join(peaks, ", "), mean_and_deviation(peaks, 1),
+                    mean_and_deviation(specimens, group, "peak_stress_Pa", 1e6, 1));
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      const std::string costs = fmt::format("| {} | {:.0f} | {:.2g} |", name, steps, seconds / steps);
+      EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+    }
 }
 
 TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
