@@ -19,7 +19,7 @@ struct PageAllocator
 
   PageAllocator() = default;
   template <typename Other>
-  PageAllocator(const PageAllocator<Other>&)
+  PageAllocator(const PageAllocator<Other>&) // NOLINT(google-explicit-constructor): containers convert allocators
   {
   }
 
