@@ -121,7 +121,7 @@ private:
   double slip_energy(const Balance& from, const Balance& to) const;
   NetworkWork work_since_event(unsigned int n_intervals) const;
   void commit();
-  void make_event();
+  void make_event(); ///< of the present position; nothing breaks
 
   const Network<dim>& network;
   EquilibriumParameters parameters;
@@ -132,8 +132,8 @@ private:
   Balance at_event;
   Unknowns position;
   Balance present;
-  std::shared_ptr<const FactorisedNetwork<dim>>
-    factorised; ///< with some stiffnesses there were; empty: the intact ones
+  /// With some stiffnesses there were; empty: the intact ones. Shared with the next trial, which changes nothing in it.
+  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
   unsigned int iterations = 0;
 };
 } // namespace feldspar

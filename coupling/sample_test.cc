@@ -104,6 +104,7 @@ struct SampleTest::Parts
     bool on_its_way = steps.has_value();
     transfer_flag(archive, "row_on_its_way", on_its_way);
     transfer_flag(archive, "avalanche", avalanche);
+    archive.value("n_cuts_for_breaks", n_cuts_for_breaks);
     fem::StepControl::Standing standing_of_steps;
     if (steps)
       standing_of_steps = steps->standing();
