@@ -581,6 +581,10 @@ std::vector<Parameter> make_parameter_table()
                         "full: order + 1 points each way; reduced: as many as the order, which must be 2"),
     sample.choice<bool>("Platens", &M::rough_platens, {{"smooth", false}, {"rough", true}},
                         "whether the ends are held sideways"),
+    sample.choice<bool>(
+      "Softening", &M::scaled_softening, {{"scaled", true}, {"as it is", false}},
+      "of a volume once its stress has begun to fall; scaled: by the size of its element over its own, "
+      "so that the curve after the peak does not depend on the mesh"),
     sample.integer("Realisations", &M::n_realisations, {'[', 1.0, 1000.0, ']'},
                    "packings of the volume, dealt to the points by the seed"),
     sample.choice<bool>("Orientation", &M::random_orientation, {{"random", true}, {"fixed", false}},

@@ -65,21 +65,22 @@ Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) 
 }
 
 template <int dim>
-std::size_t GrainPoint<dim>::relax(const Voigt<dim>& strain)
+fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bonds bonds)
 {
-  Trial<dim> broken = settle(strain, Bonds::may_break);
+  Trial<dim> broken = settle(strain, bonds);
   if (!broken.in_equilibrium)
     throw fem::PointFailure("the grains of a volume find no equilibrium after a break");
   const std::size_t n_events = broken.breaks.size();
+  const Voigt<dim> stress = strain_to_volume.transpose() * broken.state.stress;
   if (n_events == 0)
     {
       stable = {to_volume(strain), std::move(broken)};
-      return 0;
+      return {0, stress};
     }
   events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
   at_work.accept(std::move(broken));
   forget_trial();
-  return n_events;
+  return {n_events, stress};
 }
 
 template <int dim>
@@ -150,18 +151,12 @@ std::vector<PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
 }
 
 template <int dim>
-double GrainPoint<dim>::stored_energy_density() const
+std::optional<fem::PointEnergies> GrainPoint<dim>::energies() const
 {
-  return accepted.stored_energy() / accepted.network().volume();
-}
-
-template <int dim>
-NetworkWork GrainPoint<dim>::work_density() const
-{
-  NetworkWork work = accepted.state().work;
-  for (double* const part : {&work.boundary, &work.slip, &work.released, &work.settled})
-    *part /= accepted.network().volume();
-  return work;
+  const NetworkWork& work = at_work.state().work;
+  const double volume = at_work.network().volume();
+  return fem::PointEnergies{work.boundary / volume, at_work.stored_energy() / volume, work.slip / volume,
+                            work.released / volume, work.settled / volume};
 }
 
 namespace
@@ -183,10 +178,10 @@ std::vector<double> GrainPoint<dim>::fields() const
 {
   const NetworkState<dim>& state = accepted.state();
   const auto n = double(accepted.network().n_segments());
-  const NetworkWork work = work_density();
+  const NetworkWork& work = state.work;
   const CrackMeasures<dim> cracks = crack_measures(accepted.network(), state);
   std::vector<double> values{(state.n_tension_breaks + state.n_shear_breaks) / n, state.n_shear_breaks / n,
-                             work.slip + work.released + work.settled, cracks.density};
+                             (work.slip + work.released + work.settled) / accepted.network().volume(), cracks.density};
   const Voigt<dim> orientation = stress_voigt<dim>(turn * cracks.orientation * turn.transpose());
   values.insert(values.end(), orientation.begin(), orientation.end());
   return values;

@@ -32,23 +32,23 @@ public:
              const EquilibriumParameters& parameters);
 
   fem::MaterialAnswer<dim> trial(const Voigt<dim>& strain) const override;
-  std::size_t relax(const Voigt<dim>& strain) override;
+  std::size_t relax(const Voigt<dim>& strain) override { return relax(strain, Bonds::may_break).n; }
+  fem::PointEvents<dim> relax_once(const Voigt<dim>& strain) override { return relax(strain, Bonds::break_once); }
   void accept(const Voigt<dim>& strain) override;
   void reject() override;
   std::string stored() const override;
   void restore(const std::string& stored) override;
   std::vector<double> fields() const override;
+  std::optional<fem::PointEnergies> energies() const override;
 
   /// The volume in its accepted state, in its own axes.
   const RepresentativeVolume<dim>& volume() const { return accepted; }
   const Tensor<dim>& orientation() const { return turn; }
   /// Broken in the last accepted step.
   std::vector<PointCrack<dim>> cracks_of_last_step() const;
-  /// Per volume [J/m³].
-  double stored_energy_density() const;
-  NetworkWork work_density() const; ///< [J/m³]
 
 private:
+  fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
   Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds) const;
   void forget_trial();
   Voigt<dim> to_volume(const Voigt<dim>& strain) const;

@@ -46,7 +46,7 @@ Trial<dim> RepresentativeVolume<dim>::intact_trial(const Voigt<dim>& strain, con
 template <int dim>
 Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const TrialOptions<dim>& options) const
 {
-  const bool may_break = options.bonds != Bonds::frozen;
+  bool may_break = options.bonds != Bonds::frozen;
   if (current.intact)
     if (const Voigt<dim> strain = intact_strain(control);
         may_break ? reference->stays_intact(strain) : reference->stays_linear(strain))
@@ -75,6 +75,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       if (trial.would_break)
         return trial;
       equilibrium.break_segments(overloads, trial.breaks);
+      may_break = options.bonds != Bonds::break_once;
     }
   if (options.with_tangent && trial.in_equilibrium)
     trial.tangent = equilibrium.tangent();

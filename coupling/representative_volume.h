@@ -27,6 +27,7 @@ struct Trial
 enum class Bonds
 {
   may_break,
+  break_once,  ///< after the first break, and those that break with it, they are frozen
   until_break, ///< as frozen, but says whether and where the first would break; then it cannot be accepted
   frozen
 };

@@ -3,6 +3,7 @@
 #include "coupling/grain_material.h"
 #include "coupling/ranks.h"
 #include "coupling/sample_test.h"
+#include "coupling/softening.h"
 #include "dem/input_error.h"
 #include "fem/linear_elasticity.h"
 #include "fem/mohr_coulomb.h"
@@ -17,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -175,12 +177,12 @@ public:
     for (std::size_t i = 0; i < n_points_here(); ++i)
       {
         const double volume = solid.volumes()[i];
-        const NetworkWork work = point(i).work_density();
-        sums[0] += volume * work.boundary;
-        sums[1] += volume * point(i).stored_energy_density();
-        sums[2] += volume * work.slip;
-        sums[3] += volume * work.released;
-        sums[4] += volume * work.settled;
+        const fem::PointEnergies densities = *solid.material_points()[i].energies();
+        sums[0] += volume * densities.work;
+        sums[1] += volume * densities.stored;
+        sums[2] += volume * densities.slip;
+        sums[3] += volume * densities.released;
+        sums[4] += volume * densities.settled;
       }
     sums = ranks::sums(sums);
     Energies energies;
@@ -190,6 +192,12 @@ public:
     energies.released = sums[3];
     energies.damping = sums[4];
     return energies;
+  }
+
+  double seconds_in_points() const override
+  {
+    const auto& seconds = solid.material_points().seconds();
+    return dealii::Utilities::MPI::sum(std::accumulate(seconds.begin(), seconds.end(), 0.0), MPI_COMM_WORLD);
   }
 
   std::uint64_t n_damaged_points() const override
@@ -233,7 +241,8 @@ private:
   /// Where there are grains.
   const GrainPoint<material_dim>& point(const std::size_t i) const
   {
-    return static_cast<const GrainPoint<material_dim>&>(solid.material_points()[i]);
+    const auto& at = static_cast<const SofteningPoint<material_dim>&>(solid.material_points()[i]);
+    return static_cast<const GrainPoint<material_dim>&>(at.volume());
   }
 
   Vector<material_dim> position(const std::size_t i) const
@@ -308,7 +317,11 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   material.random_orientation = sample.random_orientation;
   material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
   material.equilibrium = equilibrium;
-  return make_body<dim>(sample, set_up, grain_material<dim>(std::move(realisations), material));
+  const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);
+  const double unscaled = 0.0; // any element is larger
+  return make_body<dim>(sample, set_up,
+                        scaled_softening<dim>(grain_material<dim>(std::move(realisations), material),
+                                              sample.scaled_softening ? size : unscaled));
 }
 
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,

@@ -58,6 +58,7 @@ public:
   virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
   virtual Energies energies() const = 0;                      ///< NaN where there are none
   virtual std::uint64_t n_damaged_points() const = 0;
+  virtual double seconds_in_points() const = 0; ///< of one core, since the body was made
   virtual std::variant<SampleVolume<2>, SampleVolume<3>> volume(
     std::uint64_t point) const = 0; ///< where there is one rank
 

@@ -36,6 +36,7 @@ struct SampleTest::Parts
   TestRecord record;
   std::function<void()> step_done;
   std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
+  double seconds_before = 0.0;           ///< in points, of the runs this one takes up
   bool avalanche = false;                ///< the next of these steps may break as much as it likes
   unsigned int n_cuts_for_breaks = 0;    ///< of the step that is tried
   bool seated = false;
@@ -58,6 +59,7 @@ struct SampleTest::Parts
     record.body = TestBody::finite_elements;
     record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
     record.confining_pressure = test.confining_pressure;
+    record.solver_work.emplace();
   }
 
   void take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_a_volume)
@@ -91,6 +93,12 @@ struct SampleTest::Parts
     archive.value("n_shear", n_shear);
     archive.value("steps", record.steps);
     archive.value("wall_time", record.wall_time);
+    archive.value("n_solves", record.solver_work->n_solves);
+    archive.value("n_iterations", record.solver_work->n_iterations);
+    archive.value("n_cascades", record.solver_work->n_cascades);
+    archive.value("seconds_in_points", record.solver_work->seconds_in_points);
+    if constexpr (Archive::reads)
+      seconds_before = record.solver_work->seconds_in_points;
     archive.text("ended_early", record.ended_early);
     transfer_flag(archive, "came_apart", record.came_apart);
     archive.bytes("curve", record.curve);
@@ -156,6 +164,9 @@ struct SampleTest::Parts
       {
         body->limit_events(avalanche ? standing.n_segments : most_events);
         const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
+        ++record.solver_work->n_solves;
+        record.solver_work->n_iterations += report.n_iterations;
+        record.solver_work->n_cascades += report.n_cascades;
         if (report.converged)
           {
             body->accept();
@@ -281,6 +292,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
                     record.came_apart ? "it came apart in an avalanche of breaks" : "no equilibrium was found",
                     100.0 * std::abs(parts->axial_strain()), failure.what());
     }
+  record.solver_work->seconds_in_points = parts->seconds_before + parts->body->seconds_in_points();
   parts->watch = nullptr;
   parts->step_done = nullptr;
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();

@@ -158,6 +158,15 @@ struct SpecimenReport
   double mean_radius = 0.0;       ///< [m]
 };
 
+/// What it took to find the equilibria of a sample of finite elements, steps that were given up included.
+struct SolverWork
+{
+  std::uint64_t n_solves = 0;
+  std::uint64_t n_iterations = 0; ///< of Newton's method
+  std::uint64_t n_cascades = 0;   ///< times that something broke and equilibrium was sought anew
+  double seconds_in_points = 0.0; ///< of one core
+};
+
 /// A laboratory test as it ran.
 struct TestRecord
 {
@@ -181,6 +190,7 @@ struct TestRecord
   std::string failure;     ///< why the test could not be made; empty if it could
   std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did
   bool came_apart = false; ///< it ended early because beyond its last row nothing held it
+  std::optional<SolverWork> solver_work;
 
   int dimension() const { return size[2] > 0.0 ? 3 : 2; }
 };

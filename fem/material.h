@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -35,6 +36,24 @@ struct MaterialAnswer
 {
   StressVector<dim> stress;
   StiffnessMatrix<dim> tangent;
+};
+
+/// What happened in a volume, and its stress then [Pa].
+template <int dim>
+struct PointEvents
+{
+  std::size_t n;
+  StressVector<dim> stress;
+};
+
+/// Per volume since the start [J/m³], each summed on its own.
+struct PointEnergies
+{
+  double work = 0.0; ///< done on it
+  double stored = 0.0;
+  double slip = 0.0;     ///< lost by friction
+  double released = 0.0; ///< lost by what broke
+  double settled = 0.0;  ///< lost on the way to equilibrium after a break
 };
 
 /// A point has no answer to the strain asked: the step is cut, not the run ended.
@@ -68,6 +87,13 @@ public:
   /// May throw PointFailure.
   virtual std::size_t relax(const StrainVector<dim>& /*strain*/) { return 0; }
 
+  /// The same up to the first event only, or those that happen at once. May throw PointFailure.
+  virtual PointEvents<dim> relax_once(const StrainVector<dim>& strain)
+  {
+    const std::size_t n = relax(strain);
+    return {n, trial(strain).stress};
+  }
+
   /// Makes the answer to this strain, at which relax() found nothing, and the structure at work history. Must not throw.
   virtual void accept(const StrainVector<dim>& /*strain*/) {}
 
@@ -81,6 +107,9 @@ public:
 
   /// Values of the accepted state for output, in the order of Material::field_names.
   virtual std::vector<double> fields() const { return {}; }
+
+  /// Of the structure at work; none where they are not known.
+  virtual std::optional<PointEnergies> energies() const { return {}; }
 };
 
 /// Where a point sits; the same for any number of ranks.

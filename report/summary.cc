@@ -55,6 +55,11 @@ Json describe(const FinishedTest& test)
     json["ended_early"] = test.record.ended_early;
   if (test.record.came_apart)
     json["came_apart"] = true;
+  if (test.record.solver_work)
+    json["solver_work"] = {{"solves", test.record.solver_work->n_solves},
+                           {"iterations", test.record.solver_work->n_iterations},
+                           {"cascades", test.record.solver_work->n_cascades},
+                           {"seconds_in_points", test.record.solver_work->seconds_in_points}};
   json["size_m"] = test.record.size;
   for (const auto& entry : result_table())
     {
