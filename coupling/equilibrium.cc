@@ -1,8 +1,11 @@
 #include "coupling/equilibrium.h"
 
 #include "coupling/conjugate_gradients.h"
+#include "coupling/fingerprint.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace feldspar
@@ -657,12 +660,14 @@ Stiffness<dim> Equilibrium<dim>::tangent()
     y.template tail<n_voigt<dim>>().setZero();
     return y;
   };
+  std::array<Unknowns, n_voigt<dim>> answers;
   Stiffness<dim> result;
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
       // against what the affine motion would leave.
-      Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
+      Unknowns& unit = answers[k];
+      unit = network.intact_unknowns(Voigt<dim>::Unit(k));
       const auto left_by = [&](const Unknowns& motions) {
         Unknowns right = -apply_tangent(present, motions);
         right.template tail<n_voigt<dim>>().setZero();
@@ -673,12 +678,32 @@ Stiffness<dim> Equilibrium<dim>::tangent()
       };
       const Unknowns right = left_by(unit);
       const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
-      const double tolerance = 1e-10 * size(affine) / std::max(size(right), 1e-300);
+      constexpr double error_of_motions = 1e-5; // of energies, that is squared
+      const double tolerance = error_of_motions * size(affine) / std::max(size(right), 1e-300);
       if (tolerance < 1.0)
         unit.head(n_own) += solve_linear(apply, true, right, {}, tolerance).head(n_own);
-      result.col(k) = apply_tangent(present, unit).template tail<n_voigt<dim>>() / network.volume();
+      const Unknowns forces = apply_tangent(present, unit);
+      for (int j = 0; j <= k; ++j)
+        result(j, k) = result(k, j) = answers[j].dot(forces) / network.volume();
     }
-  return 0.5 * (result + result.transpose());
+  return result;
+}
+
+template <int dim>
+std::uint64_t Equilibrium<dim>::states_of_tangent() const
+{
+  Fingerprint print;
+  const auto add = [&](const std::uint32_t link, const JointStiffness<dim>& tangent) {
+    print.add(link);
+    constexpr int finer_than_a_thousandth = 52 - 10; // bits
+    for (const double entry : tangent.reshaped())
+      print.add(std::bit_cast<std::uint64_t>(entry) >> finer_than_a_thousandth);
+  };
+  for (std::size_t a = 0; a < active.size(); ++a)
+    add(active[a].link, present.active[a].tangent);
+  for (const auto& [k, touch] : present.touches)
+    add(k, touch.tangent);
+  return print.value();
 }
 
 template class Equilibrium<2>;

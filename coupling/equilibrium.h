@@ -91,6 +91,8 @@ public:
 
   /// With bonds and open, stick and slip states frozen as they are [Pa].
   Stiffness<dim> tangent();
+  /// A number for those states, and for how far a face is closed to a thousandth: where it is the same, so is the tangent.
+  std::uint64_t states_of_tangent() const;
   /// The same without the grains' rearrangement [Pa].
   Stiffness<dim> affine_tangent() const;
 

@@ -1,5 +1,6 @@
 #include "coupling/grain_material.h"
 
+#include "coupling/fingerprint.h"
 #include "coupling/homogenisation.h"
 #include "coupling/state_archive.h"
 #include "dem/random.h"
@@ -37,26 +38,28 @@ fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
   const Voigt<dim> wanted = to_volume(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised};
+      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
         options.nearby = &nearby;
       tried = at_work.trial(strain_control<dim>(wanted), options);
       tried_strain = wanted;
       factorised = tried.factorised;
+      if (tried.tangent && !at_work.state().intact)
+        last_tangent = tried.tangent;
     }
   if (!tried.in_equilibrium)
     throw fem::PointFailure("the grains of a volume find no equilibrium");
   // Work is the same in both axes, so stress and stiffness follow from how strain turns.
   return {strain_to_volume.transpose() * tried.state.stress,
-          strain_to_volume.transpose() * *tried.tangent * strain_to_volume};
+          strain_to_volume.transpose() * tried.tangent->value * strain_to_volume};
 }
 
 /// From where Newton's method was last.
 template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
 {
-  TrialOptions<dim> options{bonds, false, nullptr, false, factorised};
+  TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
   Trial<dim> settled = at_work.trial(strain_control<dim>(to_volume(strain)), options);
@@ -94,6 +97,7 @@ void GrainPoint<dim>::accept(const Voigt<dim>& strain)
   forget_trial();
   factorised.reset();
   accepted = at_work;
+  accepted_tangent = last_tangent;
   events_accepted = std::exchange(events_at_work, {});
 }
 
@@ -104,14 +108,36 @@ void GrainPoint<dim>::reject()
   events_at_work.clear();
   forget_trial();
   factorised.reset();
+  last_tangent = accepted_tangent;
 }
+
+namespace
+{
+/// It goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
+template <typename Archive, int dim>
+void transfer(Archive& archive, std::optional<Tangent<dim>>& tangent)
+{
+  bool there = tangent.has_value();
+  transfer_flag(archive, "", there);
+  if (!there)
+    return tangent.reset();
+  if (!tangent)
+    tangent.emplace();
+  archive.value("", tangent->states);
+  for (double& entry : tangent->value.reshaped())
+    archive.value("", entry);
+}
+} // namespace
 
 template <int dim>
 std::string GrainPoint<dim>::stored() const
 {
   BytesWriter writer;
-  NetworkState<dim> state = accepted.state(); // one description serves writing and reading, and reading changes
+  // One description serves writing and reading, and reading changes.
+  NetworkState<dim> state = accepted.state();
+  std::optional<Tangent<dim>> tangent = accepted_tangent;
   transfer(writer, state);
+  transfer(writer, tangent);
   return writer.all;
 }
 
@@ -121,6 +147,7 @@ void GrainPoint<dim>::restore(const std::string& stored)
   BytesReader reader(stored);
   NetworkState<dim> state;
   transfer(reader, state);
+  transfer(reader, accepted_tangent);
   accepted.restore(std::move(state));
   events_accepted.clear();
   reject();
@@ -189,17 +216,15 @@ std::vector<double> GrainPoint<dim>::fields() const
 
 namespace
 {
-/// A number of its own for each point of each sample (FNV-1a, 64 bits).
+/// A number of its own for each point of each sample.
 std::uint64_t point_seed(const std::uint64_t seed, const fem::PointPlace& place)
 {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto add = [&](const std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3u; };
-  for (int shift = 0; shift < 64; shift += 8)
-    add(seed >> shift & 0xffu);
+  Fingerprint print;
+  print.add(seed);
   for (const char c : place.cell)
-    add(std::uint8_t(c));
-  add(place.quadrature_point);
-  return hash;
+    print.add_byte(std::uint8_t(c));
+  print.add_byte(place.quadrature_point);
+  return print.value();
 }
 
 /// Any turn as likely as any other.

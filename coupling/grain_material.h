@@ -62,6 +62,8 @@ private:
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the volume's axes; what `tried` answers
   mutable Trial<dim> tried;
   mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
+  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the volume's axes
+  std::optional<Tangent<dim>> accepted_tangent;                     ///< the last of the accepted state
   std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the volume's axes: nothing breaks there
 };
 

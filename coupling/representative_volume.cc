@@ -39,7 +39,7 @@ Trial<dim> RepresentativeVolume<dim>::intact_trial(const Voigt<dim>& strain, con
   trial.state.stress = reference->intact_stiffness() * strain;
   trial.state.work.boundary = 0.5 * reference->volume() * strain.dot(trial.state.stress); // no loss so far
   if (with_tangent)
-    trial.tangent = reference->intact_stiffness();
+    trial.tangent = {0, reference->intact_stiffness()};
   return trial;
 }
 
@@ -78,7 +78,11 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       may_break = options.bonds != Bonds::break_once;
     }
   if (options.with_tangent && trial.in_equilibrium)
-    trial.tangent = equilibrium.tangent();
+    {
+      const std::uint64_t states = equilibrium.states_of_tangent();
+      const bool known = options.tangent && options.tangent->states == states;
+      trial.tangent = {states, known ? options.tangent->value : equilibrium.tangent()};
+    }
   trial.unbalanced_ratio = equilibrium.unbalanced_ratio();
   trial.factorised = equilibrium.last_factorised();
   trial.state = options.provisional ? equilibrium.provisional_state() : equilibrium.state();

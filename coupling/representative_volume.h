@@ -8,6 +8,14 @@
 
 namespace feldspar
 {
+/// Where all links are in the states it was made for.
+template <int dim>
+struct Tangent
+{
+  std::uint64_t states = 0;
+  Stiffness<dim> value; ///< [Pa]
+};
+
 /// What a representative volume would answer.
 template <int dim>
 struct Trial
@@ -15,10 +23,10 @@ struct Trial
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
   NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
   std::vector<BreakEvent<dim>> breaks;
-  bool would_break = false;              ///< it stands overloaded; with Bonds::until_break
-  double share_until_break = 1.0;        ///< of the way from the state before, about; 1: nothing broke
-  std::optional<Stiffness<dim>> tangent; ///< on request [Pa]
-  double unbalanced_ratio = 0.0;         ///< largest unbalanced over mean contact force
+  bool would_break = false;            ///< it stands overloaded; with Bonds::until_break
+  double share_until_break = 1.0;      ///< of the way from the state before, about; 1: nothing broke
+  std::optional<Tangent<dim>> tangent; ///< on request
+  double unbalanced_ratio = 0.0;       ///< largest unbalanced over mean contact force
   /// What its linear systems were solved with last; empty: the intact network. Shared with the next trial, which changes
   /// nothing in it.
   std::shared_ptr<const FactorisedNetwork<dim>> factorised;
@@ -45,6 +53,8 @@ struct TrialOptions
   bool provisional = false;
   /// Of an earlier trial, so that none is made anew; may be empty.
   std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  /// Of an earlier trial, handed out again where the states are the same.
+  std::optional<Tangent<dim>> tangent{};
 };
 
 /// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
@@ -59,7 +69,7 @@ public:
   Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {
-    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr});
+    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr, {}});
   }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
