@@ -582,6 +582,10 @@ std::vector<Parameter> make_parameter_table()
     sample.choice<bool>("Platens", &M::rough_platens, {{"smooth", false}, {"rough", true}},
                         "whether the ends are held sideways"),
     sample.choice<bool>(
+      "Control past the peak", &M::widened_past_peak, {{"axial strain", false}, {"lateral strain", true}},
+      "of a compression test, from the first avalanche of breaks or fall of the stress on; lateral "
+      "strain: the sample widens by Compression step from row to row and the platens follow (class II)"),
+    sample.choice<bool>(
       "Softening", &M::scaled_softening, {{"scaled", true}, {"as it is", false}},
       "of a volume once its stress has begun to fall; scaled: by the size of its element over its own, "
       "so that the curve after the peak does not depend on the mesh"),

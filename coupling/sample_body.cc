@@ -122,6 +122,10 @@ public:
   {
     return solid.solve(platens.pressing(top_displacement), fraction);
   }
+  fem::NewtonReport widen(const double lateral_strain, const double fraction) override
+  {
+    return solid.solve(platens.widening(lateral_strain * volume_of_lateral_strain()), fraction);
+  }
   void accept() override { solid.accept(); }
   void reject() override { solid.reject(); }
   void limit_events(const std::uint64_t most_events) override { solid.limit_events(most_events); }
@@ -146,7 +150,7 @@ public:
     for (const std::string& boundary : boundaries_of(sample.geometry))
       if (boundary == "left" || boundary == "right" || boundary == "side")
         swept += solid.swept_volume(boundary);
-    return swept / (n_lateral_directions() * solid.area("top") * its_size.height);
+    return swept / volume_of_lateral_strain();
   }
   double n_lateral_directions() const override { return platens.kinematics == fem::Kinematics::plane ? 1.0 : 2.0; }
   double platen_stress(const std::string& end) const override { return solid.reaction(end, dim - 1) / solid.area(end); }
@@ -225,6 +229,9 @@ public:
   void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
 
 private:
+  /// What the sides sweep by a lateral strain of one [m³].
+  double volume_of_lateral_strain() const { return n_lateral_directions() * solid.area("top") * its_size.height; }
+
   fem::SolidParameters parameters_of(const SampleSetUp& set_up) const
   {
     fem::SolidParameters parameters;

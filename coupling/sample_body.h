@@ -36,6 +36,8 @@ public:
   virtual fem::NewtonReport seat(double fraction) = 0;
   /// The same to a displacement of the top platen [m].
   virtual fem::NewtonReport press(double top_displacement, double fraction) = 0;
+  /// To a lateral strain, the platens as near as that takes.
+  virtual fem::NewtonReport widen(double lateral_strain, double fraction) = 0;
   virtual void accept() = 0;
   virtual void reject() = 0;
   virtual void limit_events(std::uint64_t most_events) = 0;

@@ -52,6 +52,7 @@ struct SampleParameters
   unsigned int order = 1;
   bool reduced_quadrature = false; ///< order instead of order + 1 points a direction
   bool rough_platens = false;
+  bool widened_past_peak = false;        ///< a compression test; else its platens go on
   bool scaled_softening = true;          ///< with the size of the element over that of the volume
   unsigned int n_realisations = 4;       ///< volumes packed, dealt to the points
   bool random_orientation = true;        ///< each turned by an angle of its own

@@ -37,6 +37,9 @@ struct SampleTest::Parts
   std::function<void()> step_done;
   std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
   double seconds_before = 0.0;           ///< in points, of the runs this one takes up
+  bool may_widen = false;                ///< from the first avalanche or fall of the stress on
+  bool widens = false;                   ///< lateral strain is what is controlled
+  double wanted_width = 0.0;             ///< lateral strain of the row that is on its way
   bool avalanche = false;                ///< the next of these steps may break as much as it likes
   unsigned int n_cuts_for_breaks = 0;    ///< of the step that is tried
   bool seated = false;
@@ -111,6 +114,8 @@ struct SampleTest::Parts
 
     bool on_its_way = steps.has_value();
     transfer_flag(archive, "row_on_its_way", on_its_way);
+    transfer_flag(archive, "widens", widens);
+    archive.value("wanted_lateral_strain", wanted_width);
     transfer_flag(archive, "avalanche", avalanche);
     archive.value("n_cuts_for_breaks", n_cuts_for_breaks);
     fem::StepControl::Standing standing_of_steps;
@@ -143,11 +148,32 @@ struct SampleTest::Parts
     record.curve.push_back(sample_row());
   }
 
-  void load_to(const double strain)
+  /// To the next row.
+  void load()
   {
-    const double top = height_at_seating + strain * size.height;
-    go([=, this](const double fraction) { return body->press(top, fraction); });
+    const bool in_tension = test.kind == TestKind::direct_tension;
+    const double step = in_tension ? sample.tension_step : sample.compression_step;
+    may_widen = sample.widened_past_peak && !in_tension;
+    widens = widens || (may_widen && stress_falls());
+    if (!widens)
+      {
+        const double top = height_at_seating + sign() * step * double(record.curve.size()) * size.height;
+        go([=, this](const double fraction) { return body->press(top, fraction); });
+      }
+    if (widens)
+      {
+        if (!steps)
+          wanted_width = std::max(body->lateral_strain(), width_of_last_row()) + step;
+        go([=, this](const double fraction) { return body->widen(wanted_width, fraction); });
+      }
   }
+
+  bool stress_falls() const
+  {
+    const auto& curve = record.curve;
+    return curve.size() > 1 && std::abs(curve.back().axial_stress) < std::abs(curve[curve.size() - 2].axial_stress);
+  }
+  double width_of_last_row() const { return lateral_strain_at_seating + record.curve.back().gauge_lateral_strain; }
 
   fem::StepControl first_steps() const { return {1.0, sample.smallest_step_share, 1.0}; }
 
@@ -185,8 +211,17 @@ struct SampleTest::Parts
             record.came_apart = avalanche;
             throw fem::StepFailure(report.failure);
           }
-        if (breaks_too_much)
-          avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
+        if (!breaks_too_much)
+          continue;
+        avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
+        if (avalanche && may_widen && !widens)
+          {
+            // With the sides held there may be none.
+            widens = true;
+            avalanche = false;
+            n_cuts_for_breaks = 0;
+            break;
+          }
       }
     steps.reset();
   }
@@ -274,9 +309,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
     {
       if (!parts->seated)
         parts->seat();
-      const double step =
-        parts->test.kind == TestKind::direct_tension ? parts->sample.tension_step : parts->sample.compression_step;
-      parts->load_to(parts->sign() * step * double(record.curve.size()));
+      parts->load();
       record.curve.push_back(parts->sample_row());
       parts->ended = parts->stop_rule.is_met_by(record.curve.back(), parts->test.confining_pressure, parts->wanted);
     }

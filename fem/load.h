@@ -3,6 +3,7 @@
 #include <deal.II/base/point.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,20 @@ struct Load
     unsigned int component;
   };
 
+  /// A plate among the displacements, whose own one is then taken as where it is: it goes as far as lets other boundaries
+  /// sweep a volume between them, as a laboratory does that holds the widening of a sample (class II).
+  struct Follower
+  {
+    std::string plate;
+    unsigned int component;
+    std::vector<std::string> boundaries;
+    double swept_volume; ///< from rest, outwards positive [m³]; in the plane per metre of thickness
+  };
+
   std::vector<Displacement> displacements;
   std::vector<Pressure> pressures;
   std::vector<FreePlate> free_plates;
   std::vector<Pin> pins;
+  std::optional<Follower> follower{};
 };
 } // namespace feldspar::fem

@@ -37,6 +37,19 @@ struct PlatenTest
     return load;
   }
 
+  /// The same with the platens as near as lets the sides, all of them, widen by a volume from rest [m³].
+  Load<dim> widening(const double swept_volume) const
+  {
+    Load<dim> load = pressing(0.0);
+    load.follower.emplace();
+    load.follower->plate = "top";
+    load.follower->component = dim - 1;
+    for (const auto& side : load.pressures)
+      load.follower->boundaries.push_back(side.boundary);
+    load.follower->swept_volume = swept_volume;
+    return load;
+  }
+
 private:
   Load<dim> held() const
   {

@@ -173,6 +173,19 @@ void Solid<dim, material_dim>::set_up_constraints(const Load<dim>& load, const d
   for (const auto& line : first_constraints.get_lines())
     constraints.set_inhomogeneity(line.index, 0.0);
 
+  follower = load.follower;
+  if (follower)
+    {
+      unit_constraints.copy_from(constraints);
+      const IndexSet on_plate =
+        DoFTools::extract_boundary_dofs(dof_handler, only<dim>(follower->component), {mesh.boundary(follower->plate)});
+      for (const auto dof : on_plate)
+        if (unit_constraints.is_constrained(dof))
+          unit_constraints.set_inhomogeneity(dof, 1.0);
+      swept_before = swept_between(accepted.displacement);
+      swept_wanted = swept_before + fraction * (follower->swept_volume - swept_before);
+    }
+
   std::string now_constrained;
   for (const auto& displacement : load.displacements)
     now_constrained += fmt::format("displacement {} {}\n", displacement.boundary, displacement.component);
@@ -206,6 +219,16 @@ void Solid<dim, material_dim>::set_up_matrix()
   matrix.reinit(owned, owned, pattern, communicator());
 }
 
+namespace
+{
+template <int dim>
+bool follows_along(const Load<dim>& load, const typename Load<dim>::Displacement& displacement)
+{
+  return load.follower && load.follower->plate == displacement.boundary &&
+         load.follower->component == displacement.component;
+}
+} // namespace
+
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::constrain_displacements(const Load<dim>& load, const double fraction)
 {
@@ -219,7 +242,8 @@ void Solid<dim, material_dim>::constrain_displacements(const Load<dim>& load, co
         if (relevant.is_element(dof) && !first_constraints.is_constrained(dof))
           {
             first_constraints.add_line(dof);
-            first_constraints.set_inhomogeneity(dof, fraction * (value - accepted.displacement(dof)));
+            if (!follows_along(load, displacement))
+              first_constraints.set_inhomogeneity(dof, fraction * (value - accepted.displacement(dof)));
           }
     }
 }
@@ -484,6 +508,62 @@ double Solid<dim, material_dim>::correct(const Vector& correction)
   return 0.0;
 }
 
+/// Empty where there is none.
+template <int dim, int material_dim>
+auto Solid<dim, material_dim>::correction_by(const AffineConstraints<double>& asked) -> std::optional<Vector>
+{
+  assemble_system(tried, asked);
+  Vector correction = owned_vector();
+  if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(tried), matrix, correction, right_side, dim,
+                    parameters.linear_tolerance))
+    return {};
+  asked.distribute(correction);
+  return correction;
+}
+
+/// Of two corrections, with the plate standing and moved by a metre, the mixture that lets the boundaries sweep what is
+/// wanted.
+template <int dim, int material_dim>
+auto Solid<dim, material_dim>::following_correction() -> std::optional<Vector>
+{
+  std::optional<Vector> standing = correction_by(constraints);
+  if (!standing)
+    return {};
+  std::optional<Vector> moved = correction_by(unit_constraints); // adds to the same unbalanced force
+  if (!moved)
+    return {};
+  *moved -= *standing;
+  const auto swept_by = [this](const Vector& correction) {
+    Vector with_ghosts = tried.displacement;
+    with_ghosts = correction;
+    return swept_between(with_ghosts);
+  };
+  const double missing = swept_wanted - swept_between(tried.displacement) - swept_by(*standing);
+  const double distance = missing / swept_by(*moved);
+  if (!std::isfinite(distance))
+    return {};
+  standing->add(distance, *moved);
+  return standing;
+}
+
+/// Its plate has gone as far as was wanted.
+template <int dim, int material_dim>
+bool Solid<dim, material_dim>::follows() const
+{
+  constexpr double tolerance = 1e-6; // of the way
+  return !follower || std::abs(swept_between(tried.displacement) - swept_wanted) <=
+                        tolerance * std::abs(swept_wanted - swept_before);
+}
+
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::swept_between(const Vector& displacement) const
+{
+  double swept = 0.0;
+  for (const std::string& boundary : follower->boundaries)
+    swept += integral(boundary, displacement, [](const auto& u, const auto& normal) { return u * normal; });
+  return swept;
+}
+
 template <int dim, int material_dim>
 NewtonReport Solid<dim, material_dim>::iterate()
 {
@@ -492,7 +572,7 @@ NewtonReport Solid<dim, material_dim>::iterate()
     report.failure = why;
     return report;
   };
-  bool boundary_moves = true;
+  bool boundary_moves = !follower;
   unsigned int n_iterations_left = parameters.most_iterations;
   double force_scale = accepted.internal_force.l2_norm();
   for (;;)
@@ -504,7 +584,7 @@ NewtonReport Solid<dim, material_dim>::iterate()
       if (!std::isfinite(unbalanced))
         return failed("the unbalanced force is not finite");
 
-      if (!boundary_moves && unbalanced <= parameters.newton_tolerance * force_scale)
+      if (!boundary_moves && unbalanced <= parameters.newton_tolerance * force_scale && follows())
         {
           // Equilibrium with the structure of every point frozen. Does it hold?
           std::uint64_t n_events = 0;
@@ -540,15 +620,12 @@ NewtonReport Solid<dim, material_dim>::iterate()
 
       if (n_iterations_left-- == 0)
         return failed(fmt::format("no equilibrium after {} iterations", parameters.most_iterations));
-      const auto& asked = boundary_moves ? first_constraints : constraints;
-      assemble_system(tried, asked);
-      Vector correction = owned_vector();
-      if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(tried), matrix, correction, right_side, dim,
-                        parameters.linear_tolerance))
+      const std::optional<Vector> correction =
+        follower ? following_correction() : correction_by(boundary_moves ? first_constraints : constraints);
+      if (!correction)
         return failed("the tangent is singular or the linear solver did not converge");
-      asked.distribute(correction);
       ++report.n_iterations;
-      const double share = correct(correction);
+      const double share = correct(*correction);
       if (share == 0.0)
         return failed("a material point has no answer to its strain");
       if (boundary_moves)
@@ -782,7 +859,8 @@ double Solid<dim, material_dim>::reaction(const std::string& boundary, const uns
 /// Over a boundary, of a function of the displacement and the outer normal.
 template <int dim, int material_dim>
 template <typename Value>
-double Solid<dim, material_dim>::integral(const std::string& boundary, const Value& value) const
+double Solid<dim, material_dim>::integral(const std::string& boundary, const Vector& displacement,
+                                          const Value& value) const
 {
   const types::boundary_id wanted = mesh.boundary(boundary);
   FEFaceValues<dim> values(mapping, fe, face_quadrature,
@@ -796,7 +874,7 @@ double Solid<dim, material_dim>::integral(const std::string& boundary, const Val
         if (face->at_boundary() && face->boundary_id() == wanted)
           {
             values.reinit(cell, face);
-            values[displacements].get_function_values(accepted.displacement, u);
+            values[displacements].get_function_values(displacement, u);
             for (const unsigned int q : values.quadrature_point_indices())
               sum += value(u[q], values.normal_vector(q)) * values.JxW(q) *
                      weight(parameters.kinematics, values.quadrature_point(q)[0]);
@@ -807,19 +885,20 @@ double Solid<dim, material_dim>::integral(const std::string& boundary, const Val
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::area(const std::string& boundary) const
 {
-  return integral(boundary, [](const auto&, const auto&) { return 1.0; });
+  return integral(boundary, accepted.displacement, [](const auto&, const auto&) { return 1.0; });
 }
 
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::mean_displacement(const std::string& boundary, const unsigned int component) const
 {
-  return integral(boundary, [=](const auto& u, const auto&) { return u[component]; }) / area(boundary);
+  return integral(boundary, accepted.displacement, [=](const auto& u, const auto&) { return u[component]; }) /
+         area(boundary);
 }
 
 template <int dim, int material_dim>
 double Solid<dim, material_dim>::swept_volume(const std::string& boundary) const
 {
-  return integral(boundary, [](const auto& u, const auto& normal) { return u * normal; });
+  return integral(boundary, accepted.displacement, [](const auto& u, const auto& normal) { return u * normal; });
 }
 
 namespace

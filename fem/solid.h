@@ -175,10 +175,14 @@ private:
   bool update_points(State& state);
   void update_strains(State& state) const;
   NewtonReport iterate();
+  std::optional<Vector> correction_by(const dealii::AffineConstraints<double>& asked);
+  std::optional<Vector> following_correction();
+  bool follows() const;
+  double swept_between(const Vector& displacement) const;
   double correct(const Vector& correction);
   bool tangents_are_symmetric(const State& state) const;
   template <typename Value>
-  double integral(const std::string& boundary, const Value& value) const;
+  double integral(const std::string& boundary, const Vector& displacement, const Value& value) const;
   std::uint64_t n_cells() const { return dof_handler.get_triangulation().n_global_active_cells(); }
   std::vector<StoredCell> brought_home(const std::vector<StoredCell>& cells) const;
   bool take(const std::vector<StoredCell>& cells);
@@ -205,9 +209,13 @@ private:
   State accepted;
   State tried;
 
-  dealii::AffineConstraints<double> first_constraints; ///< of the first correction, which moves the boundary
-  dealii::AffineConstraints<double> constraints;       ///< of the others
-  std::string constrained;                             ///< what the matrix was set up for
+  dealii::AffineConstraints<double> first_constraints;  ///< of the first correction, which moves the boundary
+  dealii::AffineConstraints<double> constraints;        ///< of the others
+  std::optional<typename Load<dim>::Follower> follower; ///< of the load that is tried
+  double swept_before = 0.0;                            ///< by its boundaries, in the accepted state [m³]
+  double swept_wanted = 0.0;                            ///< [m³]
+  dealii::AffineConstraints<double> unit_constraints;   ///< its plate moves by one metre
+  std::string constrained;                              ///< what the matrix was set up for
   dealii::PETScWrappers::MPI::SparseMatrix matrix;
   Vector right_side;
 };

@@ -228,6 +228,27 @@ TEST(ElasticCylinder, InSpaceIsTheSameBetweenSmoothPlatens)
       }
 }
 
+// Widening is ν times the shortening, so that the platens have to go so far; and back.
+TEST(ElasticCylinder, ItsPlatensFollowItsWidth)
+{
+  const double p = 20e6;
+  const auto mesh = axisymmetric_sample(MPI_COMM_WORLD, 0.025, 0.1, {2, 4}, 1);
+  Solid<2, 3> solid(mesh, {.kinematics = Kinematics::axisymmetric}, in_space);
+  const PlatenTest<2> test{.kinematics = Kinematics::axisymmetric, .confining_pressure = p};
+  solve(solid, test.seating());
+  const double seated = solid.mean_displacement("top", 1);
+  const double seated_side = solid.swept_volume("side");
+  for (const double strain : {1e-3, 0.4e-3})
+    {
+      const double widening = 2.0 * nu * strain * solid.area("top") * 0.1;
+      solve(solid, test.widening(seated_side + widening));
+      EXPECT_NEAR(solid.swept_volume("side") - seated_side, widening, 2e-6 * 2.0 * nu * 1e-3 * solid.area("top") * 0.1);
+      EXPECT_NEAR(solid.mean_displacement("top", 1) - seated, -strain * 0.1, 2e-6 * 1e-3 * 0.1);
+      EXPECT_NEAR(solid.reaction("top", 1), (-p - E * strain) * solid.area("top"),
+                  2e-6 * (p + E * 1e-3) * solid.area("top"));
+    }
+}
+
 // ---- convergence
 
 /// Errors of three refinements must fall by 2^order_expected each, within 5 % of the order.
