@@ -1,6 +1,7 @@
 #include "app/multiscale_run.h"
 
 #include "app/interrupt.h"
+#include "app/point_volumes.h"
 #include "app/run_record.h"
 #include "app/specimen_source.h"
 #include "coupling/checkpoints.h"
@@ -251,6 +252,8 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
   finished.group = planned.group;
   finished.name = planned.name;
   finished.results = evaluate(finished.record);
+  if (!was_interrupted && failure.empty())
+    finished.volumes = point_volumes(planned, test, finished.record);
   return finished;
 }
 } // namespace feldspar

@@ -6,6 +6,8 @@
 #include "dem/specimen.h"
 #include "report/run.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -24,6 +26,13 @@ struct Packings
   std::vector<Specimen<dim>> specimens;
   std::vector<std::shared_ptr<const Network<dim>>>
     realisations; ///< of the specimens; shared by the points that got them
+
+  /// Whose network it is.
+  std::size_t realisation_of(const Network<dim>& network) const
+  {
+    const auto is_it = [&](const auto& one) { return one.get() == &network; };
+    return std::size_t(std::find_if(realisations.begin(), realisations.end(), is_it) - realisations.begin());
+  }
 };
 
 struct Rock

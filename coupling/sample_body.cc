@@ -212,11 +212,13 @@ public:
     return ranks::sum(n);
   }
 
-  std::variant<SampleVolume<2>, SampleVolume<3>> volume(const std::uint64_t number) const override
+  std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(const std::uint64_t number) const override
   {
     std::size_t i = 0;
-    while (solid.number_of_point(i) != number)
+    while (i < n_points_here() && solid.number_of_point(i) != number)
       ++i;
+    if (i == n_points_here())
+      return std::nullopt;
     const GrainPoint<material_dim>& at = point(i);
     return SampleVolume<material_dim>{number, position(i), at.orientation(), &at.volume().network(),
                                       at.volume().state()};

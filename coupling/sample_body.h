@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,8 +62,8 @@ public:
   virtual Energies energies() const = 0;                      ///< NaN where there are none
   virtual std::uint64_t n_damaged_points() const = 0;
   virtual double seconds_in_points() const = 0; ///< of one core, since the body was made
-  virtual std::variant<SampleVolume<2>, SampleVolume<3>> volume(
-    std::uint64_t point) const = 0; ///< where there is one rank
+  /// None where the point is another rank's.
+  virtual std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(std::uint64_t point) const = 0;
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
   virtual std::vector<std::string> boundaries() const = 0;

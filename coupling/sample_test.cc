@@ -352,8 +352,17 @@ SampleVolume<dim> SampleTest::volume_at(const unsigned int cell, const unsigned 
   if (point >= n || cell >= parts->standing.n_points / n)
     throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
                                  cell, parts->standing.n_points / n - 1, n - 1));
-  return std::get<SampleVolume<dim>>(parts->body->volume(n * cell + point));
+  return std::get<SampleVolume<dim>>(parts->body->volume(n * cell + point).value());
 }
+
+template <int dim>
+std::optional<SampleVolume<dim>> SampleTest::volume_here(const std::uint64_t number) const
+{
+  const auto volume = parts->body->volume(number);
+  return volume ? std::optional(std::get<SampleVolume<dim>>(*volume)) : std::nullopt;
+}
+
+std::size_t SampleTest::n_points_per_cell() const { return parts->body->n_points_per_cell(); }
 
 std::size_t SampleTest::n_fields_written() const { return parts->fields ? parts->fields->n_written() : 0; }
 
@@ -487,4 +496,6 @@ template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const 
                                 const SpecimenReport&, std::uint64_t);
 template SampleVolume<2> SampleTest::volume_at<2>(unsigned int, unsigned int) const;
 template SampleVolume<3> SampleTest::volume_at<3>(unsigned int, unsigned int) const;
+template std::optional<SampleVolume<2>> SampleTest::volume_here<2>(std::uint64_t) const;
+template std::optional<SampleVolume<3>> SampleTest::volume_here<3>(std::uint64_t) const;
 } // namespace feldspar

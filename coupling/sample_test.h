@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,11 @@ public:
   /// or no grains.
   template <int dim>
   SampleVolume<dim> volume_at(unsigned int cell, unsigned int point) const;
+  /// The same of a point by its number, as cracks name it; none where it is another rank's. Not collective; there are
+  /// grains.
+  template <int dim>
+  std::optional<SampleVolume<dim>> volume_here(std::uint64_t number) const;
+  std::size_t n_points_per_cell() const;
 
   /// Adds the present fields to a time series for ParaView.
   void write_fields(const std::filesystem::path& folder, const std::string& name);

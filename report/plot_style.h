@@ -23,6 +23,7 @@ inline constexpr const char* orange = "#E69F00";
 
 inline constexpr const char* tension_colour = vermillion;
 inline constexpr const char* shear_colour = blue;
+inline constexpr const char* single_grain_colour = "#f0e0b8";
 
 /// Of the n-th series; a measured curve is black.
 std::string colour(const Series& series, std::size_t n);

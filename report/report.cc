@@ -9,6 +9,7 @@
 #include "report/plot_style.h"
 #include "report/result_folder.h"
 #include "report/result_table.h"
+#include "report/sample_pictures.h"
 #include "report/space_pictures.h"
 #include "report/statistics.h"
 #include "report/strength_data.h"
@@ -568,6 +569,95 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
   return section;
 }
 
+/// Where the volumes that are drawn stand, with what broke in them.
+std::vector<Table> volume_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
+{
+  if (test.volumes.empty())
+    return {};
+  Table table{"volumes_" + test.name + ending,
+              fmt::format("{}, seed {}: the volumes that are drawn; `feldspar multiscale FOLDER --extract CELL:POINT` "
+                          "writes any of them for ParaView and `feldspar rve`",
+                          title, test.record.seed),
+              {"volume", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
+              {}};
+  for (std::size_t k = 0; k < test.volumes.size(); ++k)
+    {
+      const PointVolume& volume = test.volumes[k];
+      const auto n_shear = std::count_if(volume.cracks.begin(), volume.cracks.end(),
+                                         [](const Crack& crack) { return crack.kind == CrackKind::shear; });
+      table.rows.push_back({fmt::format("{}, {}", letter_of_volume(k), volume.which), standing_of(volume, test.fields),
+                            volume.place(), fmt::format("{}", volume.cracks.size()),
+                            number(100.0 * broken_share(volume), 2), fmt::format("{}", n_shear)});
+    }
+  return {table};
+}
+
+/// The test of a group that has most to show.
+const FinishedTest* with_fields(const TestGroup& group)
+{
+  if (const auto* test = typical(group))
+    return test;
+  const auto found = std::find_if(group.tests.begin(), group.tests.end(),
+                                  [](const FinishedTest* test) { return !test->fields.nodes.empty(); });
+  return found == group.tests.end() ? nullptr : *found;
+}
+
+/// What of a sample of finite elements at the end of a test is shown; one of no grains has none of it.
+PageSection sample_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"sample", "Sample", "The sample at its end", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      const Series& series = findings.all[n];
+      if (series.kind != SeriesKind::finite_elements)
+        continue;
+      std::vector<const FinishedTest*> on_page;
+      for (const auto& group : shown(groups_of(series)))
+        if (const auto* test = with_fields(group))
+          on_page.push_back(test);
+      PageBlock heading = block_of(findings, n);
+      std::vector<PageBlock> blocks;
+      for (const auto& group : groups_of(series))
+        for (const auto* test : group.tests)
+          {
+            const std::string title = group.title() + (findings.all.size() > 1 ? ", " + series.label : "");
+            const auto named = [&](std::vector<Picture> pictures) {
+              if (!findings.one_folder)
+                for (auto& picture : pictures)
+                  picture.name += of_series(findings, n);
+              return pictures;
+            };
+            std::vector<Picture> sample = named(sample_picture(*test, title));
+            std::vector<Picture> volumes = named(volume_picture(*test, title));
+            if (std::find(on_page.begin(), on_page.end(), test) == on_page.end())
+              {
+                if (findings.one_folder)
+                  for (auto* pictures : {&sample, &volumes})
+                    book.keep_as_files(std::move(*pictures));
+                continue;
+              }
+            PageBlock block;
+            block.pictures = book.keep(std::move(sample));
+            append(block.pictures, book.keep(std::move(volumes)));
+            if (block.pictures.empty())
+              continue;
+            block.tables = volume_tables(*test, title, findings.one_folder ? "" : of_series(findings, n));
+            if (test->volumes.empty())
+              block.paragraphs.push_back("The grains of single volumes are not in this result folder: it is of before "
+                                         "they were kept, or the test did not come to its end.");
+            blocks.push_back(block);
+          }
+      if (blocks.empty())
+        heading.paragraphs.push_back(
+          "No picture of the sample: its fields are missing in this result folder, or it has "
+          "no grains.");
+      if (!heading.subheading.empty() || !heading.paragraphs.empty())
+        section.blocks.push_back(heading);
+      append(section.blocks, std::move(blocks));
+    }
+  return section;
+}
+
 Table strength_table(const Findings& findings)
 {
   Table table{"strengths",
@@ -714,8 +804,10 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
     n_tests += series.tests.size();
   page.subtitle =
     fmt::format("Feldspar report of {} test{} in {} series.", n_tests, n_tests == 1 ? "" : "s", all.size());
-  page.sections = {verdict_section(findings), envelope_section(findings, book), curve_section(findings, book),
-                   crack_section(findings, book), trust_section(findings)};
+  page.sections = {verdict_section(findings), envelope_section(findings, book), curve_section(findings, book)};
+  if (PageSection sample = sample_section(findings, book); !sample.blocks.empty())
+    page.sections.push_back(std::move(sample));
+  append(page.sections, {crack_section(findings, book), trust_section(findings)});
 
   if (input.one_folder)
     for (const auto& series : all)

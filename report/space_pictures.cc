@@ -23,7 +23,6 @@ namespace
 using namespace plot;
 using Json = nlohmann::ordered_json; // JSON is Python, as far as it goes here
 
-constexpr const char* single_grain_colour = "#f0e0b8";
 constexpr std::array fragment_colours{orange, sky, green, purple, vermillion, blue};
 
 /// Around the grains as they stood at the start [m].
@@ -64,11 +63,18 @@ struct Box
   }
 };
 
-Json crack_panel(const TestRecord& record, const Box& box, const std::string& title, const std::uint64_t last_step)
+/// Discs of cracks up to a step, and how many there are of either kind.
+struct Discs
+{
+  std::string rows;
+  Json legend;
+};
+
+Discs discs_of(const std::vector<Crack>& cracks, const Box& box, const std::uint64_t last_step)
 {
   std::string rows;
   std::array<std::size_t, 2> n{};
-  for (const auto& crack : record.cracks)
+  for (const auto& crack : cracks)
     {
       if (crack.step > last_step)
         continue;
@@ -84,22 +90,35 @@ Json crack_panel(const TestRecord& record, const Box& box, const std::string& ti
       fmt::format_to(std::back_inserter(rows), "{:.4g} {}\n", crack.size / std::sqrt(std::numbers::pi) / milli,
                      is_shear ? shear_colour : tension_colour);
     }
-  return {
-    {"title", title},
-    {"box", box.millimetres()},
-    {"spheres", ""},
-    {"discs", rows},
-    {"legend", {{fmt::format("tension: {}", n[0]), tension_colour}, {fmt::format("shear: {}", n[1]), shear_colour}}}};
+  return {rows, {{fmt::format("tension: {}", n[0]), tension_colour}, {fmt::format("shear: {}", n[1]), shear_colour}}};
 }
 
-Json fragment_panel(const TestRecord& record, const Box& box)
+Json crack_panel(const TestRecord& record, const Box& box, const std::string& title, const std::uint64_t last_step)
+{
+  const Discs discs = discs_of(record.cracks, box, last_step);
+  return {{"title", title},
+          {"box", box.millimetres()},
+          {"spheres", ""},
+          {"discs", discs.rows},
+          {"legend", discs.legend}};
+}
+
+/// Of each fragment.
+std::map<std::uint32_t, std::size_t> numbers_of_grains(const std::vector<GrainPicture>& grains)
 {
   std::map<std::uint32_t, std::size_t> n_grains;
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : grains)
     ++n_grains[grain.fragment];
+  return n_grains;
+}
+
+/// The grains behind the mid-plane.
+std::string spheres_behind(const std::vector<GrainPicture>& grains, const Box& box)
+{
+  std::map<std::uint32_t, std::size_t> n_grains = numbers_of_grains(grains);
   const double cut = 0.5 * (box.low[1] + box.high[1]);
   std::string rows;
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : grains)
     if (grain.start[1] >= cut && box.shows(grain.position))
       {
         for (const double x : grain.position)
@@ -109,11 +128,17 @@ Json fragment_panel(const TestRecord& record, const Box& box)
                        : n_grains[grain.fragment] == 1 ? single_grain_colour
                                                        : fragment_colours[grain.fragment % fragment_colours.size()]);
       }
+  return rows;
+}
+
+Json fragment_panel(const TestRecord& record, const Box& box)
+{
+  const auto n_grains = numbers_of_grains(record.grains_at_end);
   const auto n_single = std::count_if(n_grains.begin(), n_grains.end(),
                                       [](const auto& entry) { return entry.first > 0 && entry.second == 1; });
   return {{"title", "grains at the end, cut open"},
           {"box", box.millimetres()},
-          {"spheres", rows},
+          {"spheres", spheres_behind(record.grains_at_end, box)},
           {"discs", ""},
           {"legend",
            {{"grey: largest piece", black},
@@ -149,5 +174,28 @@ std::vector<Picture> space_picture(const FinishedTest& test, const std::string& 
      .vector = false,
      .drawn_by = DrawnBy::vtk,
      .script = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
+}
+
+Picture space_picture_of_volumes(const std::vector<PointVolume>& volumes, const std::vector<std::string>& headings)
+{
+  Json panels = Json::array();
+  for (std::size_t k = 0; k < volumes.size(); ++k)
+    {
+      const Box box(volumes[k].grains);
+      const Discs discs = discs_of(volumes[k].cracks, box, std::numeric_limits<std::uint64_t>::max());
+      panels.push_back({{"title", headings[k]},
+                        {"box", box.millimetres()},
+                        {"spheres", spheres_behind(volumes[k].grains, box)},
+                        {"discs", discs.rows},
+                        {"legend", discs.legend}});
+    }
+  Picture picture;
+  picture.width = 450 * int(panels.size());
+  picture.height = 560;
+  picture.raster = true;
+  picture.vector = false;
+  picture.drawn_by = DrawnBy::vtk;
+  picture.script = fmt::format("panels = {}\n{}", panels.dump(), space_scene);
+  return picture;
 }
 } // namespace feldspar

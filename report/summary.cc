@@ -65,6 +65,13 @@ Json describe(const FinishedTest& test)
     {
       write_figure(json, std::string(entry.name), entry.value(test));
     }
+  for (const auto& volume : test.volumes)
+    json["volumes"].push_back({{"which", volume.which},
+                               {"cell", volume.cell},
+                               {"point", volume.point},
+                               {"position_m", volume.position},
+                               {"n_segments", volume.n_segments},
+                               {"n_broken_segments", volume.cracks.size()}});
   return json;
 }
 

@@ -17,8 +17,6 @@ namespace
 {
 using namespace plot;
 
-constexpr const char* loose_grain_colour = "#f0e0b8";
-
 std::string title_of(const FinishedTest& test)
 {
   return TestGroup{test.record.kind, test.record.confining_pressure, {}}.title();
@@ -115,7 +113,7 @@ std::string map_plot(const FinishedTest& test, const char upwards)
                       light_grey);
   if (n_loose > 0)
     text += fmt::format(", {} with circles fill solid noborder lc rgb '{}' title 'fragments'", block("loose", test),
-                        loose_grain_colour);
+                        single_grain_colour);
   const auto cracks = [&](const char* what, const char* colour, const std::uint64_t n) {
     if (n > 0)
       text +=

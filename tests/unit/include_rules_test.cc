@@ -30,7 +30,8 @@ const std::vector<Rule> rules = {
   {"coupling", {"report/", "app/"}},
   {"report",
    {"app/", "dem/"},
-   {"dem/lab_results.h", "dem/parameters.h", "dem/input_error.h", "dem/whole_file.h"}}, // plain data and files only
+   {"dem/lab_results.h", "dem/parameters.h", "dem/input_error.h", "dem/whole_file.h",
+    "dem/hdf5_archive.h"}}, // plain data and files only
   {"app", {}},
   {"benchmarks", {"app/"}},
   {"tests", {}},

@@ -1,0 +1,326 @@
+#include "report/sample_pictures.h"
+
+#include "dem/hdf5_archive.h"
+#include "dem/input_error.h"
+#include "report/result_folder.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// Pictures of a sample of finite elements, from the fields it left.
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+/// Squares or cubes of 10 mm, two in each direction from x = y = z = 0, whose top is lifted by 0.1 mm. Every node is of
+/// one cell, as in the files.
+SampleFields blocks(const unsigned int dimension)
+{
+  static constexpr std::array<std::array<int, 3>, 8> corners{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+  SampleFields fields;
+  fields.dimension = dimension;
+  fields.n_rows = 31;
+  const unsigned int n_corners = 1u << dimension;
+  for (unsigned int k = 0; k < n_corners; ++k)
+    {
+      fields.cells.emplace_back();
+      for (unsigned int i = 0; i < n_corners; ++i)
+        {
+          std::array<double, 3> node{};
+          for (unsigned int c = 0; c < dimension; ++c)
+            node[c] = 0.01 * ((k >> c & 1u) + unsigned(corners[i][c]));
+          fields.cells.back().push_back(std::uint32_t(fields.nodes.size()));
+          fields.nodes.push_back(node);
+          fields.displacement.push_back({});
+          fields.displacement.back()[dimension - 1] = 0.005 * node[dimension - 1];
+        }
+      fields.of_each_cell["cell"].push_back(k);
+      fields.of_each_cell["broken_segments_share"].push_back(0.01 * k);
+      fields.of_each_cell["stress_xx_Pa"].push_back(1e6);
+    }
+  return fields;
+}
+
+FinishedTest test_with(const SampleFields& fields)
+{
+  FinishedTest test;
+  test.name = "direct_tension_seed_1";
+  test.record.kind = TestKind::direct_tension;
+  test.record.body = TestBody::finite_elements;
+  test.record.seed = 1;
+  test.record.curve.resize(31);
+  test.fields = fields;
+  return test;
+}
+
+std::string script_of(const SampleFields& fields)
+{
+  const auto pictures = sample_picture(test_with(fields), "Direct tension");
+  EXPECT_EQ(pictures.size(), 1u);
+  return pictures.at(0).script;
+}
+
+/// Rows of a block of data, without empty ones.
+std::vector<std::vector<double>> rows_of(const std::string& script, const std::string& block)
+{
+  std::istringstream lines(script.substr(std::min(script.find(block + " << EOD\n"), script.size())));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(lines, line) && line != "EOD")
+    if (!line.empty())
+      {
+        std::istringstream words(line);
+        rows.emplace_back();
+        for (double word = 0.0; words >> word;)
+          rows.back().push_back(word);
+      }
+  return rows;
+}
+
+std::size_t count(const std::string& text, const std::string& what)
+{
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size())
+    ++n;
+  return n;
+}
+
+TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
+{
+  const auto test = test_with(blocks(2));
+  const auto picture = sample_picture(test, "Direct tension").at(0);
+  EXPECT_EQ(count(picture.script, " polygon from "), 4u);
+  // Lifted by 0.1 mm of 20: to be seen as at most 6 %, which is 12 times, round: 10 times.
+  EXPECT_NE(picture.caption.find("displacements drawn 10 times"), std::string::npos) << picture.caption;
+  EXPECT_NE(picture.caption.find("at the end"), std::string::npos) << picture.caption;
+  double highest = 0.0;
+  for (const auto& row : rows_of(picture.script, "$outline"))
+    highest = std::max(highest, row.at(1));
+  EXPECT_NEAR(highest, 21.0, 1e-9);
+  // The outline of a square of four cells has eight of their edges, each of two ends.
+  EXPECT_EQ(rows_of(picture.script, "$outline").size(), 16u);
+  EXPECT_EQ(rows_of(picture.script, "$rest").size(), 16u);
+  EXPECT_NE(picture.script.find("set cbrange [0:3]"), std::string::npos); // 3 % of the last cell
+}
+
+TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
+{
+  auto test = test_with(blocks(2));
+  test.fields.n_rows = 12;
+  EXPECT_NE(sample_picture(test, "Direct tension").at(0).caption.find("at row 12 of 31"), std::string::npos);
+}
+
+TEST(SamplePicture, OutlinesWhatHasLocalisedWhereTheFieldsKnow)
+{
+  SampleFields fields = blocks(2);
+  EXPECT_EQ(script_of(fields).find("$zone"), std::string::npos);
+  // The lower two cells together: six edges, none between them. A quarter of a cell's points is too few.
+  fields.of_each_cell["localised_share"] = {1.0, 0.5, 0.25, 0.0};
+  const auto zone = rows_of(script_of(fields), "$zone");
+  EXPECT_EQ(zone.size(), 12u);
+  for (const auto& point : zone)
+    EXPECT_LE(point.at(1), 10.5 + 1e-9);
+  fields.of_each_cell["localised_share"] = {0.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(script_of(fields).find("$zone"), std::string::npos);
+}
+
+TEST(SamplePicture, StrokesLieInTheMeanCrack)
+{
+  SampleFields fields = blocks(2);
+  EXPECT_TRUE(rows_of(script_of(fields), "$strokes").empty());
+  const double along = std::sqrt(0.5);
+  for (const auto& [name, values] : {std::pair("xx", std::vector{0.0, 0.0, 2.0, 0.5}),
+                                     {"yy", std::vector{0.0, 3.0, 0.0, 0.5}},
+                                     {"xy", std::vector{0.0, 0.0, 0.0, 0.5}}})
+    fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = values;
+  const auto strokes = rows_of(script_of(fields), "$strokes");
+  ASSERT_EQ(strokes.size(), 3u); // none where nothing broke
+  // Normals all along y: a level crack, 0.8 of the cell's 10 mm. All along x: upright. Along the diagonal: across it.
+  const std::vector<std::array<double, 2>> directions{{1.0, 0.0}, {0.0, 1.0}, {-along, along}};
+  for (std::size_t k = 0; k < 3; ++k)
+    {
+      EXPECT_NEAR(std::abs(strokes[k].at(2) * directions[k][0] + strokes[k].at(3) * directions[k][1]), 8.0, 1e-4) << k;
+      EXPECT_NEAR(strokes[k].at(2) * directions[k][1] - strokes[k].at(3) * directions[k][0], 0.0, 1e-4) << k;
+    }
+  // As many cracks in either direction have none.
+  for (const char* name : {"xx", "yy"})
+    fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = {0.0, 1.0, 1.0, 1.0};
+  fields.of_each_cell["crack_orientation_xy_per_m"] = {0.0, 0.0, 0.0, 0.0};
+  for (const auto& row : rows_of(script_of(fields), "$strokes"))
+    EXPECT_NEAR(std::hypot(row.at(2), row.at(3)), 0.0, 1e-9);
+}
+
+TEST(SamplePicture, MirrorsAHalfSectionAndCutsABodyInSpace)
+{
+  SampleFields half = blocks(2);
+  half.of_each_cell["stress_rr_Pa"] = half.of_each_cell["stress_xx_Pa"];
+  const std::string both = script_of(half);
+  EXPECT_EQ(count(both, " polygon from "), 8u);
+  // Around both halves: what lies on the axis is inside.
+  EXPECT_EQ(rows_of(both, "$outline").size(), 24u);
+  EXPECT_NE(both.find("set xlabel 'r [mm]'"), std::string::npos);
+
+  // The section between the cubes takes the four behind it.
+  const std::string section = script_of(blocks(3));
+  EXPECT_EQ(count(section, " polygon from "), 4u);
+  EXPECT_EQ(rows_of(section, "$outline").size(), 16u);
+  for (const auto& row : rows_of(section, "$rest"))
+    EXPECT_TRUE(row.at(0) >= 0.0 && row.at(0) <= 20.0 && row.at(1) >= 0.0 && row.at(1) <= 20.0);
+}
+
+TEST(SamplePicture, NeedsGrains)
+{
+  SampleFields fields = blocks(2);
+  fields.of_each_cell.erase("broken_segments_share");
+  EXPECT_TRUE(sample_picture(test_with(fields), "Direct tension").empty());
+  EXPECT_TRUE(sample_picture(test_with({}), "Direct tension").empty());
+}
+
+PointVolume volume()
+{
+  PointVolume volume{"most damaged", 3, 1, {0.015, 0.012, 0.0}, 200, {}, {}};
+  volume.grains = {{{0.01, 0.01, 0.0}, {0.0101, 0.01, 0.0}, 0.001, 0},
+                   {{0.012, 0.01, 0.0}, {0.012, 0.01, 0.0}, 0.001, 1}};
+  volume.cracks = {{CrackKind::tension, 4, 2, 9, 1e-4, {0.011, 0.01, 0.0}, {1.0, 0.0, 0.0}, 5e-4, 1e-3},
+                   {CrackKind::shear, 5, 0, 9, 1e-4, {0.011, 0.01, 0.0}, {0.0, 1.0, 0.0}, 5e-4, 1e-3}};
+  return volume;
+}
+
+TEST(SamplePicture, MarksTheVolumesThatAreDrawn)
+{
+  auto test = test_with(blocks(2));
+  test.volumes = {volume()};
+  const auto sample = sample_picture(test, "Direct tension").at(0);
+  EXPECT_NE(sample.script.find("set label 'A' at 15,12.6 "), std::string::npos); // lifted by 0.06 mm, ten times
+  const auto volumes = volume_picture(test, "Direct tension").at(0);
+  EXPECT_NE(volumes.script.find("'A: most damaged'"), std::string::npos);
+  EXPECT_EQ(rows_of(volumes.script, "$grains0").size(), 1u);
+  EXPECT_EQ(rows_of(volumes.script, "$loose0").size(), 1u);
+  // A crack stands across its normal.
+  const auto tension = rows_of(volumes.script, "$tension0").at(0);
+  EXPECT_NEAR(tension.at(2), 0.0, 1e-12);
+  EXPECT_NEAR(std::abs(tension.at(3)), 0.5, 1e-9);
+  EXPECT_EQ(broken_share(test.volumes[0]), 0.01);
+  EXPECT_EQ(standing_of(test.volumes[0], test.fields), "(15.0, 12.0) mm");
+}
+
+/// As deal.II writes it, two times.
+std::string index_of(const std::string& attributes)
+{
+  std::string grids;
+  for (const int time : {2, 31})
+    grids += fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\"><Time Value=\"{}\"/>\n<Geometry GeometryType=\"XY\">"
+                         "<DataItem>\n  test.h5:/nodes\n</DataItem></Geometry><Topology><DataItem>test.h5:/cells"
+                         "</DataItem></Topology>\n{}</Grid>\n",
+                         time, attributes);
+  return "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\"><Domain>\n"
+         "<Grid Name=\"CellTime\" GridType=\"Collection\">" +
+         grids + "</Grid></Domain></Xdmf>\n";
+}
+
+TEST(SampleFieldsFile, IsReadAsItLiesThere)
+{
+  const TemporaryFolder folder;
+  const SampleFields wanted = blocks(2);
+  std::vector<double> nodes, displacement, share, cell;
+  std::vector<std::uint32_t> cells;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const std::uint32_t i : wanted.cells[k])
+      {
+        nodes.insert(nodes.end(), {wanted.nodes[i][0], wanted.nodes[i][1]});
+        displacement.insert(displacement.end(), wanted.displacement[i].begin(), wanted.displacement[i].end());
+        cells.push_back(i);
+        cell.push_back(double(k));
+        share.push_back(0.01 * double(k));
+      }
+  write_hdf5(folder.path() / "test.h5", [&](Hdf5Writer& root) {
+    root.array("nodes", nodes, 2);
+    root.array("cells", cells, 4);
+  });
+  const auto write_fields = [&](std::vector<double> shares) {
+    write_hdf5(folder.path() / "test-0001.h5", [&](Hdf5Writer& root) {
+      root.array("displacement", displacement, 3);
+      root.array("broken_segments_share", shares);
+      root.array("cell", cell);
+    });
+  };
+  write_fields(share);
+  std::string attributes;
+  for (const char* name : {"displacement", "broken_segments_share", "cell"})
+    attributes += fmt::format("<Attribute Name=\"{0}\" Center=\"Node\"><DataItem>\n test-0001.h5:/{0}\n</DataItem>"
+                              "</Attribute>\n",
+                              name);
+  folder.write("test.xdmf", index_of(attributes));
+  const SampleFields read = read_sample_fields(folder.path(), "test");
+  EXPECT_EQ(read.n_rows, 31u);
+  EXPECT_EQ(read.dimension, 2u);
+  EXPECT_EQ(read.nodes, wanted.nodes);
+  EXPECT_EQ(read.displacement, wanted.displacement);
+  EXPECT_EQ(read.cells, wanted.cells);
+  EXPECT_EQ(read.of_each_cell.at("broken_segments_share"), wanted.of_each_cell.at("broken_segments_share"));
+
+  const auto objection = [&] {
+    try
+      {
+        read_sample_fields(folder.path(), "test");
+        return std::string();
+      }
+    catch (const InputError& error)
+      {
+        return std::string(error.what());
+      }
+  };
+  displacement.pop_back();
+  write_fields(share);
+  EXPECT_NE(objection().find("its arrays differ in length"), std::string::npos) << objection();
+  std::filesystem::remove(folder.path() / "test-0001.h5");
+  EXPECT_NE(objection().find("test-0001.h5: no such file"), std::string::npos) << objection();
+  folder.write("test.xdmf", index_of(attributes).substr(0, 300));
+  EXPECT_NE(objection().find("test.xdmf: not XDMF"), std::string::npos) << objection();
+  std::filesystem::remove(folder.path() / "test.xdmf");
+  EXPECT_NE(objection().find("test.xdmf: missing"), std::string::npos) << objection();
+}
+
+TEST(ResultFolder, KeepsTheVolumesOfASample)
+{
+  const TemporaryFolder folder;
+  auto test = test_with({});
+  test.record.curve.clear();
+  test.volumes = {volume()};
+  write_result_folder({}, {test}, folder.path());
+  const auto all = read_result_folder(folder.path());
+  ASSERT_EQ(all.at(0).tests.at(0).volumes.size(), 1u);
+  const PointVolume& read = all[0].tests[0].volumes[0];
+  const PointVolume& was = test.volumes[0];
+  EXPECT_EQ(read.which, was.which);
+  EXPECT_EQ(read.place(), "3:1");
+  EXPECT_EQ(read.position, was.position);
+  EXPECT_EQ(read.n_segments, was.n_segments);
+  ASSERT_EQ(read.grains.size(), 2u);
+  EXPECT_EQ(read.grains[1].fragment, 1u);
+  EXPECT_EQ(read.grains[0].position, was.grains[0].position);
+  ASSERT_EQ(read.cracks.size(), 2u);
+  EXPECT_EQ(read.cracks[1].kind, CrackKind::shear);
+  EXPECT_EQ(read.cracks[0].centroid, was.cracks[0].centroid);
+  // A folder that lost them says so, and the test is there without them.
+  std::filesystem::remove(folder.path() / "points/direct_tension_seed_1_cell_3_point_1_grains.csv");
+  const auto without = read_result_folder(folder.path());
+  EXPECT_TRUE(without.at(0).tests.at(0).volumes.empty());
+  const auto& problems = without[0].problems;
+  EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
+    return problem.find("point_1_grains.csv: missing or empty") != std::string::npos;
+  }));
+}
+} // namespace
+} // namespace feldspar
