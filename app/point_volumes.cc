@@ -42,11 +42,12 @@ std::vector<Choice> chosen(const TestRecord& record, const std::uint64_t n_point
       add("most damaged", damaged.back().second);
       add("median of the damaged", damaged[damaged.size() / 2].second);
     }
-  std::uint64_t intact = 0;
-  while (n_broken.contains(intact))
-    ++intact;
-  if (intact < n_points)
-    add("intact", intact);
+  std::vector<std::uint64_t> intact;
+  for (std::uint64_t number = 0; number < n_points; ++number)
+    if (!n_broken.contains(number))
+      intact.push_back(number);
+  if (!intact.empty())
+    add("intact", intact[intact.size() / 2]);
   else
     add("least damaged", damaged.front().second);
   return choices;

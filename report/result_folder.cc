@@ -183,7 +183,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
       try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       if (test.record.body == TestBody::grains)
         try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
-      else
+      else if (std::filesystem::exists(folder / result_file::fields /
+                                       (test.name + ".xdmf"))) // large: may be thrown away
         try_to(problems, [&] { test.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
   for (const auto& entry : json["tests"])

@@ -344,7 +344,7 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
                    [&](const Piece& piece) { return fields.of_each_cell.at(localised_field)[piece.cell] >= 0.5; });
 
   std::string letters;
-  const double radius = 0.028 * (high[1] - low[1]) / milli;
+  const double radius = 0.022 * (high[1] - low[1]) / milli;
   for (std::size_t k = 0; k < test.volumes.size(); ++k)
     {
       const Point at = view.place(test.volumes[k]);
@@ -358,8 +358,8 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
                 outline(pieces, &Piece::rest, everywhere), outline(pieces, &Piece::moved, everywhere), colours);
   std::string plots =
     fmt::format("plot $cells using 1:2:3 with points pt 7 ps 0 lc palette notitle, $rest with lines lw 1 dt 2 lc rgb "
-                "'{}' title 'at rest', $outline with lines lw 1.2 lc rgb '{}' notitle",
-                grey, black);
+                "'{}' title 'at rest', $outline with lines lw 1.2 lc rgb '{}' title 'displacements drawn {:g} times'",
+                grey, black, scale);
   std::string caption =
     fmt::format("{}, seed {}: share of the segments that are broken, in each cell, {}; displacements drawn {:g} times",
                 title, test.record.seed,
@@ -374,8 +374,9 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
   if (!strokes.empty())
     {
       data += fmt::format("$strokes << EOD\n{}EOD\n", strokes);
-      plots +=
-        fmt::format(", $strokes with vectors nohead lw 2 lc rgb '{}' title 'mean direction of the cracks'", black);
+      plots += fmt::format(", $strokes with vectors nohead lw 4.5 lc rgb '#ffffff' notitle, $strokes with "
+                           "vectors nohead lw 2 lc rgb '{}' title 'mean direction of the cracks'",
+                           black);
       caption += ". Strokes: where the mean crack would cut the picture, the longer the more alike the cracks are";
     }
   if (!zone.empty())
@@ -407,11 +408,11 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
      .vector = pieces.size() <= 3000,
      .script =
        data + fmt::format(
-                "set size ratio -1\nset xlabel '{}'; set ylabel '{}'\nset xtics nomirror out; set ytics nomirror out; "
+                "set size ratio -1\nset xlabel '{}' offset 0,0.4; set ylabel '{}'\nset tics nomirror out; "
                 "set border 3\nset xrange [{:.6g}:{:.6g}]; set yrange [{:.6g}:{:.6g}]\nset key below center horizontal "
                 "maxcols 1 Left reverse samplen 1.5 noenhanced\n"
                 // Light where little broke, so that the strokes are seen; its brightness falls all the way.
-                "set palette defined (0 '#f3f1ea', 1 '#fdd49e', 2 '#fc8d59', 3 '#d7301f', 4 '#8f0000')\n"
+                "set palette defined (0 '#f3f1ea', 1 '#fdd49e', 2 '#fc8d59', 3 '#d7301f', 4 '#a00000')\n"
                 "set cbrange [0:{:.6g}]\nset cblabel 'broken segments [%]'\n{}{}{}\n",
                 fields.is_axisymmetric() ? "r [mm]" : "x [mm]",
                 fields.dimension == 3 || fields.is_axisymmetric() ? "z [mm]" : "y [mm]",
@@ -447,13 +448,21 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
 
   std::string data;
   std::string plots;
+  double reach = 0.0; // from a volume's point
+  for (const PointVolume& volume : volumes)
+    for (const auto& grain : volume.grains)
+      for (std::size_t c = 0; c < 2; ++c)
+        reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+  reach *= 1.03 / milli;
   for (std::size_t k = 0; k < volumes.size(); ++k)
     {
+      const auto& centre = volumes[k].position;
       std::string body;
       std::string loose;
       for (const auto& grain : volumes[k].grains)
         fmt::format_to(std::back_inserter(grain.fragment > 0 ? loose : body), "{:.6g} {:.6g} {:.6g}\n",
-                       grain.position[0] / milli, grain.position[1] / milli, grain.radius / milli);
+                       (grain.position[0] - centre[0]) / milli, (grain.position[1] - centre[1]) / milli,
+                       grain.radius / milli);
       data += fmt::format("$grains{0} << EOD\n{1}EOD\n", k, body);
       plots +=
         fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
@@ -474,8 +483,8 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
                 const double dx = -crack.normal[1] * crack.size;
                 const double dy = crack.normal[0] * crack.size;
                 fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g} {:.6g} {:.6g}\n",
-                               (crack.centroid[0] - 0.5 * dx) / milli, (crack.centroid[1] - 0.5 * dy) / milli,
-                               dx / milli, dy / milli);
+                               (crack.centroid[0] - centre[0] - 0.5 * dx) / milli,
+                               (crack.centroid[1] - centre[1] - 0.5 * dy) / milli, dx / milli, dy / milli);
               }
           const auto n = std::count(rows.begin(), rows.end(), '\n');
           if (n == 0)
@@ -485,19 +494,26 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
           plots += fmt::format(", {} with vectors nohead lw 2.2 lc rgb '{}' title '{}: {}'", block,
                                in_tension ? tension_colour : shear_colour, in_tension ? "tension" : "shear", n);
         }
+      if (volumes[k].cracks.empty())
+        plots += ", NaN with lines lc rgb '#ffffff' title 'nothing broken'";
       plots += "\n";
     }
-  return {{.name = name,
-           .caption = caption,
-           .alternative = alternative,
-           .width = 400 * int(volumes.size()),
-           .height = 480,
-           .raster = true,
-           .vector = false,
-           .script = data +
-                     "set size ratio -1\nset xlabel 'x [mm]'; set ylabel 'y [mm]'\nset xtics nomirror out; set ytics "
-                     "nomirror out; set border 3\nset key below center horizontal maxcols 3 Left reverse samplen 1.5 "
-                     "width 1 noenhanced\n" +
-                     fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", volumes.size(), plots)}};
+  return {
+    {.name = name,
+     .caption = caption + ". Coordinates are from the point that the volume stands for",
+     .alternative = alternative,
+     .width = 400 * int(volumes.size()),
+     .height = 480,
+     .raster = true,
+     .vector = false,
+     .script =
+       data +
+       "set size ratio -1\nset xlabel 'x from the point [mm]'; set ylabel 'y from the point [mm]'\nset xtics nomirror out; "
+       "set ytics "
+       "nomirror out; set border 3\nset key below center horizontal maxcols 3 Left reverse samplen 1.5 "
+       "width 1 noenhanced\n" +
+       fmt::format("set xrange [{0:.4g}:{1:.4g}]; set yrange [{0:.4g}:{1:.4g}]\nset multiplot layout 1,{2}\n"
+                   "{3}unset multiplot\n",
+                   -reach, reach, volumes.size(), plots)}};
 }
 } // namespace feldspar

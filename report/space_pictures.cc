@@ -30,6 +30,13 @@ struct Box
 {
   std::array<double, 3> low, high;
 
+  /// A cube about the origin.
+  explicit Box(const double half_width)
+  {
+    low.fill(-half_width);
+    high.fill(half_width);
+  }
+
   explicit Box(const std::vector<GrainPicture>& grains)
   {
     low.fill(std::numeric_limits<double>::infinity());
@@ -178,15 +185,30 @@ std::vector<Picture> space_picture(const FinishedTest& test, const std::string& 
 
 Picture space_picture_of_volumes(const std::vector<PointVolume>& volumes, const std::vector<std::string>& headings)
 {
+  double reach = 0.0; // from a volume's point
+  for (const PointVolume& volume : volumes)
+    for (const auto& grain : volume.grains)
+      for (std::size_t c = 0; c < 3; ++c)
+        reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+  const Box box(reach);
   Json panels = Json::array();
   for (std::size_t k = 0; k < volumes.size(); ++k)
     {
-      const Box box(volumes[k].grains);
-      const Discs discs = discs_of(volumes[k].cracks, box, std::numeric_limits<std::uint64_t>::max());
+      PointVolume volume = volumes[k];
+      for (std::size_t c = 0; c < 3; ++c)
+        {
+          for (auto& grain : volume.grains)
+            for (auto* place : {&grain.start, &grain.position})
+              (*place)[c] -= volume.position[c];
+          for (auto& crack : volume.cracks)
+            crack.centroid[c] -= volume.position[c];
+        }
+      const Discs discs = discs_of(volume.cracks, box, std::numeric_limits<std::uint64_t>::max());
       panels.push_back({{"title", headings[k]},
                         {"box", box.millimetres()},
-                        {"spheres", spheres_behind(volumes[k].grains, box)},
+                        {"spheres", spheres_behind(volume.grains, box)},
                         {"discs", discs.rows},
+                        {"opacity", 0.7},
                         {"legend", discs.legend}});
     }
   Picture picture;

@@ -123,7 +123,7 @@ def draw():
             actor = actor_of(discs(panel["discs"]))
             actor.GetProperty().SetAmbient(0.45)
             actor.GetProperty().SetDiffuse(0.55)
-            actor.GetProperty().SetOpacity(0.3)
+            actor.GetProperty().SetOpacity(panel.get("opacity", 0.3))
             renderer.AddActor(actor)
         frame = actor_of(outline(*panel["box"]))
         frame.GetProperty().SetColor(0.55, 0.55, 0.55)

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -351,10 +352,11 @@ public:
   }
 };
 
-TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
+/// At desk and phone width, in light and dark mode, the page breaks no rule of its own and is no wider than its frame.
+void expect_shown_in_a_browser(const fs::path& page)
 {
   ASSERT_EQ(std::system("command -v chromium >/dev/null"), 0) << "the package chromium is missing";
-  const fs::path page = folder.path() / "out/report.html";
+  const TemporaryFolder folder;
   // Its own policy forbids it to load anything; what breaks that, or a script that fails, stands in the console.
   for (const int width : {1280, 390})
     for (const char* mode : {"", "--force-dark-mode --blink-settings=preferredColorScheme=0"})
@@ -368,17 +370,9 @@ TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
         EXPECT_GT(fs::file_size(shot), 20'000u);
         fs::remove(shot);
       }
-  // A page that does load something is found out: the check above can fail.
-  std::string loading = content(page);
-  loading.insert(loading.find("<main>"), "<img src=\"http://127.0.0.1:9/missing.png\" alt=\"\">");
-  folder.write("loading.html", loading);
-  EXPECT_NE(Browser::show(folder.path() / "loading.html",
-                          fmt::format("--screenshot='{}'", (folder.path() / "shot.png").string()))
-              .error,
-            "");
 
-  // No wider than its frame: tables scroll in their places. The probe replaces the policy, which forbids scripts; a
-  // window of the browser is never as narrow as a phone, a frame in it is.
+  // Tables scroll in their places. The probe replaces the policy, which forbids scripts; a window of the browser is never
+  // as narrow as a phone, a frame in it is.
   std::string probe = content(page);
   const std::size_t policy = probe.find("<meta http-equiv");
   probe.replace(policy, probe.find('>', policy) + 1 - policy,
@@ -396,6 +390,100 @@ TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
       EXPECT_NE(shown.output.find(fmt::format("<title>wide {} of {}</title>", width, width)), std::string::npos)
         << shown.output.substr(0, 200);
     }
+}
+
+TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
+{
+  const fs::path page = folder.path() / "out/report.html";
+  expect_shown_in_a_browser(page);
+  // A page that does load something is found out: the check above can fail.
+  std::string loading = content(page);
+  loading.insert(loading.find("<main>"), "<img src=\"http://127.0.0.1:9/missing.png\" alt=\"\">");
+  folder.write("loading.html", loading);
+  EXPECT_NE(Browser::show(folder.path() / "loading.html",
+                          fmt::format("--screenshot='{}'", (folder.path() / "shot.png").string()))
+              .error,
+            "");
+}
+
+/// A sample of finite elements, pulled apart, with small volumes at its points.
+std::string sample_input(const std::string& specimen, const std::string& sample)
+{
+  return "subsection Specimen\n  set Shape = periodic\n" + specimen + "end\nsubsection Sample\n" + sample +
+         "  set Realisations = 1\n  set Tension step = 1e-5\nend\nsubsection Tests\n  set List = direct_tension\n"
+         "  set Stop strain = 2.5e-4\nend\n";
+}
+
+TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsVolumes)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", sample_input("  set Width = 14 mm\n  set Height = 14 mm\n",
+                                        "  set Width = 24 mm\n  set Height = 48 mm\n  set Elements across = 2\n"
+                                        "  set Elements along = 4\n"));
+  const auto run = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const fs::path page = folder.path() / "out/report.html";
+  const std::string words = words_of(page);
+  for (const char* const wanted :
+       {"The sample at its end", "share of the segments that are broken, in each cell, at the end",
+        "Letters: the volumes drawn below", "the volumes that are drawn", "A, most damaged", "cell:point"})
+    EXPECT_NE(words.find(wanted), std::string::npos) << wanted;
+  EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
+  for (const char* const name : {"sample.svg", "sample.pdf", "volumes.png"})
+    EXPECT_GT(fs::file_size(folder.path() / "out/figures" / ("direct_tension_seed_1_" + std::string(name))), 4000u)
+      << name;
+
+  // The numbers of the table are those of the cracks: no point has more than A.
+  std::map<std::string, int> n_broken;
+  std::istringstream cracks(content(folder.path() / "out/cracks.csv"));
+  std::string line;
+  std::getline(cracks, line);
+  while (std::getline(cracks, line))
+    {
+      const std::size_t begin = line.find(',', line.find(',') + 1) + 1; // test, kind, joint: the number of the point
+      const int number = std::stoi(line.substr(begin));
+      ++n_broken[fmt::format("{}:{}", number / 4, number % 4)];
+    }
+  std::istringstream rows(content(folder.path() / "out/tables/volumes_direct_tension_seed_1.csv"));
+  std::getline(rows, line);
+  const std::regex row("\"(.), (.*)\",\"?\\(.*\\) mm\"?,([0-9]+:[0-9]+),([0-9]+),.*");
+  std::size_t n_rows = 0;
+  for (; std::getline(rows, line); ++n_rows)
+    {
+      std::smatch found;
+      ASSERT_TRUE(std::regex_match(line, found, row)) << line;
+      const auto at_point = n_broken.find(found[3]);
+      EXPECT_EQ(std::stoi(found[4]), at_point == n_broken.end() ? 0 : at_point->second) << line;
+      if (found[1] == "A")
+        for (const auto& [place, n] : n_broken)
+          EXPECT_LE(n, std::stoi(found[4])) << place;
+    }
+  EXPECT_GE(n_rows, 2u);
+  expect_shown_in_a_browser(page);
+
+  // What is missing is said in its place.
+  fs::remove_all(folder.path() / "out/points");
+  ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
+  EXPECT_NE(words_of(page).find("_grains.csv: missing or empty"), std::string::npos);
+  fs::remove_all(folder.path() / "out/fields");
+  ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
+  EXPECT_NE(words_of(page).find("No picture of the sample"), std::string::npos);
+}
+
+TEST(ReportOfASample, CutsACylinderAndDrawsItsVolumesInSpace)
+{
+  const TemporaryFolder folder;
+  folder.write("pull.prm", sample_input("  set Dimension = 3\n  set Width = 6 mm\n  set Height = 6 mm\n",
+                                        "  set Geometry = axisymmetric\n  set Width = 12 mm\n  set Height = 24 mm\n"
+                                        "  set Elements across = 1\n  set Elements along = 2\n"));
+  const auto run = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const std::string words = words_of(folder.path() / "out/report.html");
+  EXPECT_NE(words.find("The left half is the mirror image of the right"), std::string::npos);
+  EXPECT_NE(words.find("Grains behind the mid-plane"), std::string::npos);
+  EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
+  EXPECT_GT(fs::file_size(folder.path() / "out/figures/direct_tension_seed_1_volumes.png"), 10'000u);
+  EXPECT_NE(content(folder.path() / "out/tables/volumes_direct_tension_seed_1.csv").find("r = "), std::string::npos);
 }
 } // namespace
 } // namespace feldspar::tests

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// `mpirun feldspar multiscale`, and runs that cannot be lost.
@@ -78,6 +79,26 @@ void expect_same_run(const fs::path& one, const fs::path& other)
       for (std::size_t k = 1; k < curve.size(); ++k)
         EXPECT_NEAR(std::stod(curve[k][column]), std::stod(other_curve[k][column]), 1e-8 * largest)
           << name << " in row " << k;
+    }
+
+  // The same volumes are kept for the report, whichever rank they were on.
+  std::vector<std::string> volumes, other_volumes;
+  for (const auto& [run, names] : {std::pair(&one, &volumes), {&other, &other_volumes}})
+    {
+      for (const auto& entry : fs::directory_iterator(*run / "points"))
+        names->push_back(entry.path().filename().string());
+      std::sort(names->begin(), names->end());
+    }
+  EXPECT_GE(volumes.size(), 4u); // grains and cracks of two at least
+  ASSERT_EQ(volumes, other_volumes);
+  for (const std::string& name : volumes)
+    {
+      const auto rows = table(one / "points" / name);
+      const auto other_rows = table(other / "points" / name);
+      ASSERT_EQ(rows.size(), other_rows.size()) << name;
+      for (std::size_t k = 1; name.ends_with("_grains.csv") && k < rows.size(); ++k)
+        for (std::size_t c = 0; c < 6; ++c) // at rest and as they are
+          EXPECT_NEAR(std::stod(rows[k][c]), std::stod(other_rows[k][c]), 1e-10) << name << " line " << k + 1;
     }
 }
 
