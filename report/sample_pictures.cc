@@ -508,8 +508,7 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
      .vector = false,
      .script =
        data +
-       "set size ratio -1\nset xlabel 'x from the point [mm]'; set ylabel 'y from the point [mm]'\nset xtics nomirror out; "
-       "set ytics "
+       "set size ratio -1\nset xlabel 'x from the point [mm]' offset 0,0.4; set ylabel 'y from the point [mm]'\nset tics "
        "nomirror out; set border 3\nset key below center horizontal maxcols 3 Left reverse samplen 1.5 "
        "width 1 noenhanced\n" +
        fmt::format("set xrange [{0:.4g}:{1:.4g}]; set yrange [{0:.4g}:{1:.4g}]\nset multiplot layout 1,{2}\n"
