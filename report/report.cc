@@ -575,8 +575,8 @@ std::vector<Table> volume_tables(const FinishedTest& test, const std::string& ti
   if (test.volumes.empty())
     return {};
   Table table{"volumes_" + test.name + ending,
-              fmt::format("{}, seed {}: the volumes that are drawn; `feldspar multiscale FOLDER --extract CELL:POINT` "
-                          "writes any of them for ParaView and `feldspar rve`",
+              fmt::format("{}, seed {}: the volumes that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
+                          "writes these or any other for ParaView and for feldspar rve",
                           title, test.record.seed),
               {"volume", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
               {}};
@@ -637,6 +637,7 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
                 continue;
               }
             PageBlock block;
+            block.subheading = title;
             block.pictures = book.keep(std::move(sample));
             append(block.pictures, book.keep(std::move(volumes)));
             if (block.pictures.empty())

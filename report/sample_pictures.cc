@@ -450,9 +450,13 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
   std::string plots;
   double reach = 0.0; // from a volume's point
   for (const PointVolume& volume : volumes)
-    for (const auto& grain : volume.grains)
-      for (std::size_t c = 0; c < 2; ++c)
-        reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+    for (std::size_t c = 0; c < 2; ++c)
+      {
+        for (const auto& grain : volume.grains)
+          reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+        for (const auto& crack : volume.cracks)
+          reach = std::max(reach, std::abs(crack.centroid[c] - volume.position[c]) + 0.5 * crack.size);
+      }
   reach *= 1.03 / milli;
   for (std::size_t k = 0; k < volumes.size(); ++k)
     {
@@ -500,7 +504,10 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
     }
   return {
     {.name = name,
-     .caption = caption + ". Coordinates are from the point that the volume stands for",
+     .caption =
+       caption +
+       ". Coordinates are from the point that the volume stands for; it is periodic, so that cracks at its rim go on at "
+       "the other side",
      .alternative = alternative,
      .width = 400 * int(volumes.size()),
      .height = 480,
