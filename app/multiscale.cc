@@ -51,6 +51,12 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
       text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
     else if (!test.record.ended_early.empty())
       text += fmt::format("{}: {}\n", test.name, test.record.ended_early);
+  for (const auto& test : tests)
+    if (const RankBalance& of_ranks = test.record.ranks; of_ranks.mean > 0.0)
+      text += fmt::format(
+        "{}: longest over mean time of the ranks {:.2f}, had no cell moved {:.2f}; cells were dealt out "
+        "anew {} times\n",
+        test.name, of_ranks.longest / of_ranks.mean, of_ranks.longest_unmoved / of_ranks.mean, of_ranks.n_moves);
   for (const auto& remark : remarks)
     text += remark + "\n";
   return text;

@@ -118,6 +118,10 @@ struct SampleTest::Parts
     archive.value("wanted_lateral_strain", wanted_width);
     transfer_flag(archive, "avalanche", avalanche);
     archive.value("n_cuts_for_breaks", n_cuts_for_breaks);
+    archive.value("rank_mean_s", record.ranks.mean);
+    archive.value("rank_longest_s", record.ranks.longest);
+    archive.value("rank_longest_unmoved_s", record.ranks.longest_unmoved);
+    archive.value("n_moves", record.ranks.n_moves);
     fem::StepControl::Standing standing_of_steps;
     if (steps)
       standing_of_steps = steps->standing();
@@ -200,6 +204,7 @@ struct SampleTest::Parts
             avalanche = false;
             n_cuts_for_breaks = 0;
             gather_cracks();
+            share_work();
             step_done();
             continue;
           }
@@ -224,6 +229,16 @@ struct SampleTest::Parts
           }
       }
     steps.reset();
+  }
+
+  void share_work()
+  {
+    const fem::Balance balance = body->rebalance();
+    RankBalance& ranks = record.ranks;
+    ranks.mean += balance.mean;
+    ranks.longest += balance.longest;
+    ranks.longest_unmoved += balance.longest_unmoved;
+    ranks.n_moves += balance.moved;
   }
 
   double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }

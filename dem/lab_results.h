@@ -167,6 +167,15 @@ struct SolverWork
   double seconds_in_points = 0.0; ///< of one core
 };
 
+/// How evenly the processes (ranks) of a test were at work in the volumes of its points, where there are several.
+struct RankBalance
+{
+  double mean = 0.0;            ///< of one rank on one core, up to the last step [s]
+  double longest = 0.0;         ///< sum over the steps, each of its longest rank [s]
+  double longest_unmoved = 0.0; ///< the same had no point moved to another rank
+  unsigned int n_moves = 0;     ///< times that points were dealt out anew
+};
+
 /// A laboratory test as it ran.
 struct TestRecord
 {
@@ -186,6 +195,7 @@ struct TestRecord
   double time_step = 0.0;    ///< the last one; NaN where there is no time [s]
   double bulk_density = 0.0; ///< [kg/m³]
   double wall_time = 0.0;    ///< [s]
+  RankBalance ranks;
   bool interrupted = false;
   std::string failure;     ///< why the test could not be made; empty if it could
   std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did

@@ -767,7 +767,7 @@ Balance Solid<dim, material_dim>::rebalance()
 {
   const std::size_t n_ranks = Utilities::MPI::n_mpi_processes(communicator());
   if (n_ranks == 1)
-    return {1.0, 1.0, false};
+    return {};
   // The cells of this rank as they lie along the curve that p4est cuts into pieces; the ranks' pieces follow each other.
   const auto& trees = mesh.triangulation->get_coarse_cell_to_p4est_tree_permutation();
   std::vector<std::pair<std::pair<types::global_dof_index, std::uint64_t>, std::size_t>> along_curve;
@@ -793,19 +793,26 @@ Balance Solid<dim, material_dim>::rebalance()
       everywhere.insert(everywhere.end(), of_rank.begin(), of_rank.end());
       cuts.push_back(everywhere.size());
     }
-  const double mean = std::accumulate(everywhere.begin(), everywhere.end(), 0.0) / double(n_ranks);
-  if (everywhere.size() < n_ranks || mean == 0.0)
-    return {1.0, 1.0, false};
+  if (cuts_at_first.empty())
+    cuts_at_first = cuts;
+  std::vector<double> of_late = everywhere;
+  for (std::size_t k = 0; k < seconds_before.size(); ++k)
+    of_late[k] -= seconds_before[k];
+  Balance balance;
+  balance.mean = std::accumulate(of_late.begin(), of_late.end(), 0.0) / double(n_ranks);
+  balance.longest = longest_share(of_late, cuts);
+  balance.longest_unmoved = longest_share(of_late, cuts_at_first);
 
   const auto weights = partition_weights(everywhere, n_ranks);
   const double longest = longest_share(everywhere, cuts);
   const double attainable = longest_share(everywhere, partition_cuts(weights, n_ranks));
   const auto n_threads = double(oneapi::tbb::this_task_arena::max_concurrency());
-  // As with skis: rent until the rent has come to the price. What the first move costs is not known; it is small.
+  // As with skis: rent until the rent has come to the price.
   constexpr double worth_while = 0.9;
   const bool pays = attainable < worth_while * longest && (longest - attainable) / n_threads > cost_of_moving;
-  const bool moved = Utilities::MPI::max(int(pays), communicator()) == 1;
-  if (moved)
+  balance.moved = Utilities::MPI::max(int(pays), communicator()) == 1;
+  seconds_before = balance.moved ? std::vector<double>() : everywhere;
+  if (balance.moved)
     {
       std::vector<unsigned int> weights_here(here.size());
       const std::size_t first = cuts[Utilities::MPI::this_mpi_process(communicator())];
@@ -815,7 +822,7 @@ Balance Solid<dim, material_dim>::rebalance()
       move_cells(weights_here);
       cost_of_moving = Utilities::MPI::max(timer.wall_time(), communicator());
     }
-  return {longest / mean, attainable / mean, moved};
+  return balance;
 }
 
 /// weights: of the cells of this rank.

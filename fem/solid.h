@@ -72,12 +72,13 @@ struct StoredSolid
   std::map<std::string, double> pressures; ///< the same on every rank
 };
 
-/// How evenly ranks are at work in their points.
+/// How long ranks were at work in their points since rebalance() was last called, on one core each [s].
 struct Balance
 {
-  double imbalance;  ///< the longest over the mean time of a rank since cells were last dealt out
-  double attainable; ///< were they dealt out anew
-  bool moved;        ///< they were
+  double mean = 0.0;
+  double longest = 0.0;
+  double longest_unmoved = 0.0; ///< had the cells never moved
+  bool moved = false;           ///< now
 };
 
 /// A body in quasi-static equilibrium, at small strain; docs/theory.md §9.
@@ -204,7 +205,9 @@ private:
   MaterialPoints<material_dim> points;
   std::vector<PointPlace> point_places;
   std::vector<double> point_volumes;
-  double cost_of_moving = 0.0; ///< the last time [s]
+  double cost_of_moving = 0.01;           ///< the last time, at first a guess [s]
+  std::vector<std::size_t> cuts_at_first; ///< of the curve through all cells, before any moved
+  std::vector<double> seconds_before;     ///< of each cell along the curve, up to the last rebalance()
 
   State accepted;
   State tried;

@@ -61,6 +61,10 @@ Json describe(const FinishedTest& test)
                            {"cascades", test.record.solver_work->n_cascades},
                            {"seconds_in_points", test.record.solver_work->seconds_in_points}};
   json["size_m"] = test.record.size;
+  if (const RankBalance& ranks = test.record.ranks; ranks.mean > 0.0)
+    json["ranks"] = {{"longest_over_mean", ranks.longest / ranks.mean},
+                     {"longest_over_mean_unmoved", ranks.longest_unmoved / ranks.mean},
+                     {"moves", ranks.n_moves}};
   for (const auto& entry : result_table())
     {
       write_figure(json, std::string(entry.name), entry.value(test));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,16 @@ TEST(SeveralRanks, BreakTheSameSegments)
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 4 --quiet --threads 1", mpirun(4)));
   expect_same_run(folder.path() / "1", folder.path() / "2");
   expect_same_run(folder.path() / "1", folder.path() / "4");
+  // The sample tears in one row of elements, whose ranks have nearly all the work until some of their cells move.
+  const auto ranks_of = [&](const char* run) {
+    std::ifstream in(folder.path() / run / "summary.json");
+    return nlohmann::json::parse(in)["tests"][0].value("ranks", nlohmann::json());
+  };
+  EXPECT_TRUE(ranks_of("1").is_null());
+  for (const char* run : {"2", "4"})
+    EXPECT_GE(ranks_of(run)["moves"], 1) << run;
+  EXPECT_GT(ranks_of("2")["longest_over_mean_unmoved"], 1.4);
+  EXPECT_LT(ranks_of("2")["longest_over_mean"], ranks_of("2")["longest_over_mean_unmoved"]);
   // The last two checkpoints, a part a rank.
   const auto kept = checkpoints(folder.path() / "4");
   ASSERT_EQ(kept.size(), 2u);
