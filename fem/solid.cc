@@ -92,6 +92,7 @@ template <int dim, int material_dim>
 void Solid<dim, material_dim>::set_up()
 {
   set_up_dofs();
+  place_on_curve();
   set_up_points();
 }
 
@@ -158,6 +159,7 @@ void Solid<dim, material_dim>::set_up_points()
       }
   accepted.strains.assign(points.size(), StrainVector<material_dim>::Zero());
   accepted.answers = points.trial(accepted.strains);
+  seconds_noted.assign(points.size() / n_points_per_cell(), 0.0);
 }
 
 template <int dim, int material_dim>
@@ -459,6 +461,7 @@ bool Solid<dim, material_dim>::update_points(State& state)
     {
       failed = true;
     }
+  note_round();
   return Utilities::MPI::max(int(failed), communicator()) == 0;
 }
 
@@ -597,6 +600,7 @@ NewtonReport Solid<dim, material_dim>::iterate()
             {
               point_failed = true;
             }
+          note_round();
           if (Utilities::MPI::max(int(point_failed), communicator()) == 1)
             return failed("a material point found no stable structure");
           n_events = Utilities::MPI::sum(n_events, communicator());
@@ -643,6 +647,7 @@ template <int dim, int material_dim>
 void Solid<dim, material_dim>::accept()
 {
   points.accept(tried.strains);
+  note_round();
   accepted = tried;
 }
 
@@ -763,46 +768,76 @@ bool Solid<dim, material_dim>::take(const std::vector<StoredCell>& cells)
 }
 
 template <int dim, int material_dim>
-Balance Solid<dim, material_dim>::rebalance()
+void Solid<dim, material_dim>::place_on_curve()
 {
-  const std::size_t n_ranks = Utilities::MPI::n_mpi_processes(communicator());
-  if (n_ranks == 1)
-    return {};
-  // The cells of this rank as they lie along the curve that p4est cuts into pieces; the ranks' pieces follow each other.
   const auto& trees = mesh.triangulation->get_coarse_cell_to_p4est_tree_permutation();
-  std::vector<std::pair<std::pair<types::global_dof_index, std::uint64_t>, std::size_t>> along_curve;
-  std::vector<double> seconds;
-  std::size_t point = 0;
+  std::vector<std::pair<types::global_dof_index, std::uint64_t>> places;
   for (const auto& cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      {
-        along_curve.push_back({{trees[cell->id().get_coarse_cell_id()], number_of(cell)}, seconds.size()});
-        seconds.push_back(0.0);
-        for (unsigned int q = 0; q < n_points_per_cell(); ++q, ++point)
-          seconds.back() += points.seconds()[point];
-      }
-  std::sort(along_curve.begin(), along_curve.end());
-  std::vector<double> here;
-  for (const auto& [place, cell] : along_curve)
-    here.push_back(seconds[cell]);
-
-  std::vector<double> everywhere;
-  std::vector<std::size_t> cuts{0};
-  for (const auto& of_rank : Utilities::MPI::all_gather(communicator(), here))
-    {
-      everywhere.insert(everywhere.end(), of_rank.begin(), of_rank.end());
-      cuts.push_back(everywhere.size());
-    }
+      places.emplace_back(trees[cell->id().get_coarse_cell_id()], number_of(cell));
+  along_curve.resize(places.size());
+  std::iota(along_curve.begin(), along_curve.end(), std::size_t(0));
+  std::sort(along_curve.begin(), along_curve.end(),
+            [&](const std::size_t one, const std::size_t other) { return places[one] < places[other]; });
+  // The ranks' pieces follow each other.
+  cuts = {0};
+  for (const std::size_t n : Utilities::MPI::all_gather(communicator(), places.size()))
+    cuts.push_back(cuts.back() + n);
   if (cuts_at_first.empty())
     cuts_at_first = cuts;
-  std::vector<double> of_late = everywhere;
-  for (std::size_t k = 0; k < seconds_before.size(); ++k)
-    of_late[k] -= seconds_before[k];
-  Balance balance;
-  balance.mean = std::accumulate(of_late.begin(), of_late.end(), 0.0) / double(n_ranks);
-  balance.longest = longest_share(of_late, cuts);
-  balance.longest_unmoved = longest_share(of_late, cuts_at_first);
+  rank_at_first.resize(places.size());
+  const std::size_t begin = cuts[Utilities::MPI::this_mpi_process(communicator())];
+  for (std::size_t k = 0; k < along_curve.size(); ++k)
+    rank_at_first[along_curve[k]] = static_cast<unsigned int>(
+      std::upper_bound(cuts_at_first.begin(), cuts_at_first.end(), begin + k) - cuts_at_first.begin() - 1);
+}
 
+template <int dim, int material_dim>
+double Solid<dim, material_dim>::seconds_of_cell(const std::size_t cell) const
+{
+  const auto begin = points.seconds().begin() + std::ptrdiff_t(cell * n_points_per_cell());
+  return std::accumulate(begin, begin + n_points_per_cell(), 0.0);
+}
+
+/// A round: every rank asks each of its points for something, and waits for the others.
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::note_round()
+{
+  rounds.push_back(0.0);
+  const std::size_t begin = rounds_at_first.size();
+  rounds_at_first.resize(begin + cuts.size() - 1, 0.0);
+  for (std::size_t cell = 0; cell < seconds_noted.size(); ++cell)
+    {
+      const double now = seconds_of_cell(cell);
+      rounds.back() += now - seconds_noted[cell];
+      rounds_at_first[begin + rank_at_first[cell]] += now - seconds_noted[cell];
+      seconds_noted[cell] = now;
+    }
+}
+
+template <int dim, int material_dim>
+Balance Solid<dim, material_dim>::rebalance()
+{
+  const std::size_t n_ranks = cuts.size() - 1;
+  Balance balance;
+  balance.mean =
+    Utilities::MPI::sum(std::accumulate(rounds.begin(), rounds.end(), 0.0), communicator()) / double(n_ranks);
+  std::vector<double> longest_of_rounds(rounds.size());
+  Utilities::MPI::max(rounds, communicator(), longest_of_rounds);
+  balance.longest = std::accumulate(longest_of_rounds.begin(), longest_of_rounds.end(), 0.0);
+  std::vector<double> of_ranks(rounds_at_first.size());
+  Utilities::MPI::sum(rounds_at_first, communicator(), of_ranks);
+  for (auto round = of_ranks.begin(); round != of_ranks.end(); round += std::ptrdiff_t(n_ranks))
+    balance.longest_unmoved += *std::max_element(round, round + std::ptrdiff_t(n_ranks));
+  rounds.clear();
+  rounds_at_first.clear();
+
+  std::vector<double> here;
+  for (const std::size_t cell : along_curve)
+    here.push_back(seconds_of_cell(cell));
+  std::vector<double> everywhere;
+  for (const auto& of_rank : Utilities::MPI::all_gather(communicator(), here))
+    everywhere.insert(everywhere.end(), of_rank.begin(), of_rank.end());
   const auto weights = partition_weights(everywhere, n_ranks);
   const double longest = longest_share(everywhere, cuts);
   const double attainable = longest_share(everywhere, partition_cuts(weights, n_ranks));
@@ -811,13 +846,12 @@ Balance Solid<dim, material_dim>::rebalance()
   constexpr double worth_while = 0.9;
   const bool pays = attainable < worth_while * longest && (longest - attainable) / n_threads > cost_of_moving;
   balance.moved = Utilities::MPI::max(int(pays), communicator()) == 1;
-  seconds_before = balance.moved ? std::vector<double>() : everywhere;
   if (balance.moved)
     {
       std::vector<unsigned int> weights_here(here.size());
       const std::size_t first = cuts[Utilities::MPI::this_mpi_process(communicator())];
       for (std::size_t k = 0; k < along_curve.size(); ++k)
-        weights_here[along_curve[k].second] = weights[first + k];
+        weights_here[along_curve[k]] = weights[first + k];
       const Timer timer;
       move_cells(weights_here);
       cost_of_moving = Utilities::MPI::max(timer.wall_time(), communicator());

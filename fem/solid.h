@@ -76,8 +76,8 @@ struct StoredSolid
 struct Balance
 {
   double mean = 0.0;
-  double longest = 0.0;
-  double longest_unmoved = 0.0; ///< had the cells never moved
+  double longest = 0.0;         ///< sum of the longest of each round, for which the others wait
+  double longest_unmoved = 0.0; ///< the same had the cells never moved
   bool moved = false;           ///< now
 };
 
@@ -174,6 +174,7 @@ private:
   void assemble_forces(State& state);
   void assemble_system(const State& state, const dealii::AffineConstraints<double>& constraints);
   bool update_points(State& state);
+  void note_round();
   void update_strains(State& state) const;
   NewtonReport iterate();
   std::optional<Vector> correction_by(const dealii::AffineConstraints<double>& asked);
@@ -188,6 +189,8 @@ private:
   std::vector<StoredCell> brought_home(const std::vector<StoredCell>& cells) const;
   bool take(const std::vector<StoredCell>& cells);
   void move_cells(const std::vector<unsigned int>& weights);
+  void place_on_curve();
+  double seconds_of_cell(std::size_t cell) const;
   double pressure_of(const State& state, dealii::types::boundary_id boundary) const;
   Vector owned_vector() const { return Vector(owned, communicator()); }
 
@@ -205,9 +208,17 @@ private:
   MaterialPoints<material_dim> points;
   std::vector<PointPlace> point_places;
   std::vector<double> point_volumes;
-  double cost_of_moving = 0.01;           ///< the last time, at first a guess [s]
-  std::vector<std::size_t> cuts_at_first; ///< of the curve through all cells, before any moved
-  std::vector<double> seconds_before;     ///< of each cell along the curve, up to the last rebalance()
+  // The curve through all cells that p4est cuts into pieces, one a rank.
+  std::vector<std::size_t> cuts;           ///< as partition_cuts() tells them
+  std::vector<std::size_t> cuts_at_first;  ///< before any cell moved
+  std::vector<std::size_t> along_curve;    ///< the cells of this rank in its order
+  std::vector<unsigned int> rank_at_first; ///< of each cell of this rank
+  double cost_of_moving = 0.01;            ///< the last time, at first a guess [s]
+  /// Since the last rebalance(), what all points of this rank took in each round, and thereof those of each rank's first
+  /// cells [s].
+  std::vector<double> rounds;
+  std::vector<double> rounds_at_first;
+  std::vector<double> seconds_noted; ///< of each cell of this rank, up to the last round
 
   State accepted;
   State tried;

@@ -62,8 +62,9 @@ Json describe(const FinishedTest& test)
                            {"seconds_in_points", test.record.solver_work->seconds_in_points}};
   json["size_m"] = test.record.size;
   if (const RankBalance& ranks = test.record.ranks; ranks.mean > 0.0)
-    json["ranks"] = {{"longest_over_mean", ranks.longest / ranks.mean},
-                     {"longest_over_mean_unmoved", ranks.longest_unmoved / ranks.mean},
+    json["ranks"] = {{"mean_s", ranks.mean},
+                     {"longest_s", ranks.longest},
+                     {"longest_unmoved_s", ranks.longest_unmoved},
                      {"moves", ranks.n_moves}};
   for (const auto& entry : result_table())
     {
