@@ -410,6 +410,33 @@ TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
     }
 }
 
+TEST(Benchmark, TheReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string readme = content(folder + "README.md");
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+  };
+  const auto queue = nlohmann::json::parse(content(folder + "results/rank-queue.json"));
+  for (const auto& [name, quantiles] : queue["costs_s"].items())
+    {
+      std::string row = "| " + name + " |";
+      for (const char* quantile : {"10 %", "50 %", "90 %", "99 %"})
+        row += fmt::format(" {:.3g} |", quantiles[quantile].get<double>() * 1e3);
+      shown(row);
+    }
+  for (const auto& run : queue["runs"])
+    if (const int cores = run["cores"]; cores == 4 || cores == 16 || cores == 64 || cores == 256 || cores >= 10000)
+      {
+        std::string row = fmt::format("| {} | {} |", run["volumes"].get<int>(), cores);
+        for (const char* policy : {"equal", "measured", "equal, 16 cores", "measured, 16 cores",
+                                   "measured, 16 cores, longest first", "queue", "bound"})
+          row +=
+            run["speed_up"].contains(policy) ? fmt::format(" {:.1f} |", run["speed_up"][policy].get<double>()) : " – |";
+        shown(row);
+      }
+}
+
 TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
 {
   const auto rules = volume_results("break-rules");
