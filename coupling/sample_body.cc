@@ -18,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -196,12 +195,6 @@ public:
     energies.released = sums[3];
     energies.damping = sums[4];
     return energies;
-  }
-
-  double seconds_in_points() const override
-  {
-    const auto& seconds = solid.material_points().seconds();
-    return dealii::Utilities::MPI::sum(std::accumulate(seconds.begin(), seconds.end(), 0.0), MPI_COMM_WORLD);
   }
 
   std::uint64_t n_damaged_points() const override

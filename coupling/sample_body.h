@@ -61,7 +61,6 @@ public:
   virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
   virtual Energies energies() const = 0;                      ///< NaN where there are none
   virtual std::uint64_t n_damaged_points() const = 0;
-  virtual double seconds_in_points() const = 0; ///< of one core, since the body was made
   /// None where the point is another rank's.
   virtual std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(std::uint64_t point) const = 0;
 

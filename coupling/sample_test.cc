@@ -36,7 +36,6 @@ struct SampleTest::Parts
   TestRecord record;
   std::function<void()> step_done;
   std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
-  double seconds_before = 0.0;           ///< in points, of the runs this one takes up
   bool may_widen = false;                ///< from the first avalanche or fall of the stress on
   bool widens = false;                   ///< lateral strain is what is controlled
   double wanted_width = 0.0;             ///< lateral strain of the row that is on its way
@@ -100,8 +99,6 @@ struct SampleTest::Parts
     archive.value("n_iterations", record.solver_work->n_iterations);
     archive.value("n_cascades", record.solver_work->n_cascades);
     archive.value("seconds_in_points", record.solver_work->seconds_in_points);
-    if constexpr (Archive::reads)
-      seconds_before = record.solver_work->seconds_in_points;
     archive.text("ended_early", record.ended_early);
     transfer_flag(archive, "came_apart", record.came_apart);
     archive.bytes("curve", record.curve);
@@ -234,6 +231,7 @@ struct SampleTest::Parts
   void share_work()
   {
     const fem::Balance balance = body->rebalance();
+    record.solver_work->seconds_in_points += balance.mean * ranks::number();
     RankBalance& ranks = record.ranks;
     ranks.mean += balance.mean;
     ranks.longest += balance.longest;
@@ -340,7 +338,6 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
                     record.came_apart ? "it came apart in an avalanche of breaks" : "no equilibrium was found",
                     100.0 * std::abs(parts->axial_strain()), failure.what());
     }
-  record.solver_work->seconds_in_points = parts->seconds_before + parts->body->seconds_in_points();
   parts->watch = nullptr;
   parts->step_done = nullptr;
   record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
