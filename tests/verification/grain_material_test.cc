@@ -1,4 +1,6 @@
 #include "coupling/grain_material.h"
+#include "fem/advance.h"
+#include "fem/platen_test.h"
 #include "fem/solid.h"
 #include "tests/unit/small_volume.h"
 
@@ -88,6 +90,41 @@ TYPED_TEST(GrainMaterials, ATurnedVolumeAnswersInTheAxesOfTheSample)
   const Tensor<dim> expected = turn * stress_tensor<dim>(of_volume) * turn.transpose();
   EXPECT_LT((stress_tensor<dim>(answer.stress) - expected).norm(), 1e-13 * expected.norm());
   EXPECT_LT((answer.tangent * strain - answer.stress).norm(), 1e-13 * answer.stress.norm()); // linear so far
+}
+
+// Between smooth platens a sample whose points all have the same volume strains evenly, each point with stress along the
+// axis only, until strain gathers somewhere: it follows the curve of the volume by itself under that control. Cascades run
+// at constant strain here, at constant stress sideways there, so that a break may fall into the next step.
+TEST(GrainMaterial, AHomogeneousSampleFollowsTheCurveOfItsVolume)
+{
+  std::size_t n_breaks = 0;
+  for (const double step : {4e-6, -1e-4})
+    {
+      const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+      RepresentativeVolume<2> bare(network, tight());
+      GrainMaterialParameters parameters;
+      parameters.random_orientation = false;
+      parameters.equilibrium = tight();
+      const auto mesh = fem::plane_sample(MPI_COMM_WORLD, 0.01, 0.02, {2, 4}, 0);
+      fem::Solid<2> sample(mesh, {.newton_tolerance = 1e-8}, grain_material<2>({network}, parameters));
+      double before = 0.0;
+      for (int k = 1; k <= 60; ++k) // or to where its stress falls
+        {
+          Control<2> control = strain_control<2>({0.0, k * step, 0.0});
+          control.stress_given = {true, false, true};
+          auto trial = bare.trial(control);
+          ASSERT_TRUE(trial.in_equilibrium);
+          if (std::abs(trial.state.stress[1]) < before)
+            break;
+          n_breaks += trial.breaks.size();
+          bare.accept(std::move(trial));
+          before = std::abs(bare.state().stress[1]);
+          fem::advance<2, 2>(sample, fem::PlatenTest<2>().pressing(k * step * 0.02), {1.0, 1e-3, 1.0});
+          EXPECT_NEAR(sample.reaction("top", 1) / 0.01, bare.state().stress[1], 5e-3 * before)
+            << step << " " << k << " " << n_breaks;
+        }
+    }
+  EXPECT_GT(n_breaks, 5u);
 }
 
 TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
