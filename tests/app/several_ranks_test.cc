@@ -34,10 +34,11 @@ const std::string pull = "subsection Specimen\n  set Shape = periodic\n  set Wid
 
 const std::string test_name = "direct_tension_seed_1";
 
-/// Assignments and launcher before the command. Idle ranks give way, as there may be fewer cores.
+/// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores.
 std::string mpirun(const unsigned int n_ranks)
 {
   return fmt::format("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
+                     "OMPI_MCA_mpi_yield_when_idle=1 "
                      "mpirun -np {} --oversubscribe",
                      n_ranks);
 }

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""How much faster two cores break a sample than one, and what cells that move bring.
+
+    python3 benchmarks/many_ranks.py build/release/app/feldspar    # writes results/many-ranks.json
+
+Fifty by a hundred millimetres of Beishan granite in 32 elements with 128 volumes of some 240 discs: pressed until every
+volume is damaged, on one thread, two threads and two ranks; and pulled until it has torn, on one, two and four ranks. Times
+by the clock mean nothing where other work goes on; processor time is that of all threads and ranks, also of those that wait.
+"""
+
+import csv
+import json
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+INPUT = """subsection Specimen
+  set Shape  = periodic
+  set Width  = 25 mm
+  set Height = 25 mm
+end
+subsection Sample
+  set Width            = 50 mm
+  set Height           = 100 mm
+  set Elements across  = 4
+  set Elements along   = 8
+  set Realisations     = 4
+  set Compression step = 1e-4
+  set Tension step     = 1e-5
+end
+subsection Tests
+  set List        = TEST
+  set Stop strain = STOP
+end
+"""
+SAMPLES = {"uniaxial_compression": "1.1e-3", "direct_tension": "2.4e-4"}
+RUNS = {  # ranks, threads
+    "uniaxial_compression": [(1, 1), (1, 2), (2, 1)],
+    "direct_tension": [(1, 1), (2, 1), (4, 1)],
+}
+ENVIRONMENT = os.environ | {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "HWLOC_COMPONENTS": "-gl",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+}
+
+
+def run(feldspar, folder, test, n_ranks, n_threads):
+    with open(os.path.join(folder, "sample.prm"), "w", encoding="utf-8") as file:
+        file.write(INPUT.replace("TEST", test).replace("STOP", SAMPLES[test]))
+    launcher = ["mpirun", "-np", str(n_ranks), "--oversubscribe"] if n_ranks > 1 else []
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(
+        launcher
+        + [feldspar, "multiscale", "sample.prm", "--quiet", "--force", "--output", "out", "--threads", str(n_threads)],
+        cwd=folder,
+        env=ENVIRONMENT,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        check=True,
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with open(os.path.join(folder, "out", "summary.json"), encoding="utf-8") as file:
+        of_test = json.load(file)["tests"][0]
+    with open(os.path.join(folder, "out", "cracks.csv"), encoding="utf-8") as file:
+        events = [row[:5] for row in csv.reader(file)]
+    return events, {
+        "test": test,
+        "ranks": n_ranks,
+        "threads": n_threads,
+        "n_events": len(events) - 1,
+        "steps": of_test["steps"],
+        "clock_s": round(of_test["wall_time_s"], 1),  # without volumes and report
+        "processor_s": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 1),
+        "in_volumes": of_test["ranks"],
+    }
+
+
+def main():
+    feldspar = os.path.abspath(sys.argv[1])
+    folder = tempfile.mkdtemp(prefix="many-ranks-")
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        processor = next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
+    result = {"processor": processor, "n_processors": os.cpu_count(), "runs": []}
+    for test, runs in RUNS.items():
+        for n_ranks, n_threads in runs:
+            events, one = run(feldspar, folder, test, n_ranks, n_threads)
+            one["load"] = round(os.getloadavg()[0], 1)
+            if n_ranks * n_threads == 1:
+                alone, events_alone = one, events
+                # Of the whole command, volumes and report too: as if no other core took a share of it.
+                rest = alone["processor_s"] - alone["in_volumes"]["mean_s"]
+            one["same_events"] = events == events_alone
+            if n_threads == 1:
+                one["speed_up_by_processor_time"] = round(
+                    (rest + alone["in_volumes"]["mean_s"]) / (rest + one["in_volumes"]["longest_s"]), 2
+                )
+            result["runs"].append(one)
+            print(one, flush=True)
+    with open(os.path.join(HERE, "results", "many-ranks.json"), "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=1)
+        file.write("\n")
+    shutil.rmtree(folder)
+
+
+main()
