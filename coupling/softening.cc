@@ -128,6 +128,7 @@ void SofteningPoint<dim>::look_whether_localised(const Voigt<dim>& strain, const
   at_work.inelastic_strain = strain - compliance * stress;
   at_work.energies = inner->energies().value_or(fem::PointEnergies{});
   at_work.elastic_energy = 0.5 * stress.dot(compliance * stress);
+  at_work.elastic_strain = (compliance * stress).norm();
   nearby = strain;
 }
 
@@ -162,6 +163,7 @@ void SofteningPoint<dim>::State::transfer(Archive& archive)
   transfer_flag(archive, "", localised);
   archive.value("", energies);
   archive.value("", elastic_energy);
+  archive.value("", elastic_strain);
 }
 
 template <int dim>
@@ -193,7 +195,8 @@ template <int dim>
 std::vector<double> SofteningPoint<dim>::fields() const
 {
   std::vector<double> values = inner->fields();
-  values.push_back(accepted.localised ? 1.0 : 0.0);
+  const Voigt<dim> since = accepted.strain - compliance * accepted.stress - accepted.inelastic_strain;
+  values.push_back(accepted.localised && since.norm() > accepted.elastic_strain ? 1.0 : 0.0);
   return values;
 }
 

@@ -34,6 +34,8 @@ public:
   void reject() override;
   std::string stored() const override;
   void restore(const std::string& stored) override;
+  /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
+  /// a break in a small volume may let the stress fall for a moment.
   std::vector<double> fields() const override;
   /// Of the piece: what the volume lost after it localised counts 1/κ times.
   std::optional<fem::PointEnergies> energies() const override;
@@ -53,6 +55,7 @@ private:
     Voigt<dim> inelastic_strain = Voigt<dim>::Zero(); ///< ε_i0
     fem::PointEnergies energies{};                    ///< of the volume, when it localised
     double elastic_energy = 0.0;                      ///< ½ σ S_0 σ then [J/m³]
+    double elastic_strain = 0.0;                      ///< |S_0 σ| then
 
     template <typename Archive>
     void transfer(Archive& archive);
