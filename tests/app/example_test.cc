@@ -435,6 +435,20 @@ TEST(Benchmark, TheReadmeShowsTheCommittedResults)
             run["speed_up"].contains(policy) ? fmt::format(" {:.1f} |", run["speed_up"][policy].get<double>()) : " – |";
         shown(row);
       }
+  for (const auto& run : nlohmann::json::parse(content(folder + "results/many-ranks.json"))["runs"])
+    {
+      const auto& of_ranks = run["in_volumes"];
+      const double mean = of_ranks["mean_s"];
+      shown(fmt::format("| {} | {} | {} | {:.1f} | {:.2f} | {:.2f} | {} | {} |",
+                        run["test"] == "direct_tension" ? "pulled" : "pressed", run["ranks"].get<int>(),
+                        run["threads"].get<int>(), run["processor_s"].get<double>(),
+                        of_ranks["longest_unmoved_s"].get<double>() / mean, of_ranks["longest_s"].get<double>() / mean,
+                        of_ranks["moves"].get<int>(),
+                        run.contains("speed_up_by_processor_time")
+                          ? fmt::format("{:.2f}", run["speed_up_by_processor_time"].get<double>())
+                          : "–"));
+      EXPECT_TRUE(run["same_events"]);
+    }
 }
 
 TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
