@@ -449,6 +449,15 @@ TEST(Benchmark, TheReadmeShowsTheCommittedResults)
                           : "–"));
       EXPECT_TRUE(run["same_events"]);
     }
+  const auto kills = nlohmann::json::parse(content(folder + "results/kill-study.json"))["kills"];
+  EXPECT_EQ(kills.size(), 10u);
+  for (const auto& kill : kills)
+    for (const auto& resumed : kill["resumed"])
+      {
+        EXPECT_TRUE(resumed["same_events"]);
+        EXPECT_LE(resumed["curve_difference"], 1e-8);
+        EXPECT_LE(resumed["field_difference"], 1e-8);
+      }
 }
 
 TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
