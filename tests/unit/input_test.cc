@@ -124,6 +124,8 @@ subsection Sample
   set Elements along = 6
   set Order = 2
   set Platens = rough
+  set Control past the peak = lateral strain
+  set Softening = as it is
   set Realisations = 5
   set Orientation = fixed
   set Compression step = 3e-5
@@ -276,6 +278,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_TRUE(input.sample.reduced_quadrature);
   EXPECT_EQ(input.sample.order, 2u);
   EXPECT_TRUE(input.sample.rough_platens);
+  EXPECT_TRUE(input.sample.widened_past_peak);
+  EXPECT_FALSE(input.sample.scaled_softening);
   EXPECT_EQ(input.sample.n_realisations, 5u);
   EXPECT_FALSE(input.sample.random_orientation);
   EXPECT_EQ(input.sample.compression_step, 3e-5);
