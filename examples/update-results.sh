@@ -15,7 +15,8 @@ studies=("$@")
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d}
-  multiscale-beishan/beishan
+  multiscale-beishan/{beishan,demo}
+  multiscale-beishan-cylinder/{tension,cylinder}
 )
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)

@@ -380,6 +380,18 @@ TEST(Example, TheVolumesReadmeShowsTheCommittedResultsInSpace)
     }
 }
 
+/// Iterations and cascades a step, seconds of a core in all volumes and milliseconds for an update of one.
+std::string shown_work(const nlohmann::json& test, const int n_points)
+{
+  const auto& work = test["solver_work"];
+  const double steps = test["steps"];
+  const double iterations = work["iterations"];
+  const double cascades = work["cascades"];
+  const double seconds = work["seconds_in_points"];
+  return fmt::format("{:.1f} | {:.1f} | {:.0f} | {:.2g}", iterations / steps, cascades / steps, seconds,
+                     1e3 * seconds / ((iterations + cascades) * n_points));
+}
+
 TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-beishan/";
@@ -408,6 +420,40 @@ TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
       const std::string costs = fmt::format("| {} | {:.0f} | {:.2g} |", name, steps, seconds / steps);
       EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
     }
+
+  const auto demo = nlohmann::json::parse(content(folder + "results/demo.json"));
+  for (const auto& [name, test] :
+       {std::pair("direct tension", demo["tests"][0]), {"uniaxial compression", demo["tests"][1]}})
+    {
+      const std::string costs = fmt::format("| {} | {} | {} |", name, test["steps"].get<int>(), shown_work(test, 32));
+      EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+      EXPECT_NE(readme.find(fmt::format("| {} | {:.1f}, ", name, test["peak_stress_Pa"].get<double>() / 1e6)),
+                std::string::npos)
+        << "another peak than that of three samples";
+    }
+}
+
+TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-beishan-cylinder/";
+  const std::string readme = content(folder + "README.md");
+  double moduli[2];
+  for (int k = 0; k < 2; ++k)
+    {
+      const char* const study = k == 0 ? "tension" : "cylinder";
+      const auto test = nlohmann::json::parse(content(folder + "results/" + study + ".json"))["tests"][0];
+      moduli[k] = test["youngs_modulus_initial_Pa"];
+      const char* const name = k == 0 ? "section, `tension.prm`" : "whole, `cylinder.prm`";
+      const std::string row =
+        fmt::format("| {} | {:.1f} | {:.2f} | {:.1f} |", name, test["peak_stress_Pa"].get<double>() / 1e6,
+                    test["strain_at_peak"].get<double>() * 1e4, moduli[k] / 1e9);
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      const int n_points = k == 0 ? 64 : 200;
+      const std::string costs =
+        fmt::format("| {} | {} | {} | {} |", name, n_points, test["steps"].get<int>(), shown_work(test, n_points));
+      EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+    }
+  EXPECT_NEAR(moduli[1], moduli[0], 0.02 * moduli[0]); // before anything breaks, of different packings
 }
 
 TEST(Benchmark, TheReadmeShowsTheCommittedResults)

@@ -176,7 +176,8 @@ TYPED_TEST(Volumes, IntactTangentIsThatOfFiniteDifferences)
   Stiffness<dim> differences;
   for (int k = 0; k < n_voigt<dim>; ++k)
     differences.col(k) = volume.trial(Voigt<dim>(step * Voigt<dim>::Unit(k))).state.stress / step;
-  EXPECT_LT(relative(volume.trial(Voigt<dim>(Voigt<dim>::Zero()), Bonds::frozen, true).tangent->value, differences), 1e-12);
+  EXPECT_LT(relative(volume.trial(Voigt<dim>(Voigt<dim>::Zero()), Bonds::frozen, true).tangent->value, differences),
+            1e-12);
 }
 
 TEST(Volume, GrainsThatNothingJoinsComeToRestWhenTheyAreHit)
