@@ -437,6 +437,11 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-beishan-cylinder/";
   const std::string readme = content(folder + "README.md");
+  const auto piece = nlohmann::json::parse(content(folder + "results/published-size.json"))["tests"][0];
+  const std::string costs_of_piece = fmt::format("| first steps of `published-size.prm` | 8192 | {} | {} |",
+                                                 piece["steps"].get<int>(), shown_work(piece, 8192));
+  EXPECT_NE(readme.find("\n" + costs_of_piece), std::string::npos) << "missing: " << costs_of_piece;
+  EXPECT_NE(readme.find(fmt::format("{} broken segments", piece["n_tension_cracks"].get<int>())), std::string::npos);
   double moduli[2];
   for (int k = 0; k < 2; ++k)
     {
