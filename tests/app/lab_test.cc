@@ -194,11 +194,11 @@ TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
   // Until there is a run to be taken up; on a busy machine that may take longer.
   for (double time = 0.5; !fs::exists(folder.path() / "broken/run.json"); time *= 1.3)
     run_feldspar(folder.path(), "lab rock.prm --output broken --force --quiet",
-                 fmt::format("timeout --signal=KILL {}", time));
+                 fmt::format("timeout --foreground --signal=KILL {}", time));
   int n_kills = 1;
   for (; n_kills < 10 && !complete(); ++n_kills)
     run_feldspar(folder.path(), "lab --resume broken --quiet",
-                 fmt::format("timeout --signal=KILL {}", 0.3 + 0.05 * double(random() % 10)));
+                 fmt::format("timeout --foreground --signal=KILL {}", 0.3 + 0.05 * double(random() % 10)));
   EXPECT_GE(n_kills, 3);
   ASSERT_EQ(run_feldspar(folder.path(), "lab --resume broken --quiet").exit_code, 0);
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
@@ -220,7 +220,7 @@ TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
   // Killed once there are two checkpoints of one test and one of another, and before they are gone again.
   for (double time = 0.6; !(fs::exists(torn) && fs::exists(before) && fs::exists(foreign)) && time < 30.0; time += 0.15)
     run_feldspar(folder.path(), "lab rock.prm --output broken --force --quiet",
-                 fmt::format("timeout --signal=KILL {}", time));
+                 fmt::format("timeout --foreground --signal=KILL {}", time));
   ASSERT_TRUE(fs::exists(torn) && fs::exists(before) && fs::exists(foreign));
   fs::copy_file(torn, foreign, fs::copy_options::overwrite_existing);
   fs::resize_file(torn, fs::file_size(torn) / 2);
@@ -516,7 +516,8 @@ TEST(Lab, EndsCleanlyOnInterrupt)
   folder.write("large.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 40 mm\nend\n"
                             "subsection Tests\n  set List = uniaxial_compression\n"
                             "  set Compression strain rate = 0.01 1/s\nend\n");
-  const auto outcome = run_feldspar(folder.path(), "lab large.prm", "timeout --signal=INT --preserve-status 8");
+  const auto outcome =
+    run_feldspar(folder.path(), "lab large.prm", "timeout --foreground --signal=INT --preserve-status 8");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.error.find("interrupted"), std::string::npos) << outcome.error;
   const auto json = summary(folder.path() / "large-results-001");

@@ -155,7 +155,7 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
                        "sleep 0.1\nkill -KILL $!\n");
   run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "broken/summary.json")); // else it was not killed on its way
-  run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --signal=KILL 0.6");
+  run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --foreground --signal=KILL 0.6");
   const auto last = run_feldspar(folder.path(), "multiscale --resume broken --quiet");
   ASSERT_EQ(last.exit_code, 0) << last.error;
   for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})

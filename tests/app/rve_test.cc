@@ -322,7 +322,7 @@ TEST(Rve, InterruptedAndResumedGivesTheBitsOfTheUnbrokenRun)
       // Until it is stopped on its path and not while the specimen is made; on a busy machine that may take longer.
       for (double time = 0.1; !fs::exists(checkpoint) && !is_complete(); time *= 1.15)
         run_feldspar(folder.path(), "rve cell.prm --output broken --force --quiet",
-                     fmt::format("timeout --signal=INT {}", time));
+                     fmt::format("timeout --foreground --signal=INT {}", time));
       ASSERT_TRUE(fs::exists(checkpoint)) << solver;
       const auto n_rows_before = read_table(folder.path() / "broken/curves/rve.csv")["strain_yy"].size();
       ASSERT_EQ(run_feldspar(folder.path(), "rve --resume broken --quiet").exit_code, 0);
