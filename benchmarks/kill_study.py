@@ -23,6 +23,8 @@ import time
 import h5py
 import numpy
 
+from on_ranks import ENVIRONMENT, launcher
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 NAME = "uniaxial_compression_seed_1"
 # Eight elements of 12 mm with volumes of some 75 discs. Tolerances are far below what is compared.
@@ -48,18 +50,11 @@ subsection Tests
   set Stop strain = 1.2e-3
 end
 """
-ENVIRONMENT = os.environ | {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "HWLOC_COMPONENTS": "-gl",
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-}
 
 
 def start(feldspar, n_ranks, arguments, folder):
-    launcher = ["mpirun", "-np", str(n_ranks), "--oversubscribe"] if n_ranks > 1 else []
     return subprocess.Popen(
-        launcher + [feldspar, "multiscale", "--quiet", "--threads", "1"] + arguments,
+        launcher(n_ranks) + [feldspar, "multiscale", "--quiet", "--threads", "1"] + arguments,
         cwd=folder,
         env=ENVIRONMENT,
         stdin=subprocess.DEVNULL,

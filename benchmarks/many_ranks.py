@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 
+from on_ranks import ENVIRONMENT, launcher
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUT = """subsection Specimen
   set Shape  = periodic
@@ -43,21 +45,14 @@ RUNS = {  # ranks, threads
     "uniaxial_compression": [(1, 1), (1, 2), (2, 1)],
     "direct_tension": [(1, 1), (1, 2), (2, 1), (4, 1)],
 }
-ENVIRONMENT = os.environ | {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "HWLOC_COMPONENTS": "-gl",
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-}
 
 
 def run(feldspar, folder, test, n_ranks, n_threads):
     with open(os.path.join(folder, "sample.prm"), "w", encoding="utf-8") as file:
         file.write(INPUT.replace("TEST", test).replace("STOP", SAMPLES[test]))
-    launcher = ["mpirun", "-np", str(n_ranks), "--oversubscribe"] if n_ranks > 1 else []
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(
-        launcher
+        launcher(n_ranks)
         + [feldspar, "multiscale", "sample.prm", "--quiet", "--force", "--output", "out", "--threads", str(n_threads)],
         cwd=folder,
         env=ENVIRONMENT,
@@ -94,15 +89,9 @@ def main():
             one["load"] = round(os.getloadavg()[0], 1)
             if n_ranks * n_threads == 1:
                 alone, events_alone = one, events
-                # Of the whole command, volumes and report too: as if no other core took a share of it.
-                rest = alone["processor_s"] - alone["in_volumes"]["mean_s"]
             one["same_events"] = events == events_alone
             if n_ranks * n_threads <= os.cpu_count():
                 one["speed_up_by_clock"] = round(alone["clock_s"] / one["clock_s"], 2)
-            if n_threads == 1:
-                one["speed_up_by_processor_time"] = round(
-                    (rest + alone["in_volumes"]["mean_s"]) / (rest + one["in_volumes"]["longest_s"]), 2
-                )
             result["runs"].append(one)
             print(one, flush=True)
     with open(os.path.join(HERE, "results", "many-ranks.json"), "w", encoding="utf-8") as file:

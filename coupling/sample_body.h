@@ -27,7 +27,8 @@ struct SampleSetUp
   std::function<void(const fem::NewtonReport&)> watch; ///< as SolidParameters::watch
 };
 
-/// Between platens, the sides under a confining pressure. Changes on accept() only, and every query is about the accepted state.
+/// Between platens, the sides under a confining pressure. Changes on accept() only, and every query is about
+/// the accepted state.
 class SampleBody
 {
 public:
@@ -72,8 +73,8 @@ public:
   virtual void restore(const fem::StoredSolid& stored) = 0;
 };
 
-/// With volumes of these realisations dealt to its points by the seed. Throws std::invalid_argument where they are not of the dimension
-/// that the geometry needs.
+/// With volumes of these realisations dealt to its points by the seed. Throws std::invalid_argument where they
+/// are not of the dimension that the geometry needs.
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,

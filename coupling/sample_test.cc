@@ -36,7 +36,6 @@ struct SampleTest::Parts
   TestRecord record;
   std::function<void()> step_done;
   std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
-  bool may_widen = false;                ///< from the first avalanche or fall of the stress on
   bool widens = false;                   ///< lateral strain is what is controlled
   double wanted_width = 0.0;             ///< lateral strain of the row that is on its way
   bool avalanche = false;                ///< the next of these steps may break as much as it likes
@@ -152,10 +151,8 @@ struct SampleTest::Parts
   /// To the next row.
   void load()
   {
-    const bool in_tension = test.kind == TestKind::direct_tension;
-    const double step = in_tension ? sample.tension_step : sample.compression_step;
-    may_widen = sample.widened_past_peak && !in_tension;
-    widens = widens || (may_widen && stress_falls());
+    const double step = test.kind == TestKind::direct_tension ? sample.tension_step : sample.compression_step;
+    widens = widens || (may_widen() && stress_falls());
     if (!widens)
       {
         const double top = height_at_seating + sign() * step * double(record.curve.size()) * size.height;
@@ -168,6 +165,9 @@ struct SampleTest::Parts
         go([=, this](const double fraction) { return body->widen(wanted_width, fraction); });
       }
   }
+
+  /// From the first avalanche or fall of the stress on.
+  bool may_widen() const { return seated && sample.widened_past_peak && test.kind != TestKind::direct_tension; }
 
   bool stress_falls() const
   {
@@ -216,9 +216,9 @@ struct SampleTest::Parts
         if (!breaks_too_much)
           continue;
         avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
-        if (avalanche && may_widen && !widens)
+        if (avalanche && may_widen() && !widens)
           {
-            // With the sides held there may be none.
+            // At a held width there may be none.
             widens = true;
             avalanche = false;
             n_cuts_for_breaks = 0;

@@ -60,8 +60,8 @@ public:
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
-  /// At the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError where there is no such point,
-  /// or no grains.
+  /// At the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError
+  /// where there is no such point, or no grains.
   template <int dim>
   SampleVolume<dim> volume_at(unsigned int cell, unsigned int point) const;
   /// The same of a point by its number, as cracks name it; none where it is another rank's. Not collective; there are

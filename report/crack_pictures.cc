@@ -265,17 +265,7 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
         fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
                     quoted(all_stages[s].title), s, light_grey);
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
-        {
-          const bool in_tension = kind == CrackKind::tension;
-          const std::string rows = stage_rows(record, kind, all_stages[s]);
-          const auto n = std::count(rows.begin(), rows.end(), '\n');
-          if (n == 0)
-            continue;
-          const std::string block = fmt::format("${}{}", in_tension ? "tension" : "shear", s);
-          data += fmt::format("{} << EOD\n{}EOD\n", block, rows);
-          plots += fmt::format(", {} with vectors nohead lw 1.8 lc rgb '{}' title '{}: {}'", block,
-                               in_tension ? tension_colour : shear_colour, in_tension ? "tension" : "shear", n);
-        }
+        add_cracks(data, plots, s, kind, stage_rows(record, kind, all_stages[s]), 1.8);
       plots += "\n";
     }
   const auto [width, height] = panel_size(frame);

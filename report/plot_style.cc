@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -36,6 +37,19 @@ std::string frame(const std::string& x_label, const std::string& y_label)
 std::string title(const std::string& text)
 {
   return text.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(text));
+}
+
+void add_cracks(std::string& data, std::string& plots, const std::size_t n, const CrackKind kind,
+                const std::string& rows, const double line_width)
+{
+  const auto n_cracks = std::count(rows.begin(), rows.end(), '\n');
+  if (n_cracks == 0)
+    return;
+  const bool in_tension = kind == CrackKind::tension;
+  const char* const name = in_tension ? "tension" : "shear";
+  data += fmt::format("${}{} << EOD\n{}EOD\n", name, n, rows);
+  plots += fmt::format(", ${}{} with vectors nohead lw {} lc rgb '{}' title '{}: {}'", name, n, line_width,
+                       in_tension ? tension_colour : shear_colour, name, n_cracks);
 }
 
 std::string file_name(const std::string& label)

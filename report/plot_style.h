@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/lab_results.h"
 #include "report/series.h"
 
 #include <string>
@@ -39,6 +40,10 @@ std::string frame(const std::string& x_label, const std::string& y_label);
 
 /// `title` for the key of a plot, or none.
 std::string title(const std::string& text);
+
+/// Adds the cracks of one kind to the n-th of several plots, their rows `x y dx dy` to its data; none, nothing.
+void add_cracks(std::string& data, std::string& plots, std::size_t n, CrackKind kind, const std::string& rows,
+                double line_width);
 
 /// A name for files out of a label.
 std::string file_name(const std::string& label);

@@ -479,7 +479,6 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
         }
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
         {
-          const bool in_tension = kind == CrackKind::tension;
           std::string rows;
           for (const auto& crack : volumes[k].cracks)
             if (crack.kind == kind)
@@ -490,13 +489,7 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
                                (crack.centroid[0] - centre[0] - 0.5 * dx) / milli,
                                (crack.centroid[1] - centre[1] - 0.5 * dy) / milli, dx / milli, dy / milli);
               }
-          const auto n = std::count(rows.begin(), rows.end(), '\n');
-          if (n == 0)
-            continue;
-          const std::string block = fmt::format("${}{}", in_tension ? "tension" : "shear", k);
-          data += fmt::format("{} << EOD\n{}EOD\n", block, rows);
-          plots += fmt::format(", {} with vectors nohead lw 2.2 lc rgb '{}' title '{}: {}'", block,
-                               in_tension ? tension_colour : shear_colour, in_tension ? "tension" : "shear", n);
+          add_cracks(data, plots, k, kind, rows, 2.2);
         }
       if (volumes[k].cracks.empty())
         plots += ", NaN with lines lc rgb '#ffffff' title 'nothing broken'";

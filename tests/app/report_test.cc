@@ -414,16 +414,22 @@ std::string sample_input(const std::string& specimen, const std::string& sample)
          "  set Stop strain = 2.5e-4\nend\n";
 }
 
+/// The words of its report; the run is out.
+std::string words_of_pulled(const TemporaryFolder& folder, const std::string& specimen, const std::string& sample)
+{
+  folder.write("pull.prm", sample_input(specimen, sample));
+  const auto run = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet");
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+  return words_of(folder.path() / "out/report.html");
+}
+
 TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsVolumes)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", sample_input("  set Width = 14 mm\n  set Height = 14 mm\n",
-                                        "  set Width = 24 mm\n  set Height = 48 mm\n  set Elements across = 2\n"
-                                        "  set Elements along = 4\n"));
-  const auto run = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet");
-  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const std::string words = words_of_pulled(folder, "  set Width = 14 mm\n  set Height = 14 mm\n",
+                                            "  set Width = 24 mm\n  set Height = 48 mm\n  set Elements across = 2\n"
+                                            "  set Elements along = 4\n");
   const fs::path page = folder.path() / "out/report.html";
-  const std::string words = words_of(page);
   for (const char* const wanted :
        {"The sample at its end", "share of the segments that are broken, in each cell, at the end",
         "Letters: the volumes drawn below", "the volumes that are drawn", "A, most damaged", "cell:point"})
@@ -474,12 +480,9 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsVolumes)
 TEST(ReportOfASample, CutsACylinderAndDrawsItsVolumesInSpace)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", sample_input("  set Dimension = 3\n  set Width = 6 mm\n  set Height = 6 mm\n",
-                                        "  set Geometry = axisymmetric\n  set Width = 12 mm\n  set Height = 24 mm\n"
-                                        "  set Elements across = 1\n  set Elements along = 2\n"));
-  const auto run = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet");
-  ASSERT_EQ(run.exit_code, 0) << run.error;
-  const std::string words = words_of(folder.path() / "out/report.html");
+  const std::string words = words_of_pulled(folder, "  set Dimension = 3\n  set Width = 6 mm\n  set Height = 6 mm\n",
+                                            "  set Geometry = axisymmetric\n  set Width = 12 mm\n  set Height = 24 mm\n"
+                                            "  set Elements across = 1\n  set Elements along = 2\n");
   EXPECT_NE(words.find("The left half is the mirror image of the right"), std::string::npos);
   EXPECT_NE(words.find("Grains behind the mid-plane"), std::string::npos);
   EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
