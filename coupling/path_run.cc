@@ -86,7 +86,7 @@ PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<P
     {
       body.restore(*begin);
       forces = link_forces(body.network(), body.state());
-      add_sample(*begin, 0.0);
+      add(look_at(*begin, *begin, 0.0));
     }
   else
     path_record.samples.emplace_back();
@@ -132,6 +132,24 @@ void PathRun<dim>::advance()
         ++cuts;
       return;
     }
+  auto look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+  // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
+  // through the volume: then the same from a more exact beginning to a more exact end.
+  TrialOptions<dim> exacter;
+  for (int k = 0; k < 3 && look.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
+    {
+      exacter.share_of_tolerance *= 0.1;
+      auto beginning = body.trial(control_at(position), exacter);
+      if (!beginning.in_equilibrium || !beginning.breaks.empty())
+        break;
+      body.accept(std::move(beginning));
+      forces = link_forces(body.network(), body.state());
+      auto again = body.trial(control_at(position + increment), exacter);
+      if (!again.in_equilibrium)
+        break;
+      trial = std::move(again);
+      look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+    }
   for (const auto& event : trial.breaks)
     {
       const std::uint32_t joint = body.network().link_of_segment(event.segment);
@@ -139,10 +157,8 @@ void PathRun<dim>::advance()
                                     event.segment - body.network().links()[joint].first_segment, event.in_tension,
                                     event.released_energy});
     }
-  const double unbalanced_ratio = trial.unbalanced_ratio;
-  const NetworkState<dim> before = body.state();
   body.accept(std::move(trial));
-  add_sample(before, unbalanced_ratio);
+  add(std::move(look));
 
   position += increment;
   if (cuts > 0 && position % (2 * longest) == 0)
@@ -154,14 +170,15 @@ void PathRun<dim>::advance()
     }
 }
 
+/// A state that follows the one before, whose link forces are `forces`.
 template <int dim>
-void PathRun<dim>::add_sample(const NetworkState<dim>& before, const double unbalanced_ratio)
+typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state, const NetworkState<dim>& before,
+                                                  const double unbalanced_ratio) const
 {
-  const NetworkState<dim>& state = body.state();
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
-  auto forces_now = equilibrium.link_forces();
-
-  PathSample<dim> sample;
+  Look look;
+  look.forces = equilibrium.link_forces();
+  auto& sample = look.sample;
   sample.strain = as_array<dim>(state.strain);
   sample.stress = as_array<dim>(state.stress);
   sample.n_tension_cracks = state.n_tension_breaks;
@@ -169,13 +186,19 @@ void PathRun<dim>::add_sample(const NetworkState<dim>& before, const double unba
   sample.work = state.work;
   sample.stored_energy = equilibrium.stored_energy();
   sample.unbalanced_ratio = unbalanced_ratio;
-  sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, forces_now);
-  const Tensor<dim> stress = branch_stress(body.network(), forces_now);
+  sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, look.forces);
+  const Tensor<dim> stress = branch_stress(body.network(), look.forces);
   if (const double size = stress.norm(); size > 0.0)
-    sample.boundary_stress_error = (boundary_stress(body.network(), forces_now) - stress).norm() / size;
+    sample.boundary_stress_error = (boundary_stress(body.network(), look.forces) - stress).norm() / size;
   sample.crack_density = crack_measures(body.network(), state).density;
-  path_record.samples.push_back(sample);
-  forces = std::move(forces_now);
+  return look;
+}
+
+template <int dim>
+void PathRun<dim>::add(Look&& look)
+{
+  path_record.samples.push_back(look.sample);
+  forces = std::move(look.forces);
 }
 
 template <int dim>

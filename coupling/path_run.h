@@ -117,7 +117,13 @@ public:
 private:
   void begin_leg();
   Control<dim> control_at(const std::uint64_t place) const { return course.at(double(place) / double(length)); }
-  void add_sample(const NetworkState<dim>& before, double unbalanced_ratio);
+  struct Look
+  {
+    PathSample<dim> sample;
+    std::vector<Motion<dim>> forces; ///< of the links
+  };
+  Look look_at(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio) const;
+  void add(Look&& look);
   template <typename Archive>
   void transfer(Archive& archive);
 

@@ -63,7 +63,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       auto overloads = may_break && trial.in_equilibrium ? equilibrium.overloads() : std::vector<Overload>();
       if (overloads.empty() && trial.in_equilibrium)
         {
-          trial.in_equilibrium = equilibrium.relax(control, parameters.final_tolerance);
+          trial.in_equilibrium = equilibrium.relax(control, options.share_of_tolerance * parameters.final_tolerance);
           if (may_break && trial.in_equilibrium)
             overloads = equilibrium.overloads();
         }

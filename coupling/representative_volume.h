@@ -55,6 +55,7 @@ struct TrialOptions
   std::shared_ptr<const FactorisedNetwork<dim>> factorised;
   /// Of an earlier trial, handed out again where the states are the same.
   std::optional<Tangent<dim>> tangent{};
+  double share_of_tolerance = 1.0; ///< of the final one, up to which the forces may stay unbalanced
 };
 
 /// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
