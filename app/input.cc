@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -177,6 +178,15 @@ void check_specimen(const Input& input, const GivenValues& values)
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
+  // Also catches a slip of the unit before it fills the memory.
+  constexpr double most_grains = 1e7;
+  const double mean_radius = 0.5 * specimen.minimum_radius * (1.0 + specimen.radius_ratio);
+  const double volume = specimen.dimension == 2
+                          ? specimen.width * specimen.height / (mean_radius * mean_radius)
+                          : specimen.width * specimen.width * specimen.height / std::pow(mean_radius, 3);
+  if (const double n_grains = volume / 4.0; n_grains > most_grains)
+    throw values.error("Specimen", "Minimum radius",
+                       fmt::format("gives some {:.0e} grains; more than {:.0e} are not packed", n_grains, most_grains));
   const double least = 4.0 * specimen.minimum_radius * specimen.radius_ratio;
   const std::string demand =
     fmt::format("must be at least {}, or there is no room for two grains of the largest radius",

@@ -117,6 +117,35 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
   return exit_code::user_error;
 }
+
+/// What can be told before any work.
+void check(const Input& input, const std::filesystem::path& file)
+{
+  const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
+  for (const Variant& variant : variants(input))
+    {
+      const SpecimenParameters& specimen = variant.input.specimen;
+      const TestParameters& tests = variant.input.tests;
+      if (specimen.shape == "periodic")
+        refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
+               "feldspar rve");
+      if (!specimen.specimen_file.empty())
+        continue; // it brings its own shape
+      if (tests.lateral_boundary == LateralBoundary::membrane && specimen.shape != "cylinder")
+        refuse("Tests/Lateral boundary = membrane: goes round a cylinder; set Shape = cylinder and Dimension = 3");
+      if (tests.intermediate_stress && (specimen.shape != "box" || specimen.dimension != 3))
+        refuse("Tests/Intermediate stress: presses on two sides of a box in space; set Shape = box and Dimension = 3");
+      const auto& list = variant.input.test_list;
+      const bool is_confined = std::find(list.begin(), list.end(), TestKind::triaxial_compression) != list.end();
+      for (const double confinement : variant.input.confinements)
+        if (is_confined && tests.intermediate_stress && *tests.intermediate_stress < confinement)
+          refuse(
+            fmt::format("Tests/Intermediate stress = {:g} MPa: must be at least the least stress, and Confinements "
+                        "has {:g} MPa",
+                        *tests.intermediate_stress / 1e6, confinement / 1e6));
+    }
+  reference_of(input);
+}
 } // namespace
 
 int run_lab(const CommonOptions& options)
@@ -152,13 +181,7 @@ int run_lab(const CommonOptions& options)
     }
 
   const Input input = read_input(options.input);
-  for (const Variant& variant : variants(input))
-    if (variant.input.specimen.shape == "periodic")
-      throw InputError(
-        fmt::format("{}: Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set "
-                    "Shape = box, or use feldspar rve",
-                    options.input.string()));
-  reference_of(input); // a bad reference file is said before the work, not after it
+  check(input, options.input);
   const OutputFolder folder(options.output, options.input, options.force);
   remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
   try

@@ -88,12 +88,25 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!has_grains && !input.tests.stop_strain)
     refuse("Tests/Stop strain = none: without grains the sample does not soften, so a test would not end; give the "
            "strain at which it is to stop");
+  if (input.sample.widened_past_peak && !input.tests.stop_strain && !input.tests.stop_stress_over_peak)
+    refuse(
+      "Sample/Control past the peak = lateral strain: the axial strain may go back, so that no multiple of that at "
+      "the peak ends the test; give Tests/Stop stress over peak, or Stop strain");
   if (input.continuum.dilation_angle > input.continuum.friction_angle)
     refuse("Continuum/Dilation angle: must be at most Continuum/Friction angle");
   if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
     refuse("Continuum/Poisson ratio: must be below 0.5 in space");
   if (input.sample.reduced_quadrature && input.sample.order != 2)
     refuse("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
+  // Before the mesh is made, which would take all memory.
+  constexpr double most_cells = 1e6;
+  const double n_across = input.sample.elements_across;
+  if (const double n =
+        (geometry == SampleGeometry::cylinder ? n_across * n_across : n_across) * input.sample.elements_along;
+      input.sample.mesh_file.empty() && n > most_cells)
+    refuse(fmt::format("Sample/Elements across = {}, Elements along = {}: some {:.0e} cells; more than {:.0e} are not "
+                       "meshed",
+                       input.sample.elements_across, input.sample.elements_along, n, most_cells));
   SampleSize size{};
   try
     {

@@ -6,6 +6,7 @@
 #include "app/specimen_source.h"
 #include "coupling/checkpoints.h"
 #include "coupling/ranks.h"
+#include "coupling/volume_file.h"
 #include "dem/input_error.h"
 
 #include <Eigen/LU>
@@ -114,6 +115,12 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
         rocks.push_back({input.seeds[rocks.size()], Packings<dim>()});
       auto& packings = std::get<Packings<dim>>(rocks.back().packings);
       packings.realisations.push_back(std::make_shared<const Network<dim>>(specimens[k]));
+      if (const std::string& file = input.specimen.specimen_file;
+          !file.empty() && read_volume_state(file, *packings.realisations.back()))
+        throw InputError(
+          fmt::format("{}: Specimen/Specimen file = {}: is a volume in the state it had in a sample, and a "
+                      "sample begins with intact ones; feldspar rve goes on from that state",
+                      input_file.string(), file));
       packings.specimens.push_back(std::move(specimens[k]));
     }
   return rocks;

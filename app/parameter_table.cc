@@ -569,7 +569,7 @@ std::vector<Parameter> make_parameter_table()
     sample.file("Mesh file", &M::mesh_file,
                 "of Gmsh (format 2 or 4, text), in metres, instead of Width, Height and both Elements: quadrilaterals "
                 "with the lines of the physical groups left, right, bottom and top, in r-z axis, side, bottom and top "
-                "with the axis at x = 0, or hexahedra along z with the surfaces side, bottom and top"),
+                "with the axis at x = 0, or hexahedra about x = y = 0 along z with the surfaces side, bottom and top"),
     sample.quantity("Width", &M::width, length, "mm", above_zero,
                     "of the sample of `feldspar multiscale`; of a cylinder its diameter"),
     sample.quantity("Height", &M::height, length, "mm", above_zero, "of the sample, along the axis of the tests"),

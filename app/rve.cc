@@ -123,6 +123,13 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
     return {name,    variant.label, specimen.seed, specimen.report,
             network, run.record(),  run.state(),   seconds_since(started)};
   };
+  std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
+  if (const std::string& file = input.specimen.specimen_file; !file.empty())
+    start = read_volume_state(file, *network);
+  if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
+    throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
+                                 "explicit dynamics begin at rest; set Solver = event by event",
+                                 input.specimen.specimen_file));
   if (input.strain_path.solver == PathSolver::explicit_dynamics)
     return finish(go_path(
       [&] {
@@ -132,9 +139,6 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
                                  .dynamics = input.dynamics});
       },
       checkpoint, identity, show));
-  std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
-  if (const std::string& file = input.specimen.specimen_file; !file.empty())
-    start = read_volume_state(file, *network);
   return finish(go_path(
     [&] {
       return PathRun<dim>(network, legs,

@@ -56,7 +56,7 @@ Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motio
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
                             const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
-                            const std::vector<Motion<dim>>& forces_after)
+                            const std::vector<Motion<dim>>& forces_after, const double least_work)
 {
   const Unknowns from = unknowns_of(network, before);
   const Unknowns to = unknowns_of(network, after);
@@ -67,7 +67,7 @@ double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>
       of_links += 0.5 * (forces_before[k] + forces_after[k]).dot(link_motion(link, to) - link_motion(link, from));
     }
   const double of_body = 0.5 * network.volume() * (before.stress + after.stress).dot(after.strain - before.strain);
-  const double size = std::abs(of_links) + std::abs(of_body);
+  const double size = std::max(std::abs(of_links) + std::abs(of_body), least_work);
   return size > 0.0 ? std::abs(of_body - of_links) / size : 0.0;
 }
 
@@ -161,7 +161,7 @@ template std::vector<Motion<2>> link_forces<2>(const Network<2>&, const NetworkS
 template Tensor<2> branch_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
 template Tensor<2> boundary_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
 template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const std::vector<Motion<2>>&,
-                                        const NetworkState<2>&, const std::vector<Motion<2>>&);
+                                        const NetworkState<2>&, const std::vector<Motion<2>>&, double);
 template Tensor<2> fabric<2>(const Network<2>&);
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
 template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
@@ -170,7 +170,7 @@ template std::vector<Motion<3>> link_forces<3>(const Network<3>&, const NetworkS
 template Tensor<3> branch_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
 template Tensor<3> boundary_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
 template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const std::vector<Motion<3>>&,
-                                        const NetworkState<3>&, const std::vector<Motion<3>>&);
+                                        const NetworkState<3>&, const std::vector<Motion<3>>&, double);
 template Tensor<3> fabric<3>(const Network<3>&);
 template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);
 template std::size_t n_fragments<3>(const Network<3>&, const NetworkState<3>&);

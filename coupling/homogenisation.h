@@ -20,13 +20,13 @@ Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<
 template <int dim>
 Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
 
-/// Hill and Mandel: |V σ̄ : Δε - Σ s·Δm| over the sum of both magnitudes, between two states, with the mean forces s and
-/// stress σ̄ of both and the motions m of the links. Breaking and sliding do not enter: it only says how well forces
-/// balance.
+/// Hill and Mandel: |V σ̄ : Δε - Σ s·Δm| over the sum of both magnitudes, or over `least_work` [J] if that is more, between
+/// two states, with the mean forces s and stress σ̄ of both and the motions m of the links. Breaking and sliding do not
+/// enter: it only says how well forces balance.
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
                             const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
-                            const std::vector<Motion<dim>>& forces_after);
+                            const std::vector<Motion<dim>>& forces_after, double least_work = 0.0);
 
 /// Mean of n ⊗ n over the joints; its trace is 1 (Oda 1982).
 template <int dim>

@@ -66,6 +66,9 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
 {
   if (!specimen.periodic)
     throw InputError("Specimen/Shape: a representative volume needs a periodic specimen");
+  if (number_of_joints == 0)
+    throw InputError("Flat joint/Installation gap ratio: joins no two grains of the volume, so that nothing holds it; "
+                     "make it larger");
   const auto& joints = specimen.joints;
   for (std::size_t i = 0; i < number_of_grains; ++i)
     centres.push_back(at<dim>(specimen.grains.position, i));

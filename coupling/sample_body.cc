@@ -71,6 +71,15 @@ fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
                                          "from there to x > 0",
                                          sample.mesh_file, inner));
     }
+  if (sample.geometry == SampleGeometry::cylinder)
+    {
+      const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+      for (int axis = 0; axis < 2; ++axis)
+        if (const double centre = 0.5 * (box.lower_bound(axis) + box.upper_bound(axis));
+            std::abs(centre) > 1e-3 * box.side_length(axis))
+          throw fem::MeshError(fmt::format("{}: its axis lies at {} = {:g} m; a cylinder stands on x = y = 0",
+                                           sample.mesh_file, "xy"[axis], centre));
+    }
   return mesh;
 }
 

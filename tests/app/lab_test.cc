@@ -172,6 +172,24 @@ TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
   refused("subsection Specimen\n  set Packing file = packing.txt\nend\n", "packing.txt:2: overlaps");
 }
 
+TEST(Lab, RefusesASurroundingThatItsSpecimenCannotHave)
+{
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& specimen, const std::string& tests, const std::string& expected) {
+    folder.write("rock.prm", "subsection Specimen\n" + specimen + "end\nsubsection Tests\n" + tests + "end\n");
+    const auto outcome = run_feldspar(folder.path(), "lab rock.prm");
+    EXPECT_EQ(outcome.exit_code, 2) << tests;
+    EXPECT_EQ(outcome.error.find("feldspar: rock.prm: Tests/" + expected), 0u) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(fs::exists(folder.path() / "rock-results-001")) << tests;
+  };
+  refused("", "  set Lateral boundary = membrane\n", "Lateral boundary = membrane: goes round a cylinder");
+  refused("", "  set Intermediate stress = 30 MPa\n", "Intermediate stress: presses on two sides of a box in space");
+  refused("  set Dimension = 3\n",
+          "  set List = triaxial_compression\n  set Intermediate stress = 30 MPa\n  set Confinements = 40 MPa\n",
+          "Intermediate stress = 30 MPa: must be at least the least stress, and Confinements has 40 MPa");
+}
+
 /// Some ninety grains; the programme takes a few seconds.
 const std::string tiny_rock = R"(subsection Specimen
   set Width = 12 mm

@@ -219,7 +219,25 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve", free_sides, "", "bad.prm: Specimen/Shape = box: a representative volume needs Shape = periodic");
   expect("rve", "subsection Specimen\n  set Shape = periodic\n  set Width = 4 mm\nend\n" + free_sides, "",
          "bad.prm:3: Specimen/Width = 4 mm: must be at least 4.1168 mm");
+  expect("rve",
+         small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set Largest step = 1e-20\nend\n", "",
+         "bad.prm: Strain path/Largest step = 1e-20: Size = ");
   expect("lab", small_cell, "", "bad.prm: Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
+}
+
+TEST(Rve, RefusesAVolumeThatNothingHolds)
+{
+  const TemporaryFolder folder;
+  folder.write("apart.txt", "0.002 0.002 0.001\n0.007 0.007 0.001\n");
+  folder.write("apart.prm",
+               "subsection Specimen\n  set Shape = periodic\n  set Width = 10 mm\n  set Height = 10 mm\n"
+               "  set Packing file = apart.txt\nend\nsubsection Flat joint\n  set Installation gap ratio = 0\nend\n"
+               "subsection Strain path\n  set Direction = free, 1, free\nend\n");
+  const auto outcome = run_feldspar(folder.path(), "rve apart.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.error.find("feldspar: Flat joint/Installation gap ratio: joins no two grains"), 0u)
+    << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
 }
 
 TEST(Rve, TakesSpecimensOfItsKindOnly)

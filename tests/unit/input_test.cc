@@ -310,6 +310,8 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
   EXPECT_NE(error_of_entry("Strain path", "Direction = 0, 1").find("there must be 3: xx, yy, xy"), std::string::npos);
   EXPECT_NE(error_of_entry("Strain path", "Direction = free, 0, free").find("other than 0"), std::string::npos);
   EXPECT_NE(error_of_entry("Strain path", "Direction = 0, nan, 0").find("not a decimal number"), std::string::npos);
+  EXPECT_NE(error_of_entry("Specimen", "Minimum radius = 0.62 um").find("more than 1e+07 are not packed"),
+            std::string::npos);
   EXPECT_NE(error_of_entry("Strain path", "Largest step = 0").find("must lie in (0, 0.1]"), std::string::npos);
   EXPECT_NE(error_of_entry("Representative volume", "Break rule = worst").find("near worst or only worst"),
             std::string::npos);
