@@ -197,6 +197,13 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
 
+  const auto& envelope = study["fits"]["intact"]["with_tension_point"];
+  const std::string fit =
+    fmt::format("σ_ci {} ± {} MPa,\nm {} ± {} (95 %)", number(envelope["sigma_ci_Pa"], 1e6, 1),
+                number(envelope["sigma_ci_confidence_95_Pa"], 1e6, 1), number(envelope["m"], 1.0, 1),
+                number(envelope["m_confidence_95"], 1.0, 1));
+  EXPECT_NE(readme.find(fit), std::string::npos) << "missing: " << fit;
+
   // The run at the paper's size; times are processor time.
   const auto full = nlohmann::json::parse(content(folder + "results/full-size.json"));
   for (const auto& [name, key, scale, decimals] :
