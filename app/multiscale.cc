@@ -85,6 +85,8 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
+  if (!has_grains && input.sample.weak_seed != WeakSeed::none)
+    refuse("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
   if (!has_grains && !input.tests.stop_strain)
     refuse("Tests/Stop strain = none: without grains the sample does not soften, so a test would not end; give the "
            "strain at which it is to stop");

@@ -5,6 +5,7 @@
 #include "app/run_record.h"
 #include "app/specimen_source.h"
 #include "coupling/checkpoints.h"
+#include "coupling/grain_material.h"
 #include "coupling/ranks.h"
 #include "coupling/volume_file.h"
 #include "dem/input_error.h"
@@ -37,8 +38,8 @@ SampleTest from_the_start(const PlannedSample& planned, const Input& input)
     return {planned.test, input.sample, input.tests, input.continuum};
   return std::visit(
     [&](const auto& packings) {
-      return SampleTest(planned.test, input.sample, input.tests, input.equilibrium, packings.realisations,
-                        packings.specimens.front().report, planned.rock->seed);
+      return SampleTest(planned.test, input.sample, input.tests, input.equilibrium, packings.as_packed(),
+                        packings.weak_twins(), packings.specimens.front().report, planned.rock->seed);
     },
     planned.rock->packings);
 }
@@ -122,7 +123,18 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
                       "sample begins with intact ones; feldspar rve goes on from that state",
                       input_file.string(), file));
       packings.specimens.push_back(std::move(specimens[k]));
+      ++packings.n_packed;
     }
+  if (input.sample.weak_seed != WeakSeed::none)
+    for (Rock& rock : rocks)
+      {
+        auto& packings = std::get<Packings<dim>>(rock.packings);
+        for (std::size_t k = 0; k < packings.n_packed; ++k)
+          {
+            packings.specimens.push_back(weakened<dim>(packings.specimens[k], input.sample.weak_seed_strength));
+            packings.realisations.push_back(std::make_shared<const Network<dim>>(packings.specimens.back()));
+          }
+      }
   return rocks;
 }
 } // namespace
@@ -141,8 +153,8 @@ std::vector<SpecimenReport> Rock::reports() const
   std::vector<SpecimenReport> all;
   std::visit(
     [&](const auto& of) {
-      for (const auto& specimen : of.specimens)
-        all.push_back(specimen.report);
+      for (std::size_t k = 0; k < of.n_packed; ++k)
+        all.push_back(of.specimens[k].report);
     },
     packings);
   return all;

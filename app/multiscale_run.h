@@ -19,13 +19,18 @@
 /// The parts of a multiscale run: its volumes, its programme, and one test of it.
 namespace feldspar
 {
-/// Of the volumes that one seed's samples share.
+/// Of the volumes that one seed's samples share: as they were packed, then, where there is a weak seed, their weak twins.
 template <int dim>
 struct Packings
 {
+  using Networks = std::vector<std::shared_ptr<const Network<dim>>>;
+
   std::vector<Specimen<dim>> specimens;
-  std::vector<std::shared_ptr<const Network<dim>>>
-    realisations; ///< of the specimens; shared by the points that got them
+  Networks realisations; ///< of the specimens; shared by the points that got them
+  std::size_t n_packed = 0;
+
+  Networks as_packed() const { return {realisations.begin(), realisations.begin() + std::ptrdiff_t(n_packed)}; }
+  Networks weak_twins() const { return {realisations.begin() + std::ptrdiff_t(n_packed), realisations.end()}; }
 
   /// Whose network it is.
   std::size_t realisation_of(const Network<dim>& network) const

@@ -593,6 +593,12 @@ std::vector<Parameter> make_parameter_table()
                    "packings of the volume, dealt to the points by the seed"),
     sample.choice<bool>("Orientation", &M::random_orientation, {{"random", true}, {"fixed", false}},
                         "whether the volume at each point is turned by an angle of its own"),
+    sample.choice<WeakSeed>(
+      "Weak seed", &M::weak_seed, {{"none", WeakSeed::none}, {"row", WeakSeed::row}, {"element", WeakSeed::element}},
+      "where the sample is to break first: the volumes of the row of elements just above mid-height, or of the outermost "
+      "element of that row, to the right, have weaker bonds"),
+    sample.number("Weak seed strength", &M::weak_seed_strength, {'(', 0.0, 1.0, ']'},
+                  "share of their tensile strength and cohesion that the bonds there have"),
     sample.number("Compression step", &M::compression_step, {'(', 0.0, 0.01, ']'},
                   "axial strain between two rows of the curve"),
     sample.number("Tension step", &M::tension_step, {'(', 0.0, 0.01, ']'}, "the same in direct tension"),

@@ -255,15 +255,30 @@ Tensor<dim> local_axes(const fem::PointPlace& place)
 } // namespace
 
 template <int dim>
+Specimen<dim> weakened(Specimen<dim> specimen, const double share)
+{
+  auto& joints = specimen.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (std::size_t i = 0; i < joints.elements.size(); ++i)
+      {
+        const std::size_t k = joints.segment(i, j);
+        joints.tensile_strength[k] *= share;
+        joints.cohesion[k] *= share;
+      }
+  return specimen;
+}
+
+template <int dim>
 fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                  const GrainMaterialParameters& parameters)
+                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak)
 {
   fem::Material<dim> material;
   material.field_names = names_of_fields<dim>();
-  material.make_point = [realisations = std::move(realisations),
-                         parameters](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
+  material.make_point = [realisations = std::move(realisations), parameters, weak = std::move(weak)](
+                          const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters.seed, place), RandomStream::dealing);
-    const auto& network = realisations[std::size_t(random.uniform() * double(realisations.size()))];
+    const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
+    const auto& network = candidates[std::size_t(random.uniform() * double(candidates.size()))];
     Tensor<dim> turn = Tensor<dim>::Identity();
     if (parameters.random_orientation)
       turn = random_turn<dim>(random);
@@ -275,9 +290,11 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
 }
 
 template class GrainPoint<2>;
+template Specimen<2> weakened<2>(Specimen<2>, double);
 template fem::Material<2> grain_material<2>(std::vector<std::shared_ptr<const Network<2>>>,
-                                            const GrainMaterialParameters&);
+                                            const GrainMaterialParameters&, WeakCells<2>);
 template class GrainPoint<3>;
+template Specimen<3> weakened<3>(Specimen<3>, double);
 template fem::Material<3> grain_material<3>(std::vector<std::shared_ptr<const Network<3>>>,
-                                            const GrainMaterialParameters&);
+                                            const GrainMaterialParameters&, WeakCells<3>);
 } // namespace feldspar

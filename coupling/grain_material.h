@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -75,9 +77,21 @@ struct GrainMaterialParameters
   EquilibriumParameters equilibrium;
 };
 
+/// The same packing with bonds of this share of their strengths.
+template <int dim>
+Specimen<dim> weakened(Specimen<dim> specimen, double share);
+
+/// Cells whose points get weaker twins of the volumes that are dealt to them.
+template <int dim>
+struct WeakCells
+{
+  std::set<std::string> cells;                            ///< as PointPlace::cell
+  std::vector<std::shared_ptr<const Network<dim>>> twins; ///< one of each realisation
+};
+
 /// Volumes of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
 /// number of ranks. The material's fields are those of GrainPoint::fields().
 template <int dim>
 fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                  const GrainMaterialParameters& parameters);
+                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak = {});
 } // namespace feldspar

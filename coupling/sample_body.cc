@@ -18,6 +18,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -107,6 +109,41 @@ SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sam
     largest = std::max(largest, std::pow(cell->measure(), 1.0 / dim) / sample.order);
   const double sides = sample.geometry == SampleGeometry::axisymmetric ? 2.0 : 1.0;
   return {sides * box.side_length(0), box.side_length(dim - 1), largest};
+}
+
+/// By their places alone. All ranks know all cells: none is refined.
+template <int dim>
+std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
+{
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  const double round_off = 1e-9 * box.side_length(dim - 1);
+  const double middle = box.center()[dim - 1] + round_off;
+  std::map<std::array<long long, dim>, std::string> row; // the outermost last
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    {
+      const auto extent = cell->bounding_box();
+      if (extent.lower_bound(dim - 1) > middle || extent.upper_bound(dim - 1) <= middle)
+        continue;
+      const auto centre = cell->center();
+      std::array<long long, dim> place{}; // what differs by round-off is the same place
+      for (unsigned int c = 0; c < dim; ++c)
+        place[c] = std::llround(centre[c] / round_off);
+      row[place] = cell->id().to_string();
+    }
+  if (seed == WeakSeed::element)
+    return {row.rbegin()->second};
+  std::set<std::string> cells;
+  for (const auto& [place, cell] : row)
+    cells.insert(cell);
+  return cells;
+}
+
+std::set<std::string> cells_of_weak_seed(const SampleParameters& sample)
+{
+  if (sample.weak_seed == WeakSeed::none)
+    return {};
+  return sample.geometry == SampleGeometry::cylinder ? cells_of_weak_seed(mesh_of<3>(sample), sample.weak_seed)
+                                                     : cells_of_weak_seed(mesh_of<2>(sample), sample.weak_seed);
 }
 
 template <int dim, int material_dim>
@@ -319,6 +356,7 @@ template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
                                                 std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
                                                 const std::uint64_t seed)
 {
   if (dimension_of_volumes(sample.geometry) != dim)
@@ -330,9 +368,10 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   material.equilibrium = equilibrium;
   const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);
   const double unscaled = 0.0; // any element is larger
+  auto volumes = grain_material<dim>(std::move(realisations), material,
+                                     WeakCells<dim>{cells_of_weak_seed(sample), std::move(weak_twins)});
   return make_body<dim>(sample, set_up,
-                        scaled_softening<dim>(grain_material<dim>(std::move(realisations), material),
-                                              sample.scaled_softening ? size : unscaled));
+                        scaled_softening<dim>(std::move(volumes), sample.scaled_softening ? size : unscaled));
 }
 
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
@@ -359,9 +398,11 @@ std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample,
 template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
                                                             const EquilibriumParameters&,
                                                             std::vector<std::shared_ptr<const Network<2>>>,
+                                                            std::vector<std::shared_ptr<const Network<2>>>,
                                                             std::uint64_t);
 template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
                                                             const EquilibriumParameters&,
+                                                            std::vector<std::shared_ptr<const Network<3>>>,
                                                             std::vector<std::shared_ptr<const Network<3>>>,
                                                             std::uint64_t);
 } // namespace feldspar

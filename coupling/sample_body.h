@@ -79,6 +79,7 @@ template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
                                                 std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
                                                 std::uint64_t seed);
 /// Of what sample.material says, without grains.
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,

@@ -22,6 +22,14 @@ enum class SampleGeometry
   cylinder      ///< of spheres, as a whole
 };
 
+/// Which volumes of a sample are weaker than the others.
+enum class WeakSeed
+{
+  none,
+  row,    ///< of the elements across the sample that the plane just above mid-height cuts
+  element ///< of that row, the one outermost along x or r
+};
+
 /// Of the volumes at its points.
 constexpr unsigned int dimension_of_volumes(const SampleGeometry geometry)
 {
@@ -52,10 +60,12 @@ struct SampleParameters
   unsigned int order = 1;
   bool reduced_quadrature = false; ///< order instead of order + 1 points a direction
   bool rough_platens = false;
-  bool widened_past_peak = false;        ///< a compression test; else its platens go on
-  bool scaled_softening = true;          ///< with the size of the element over that of the volume
-  unsigned int n_realisations = 4;       ///< volumes packed, dealt to the points
-  bool random_orientation = true;        ///< each turned by an angle of its own
+  bool widened_past_peak = false;  ///< a compression test; else its platens go on
+  bool scaled_softening = true;    ///< with the size of the element over that of the volume
+  unsigned int n_realisations = 4; ///< volumes packed, dealt to the points
+  bool random_orientation = true;  ///< each turned by an angle of its own
+  WeakSeed weak_seed = WeakSeed::none;
+  double weak_seed_strength = 0.9;       ///< share of the strengths that volumes there have
   double compression_step = 4e-5;        ///< axial strain between two rows of the curve
   double tension_step = 2e-6;            ///< the same
   double most_broken_share = 0.01;       ///< of all segments in one step; beyond it the step is cut

@@ -291,12 +291,14 @@ struct SampleTest::Parts
 template <int dim>
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
                        const EquilibriumParameters& equilibrium,
-                       std::vector<std::shared_ptr<const Network<dim>>> realisations, const SpecimenReport& of_volumes,
+                       std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                       std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_volumes,
                        const std::uint64_t seed)
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
   const std::uint64_t segments_a_volume = realisations.front()->n_segments();
-  parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations), seed),
+  parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations),
+                                       std::move(weak_twins), seed),
               segments_a_volume);
   parts->record.seed = seed;
   parts->record.specimen = of_volumes;
@@ -502,10 +504,10 @@ void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::
 
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
                                 const EquilibriumParameters&, std::vector<std::shared_ptr<const Network<2>>>,
-                                const SpecimenReport&, std::uint64_t);
+                                std::vector<std::shared_ptr<const Network<2>>>, const SpecimenReport&, std::uint64_t);
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
                                 const EquilibriumParameters&, std::vector<std::shared_ptr<const Network<3>>>,
-                                const SpecimenReport&, std::uint64_t);
+                                std::vector<std::shared_ptr<const Network<3>>>, const SpecimenReport&, std::uint64_t);
 template SampleVolume<2> SampleTest::volume_at<2>(unsigned int, unsigned int) const;
 template SampleVolume<3> SampleTest::volume_at<3>(unsigned int, unsigned int) const;
 template std::optional<SampleVolume<2>> SampleTest::volume_here<2>(std::uint64_t) const;

@@ -38,12 +38,14 @@ std::uint64_t n_cells(const SampleParameters& sample);
 class SampleTest
 {
 public:
-  /// The volumes of `realisations`, of dimension_of_volumes(sample.geometry), are dealt to the points by the seed.
+  /// The volumes of `realisations`, of dimension_of_volumes(sample.geometry), are dealt to the points by the seed; to
+  /// those of the weak seed, where there is one, their weak twins.
   /// Throws InputError for a test that such a sample cannot make.
   template <int dim>
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<dim>>> realisations,
-             const SpecimenReport& of_volumes, std::uint64_t seed);
+             std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_volumes,
+             std::uint64_t seed);
   /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const ContinuumParameters& continuum);

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -493,6 +494,39 @@ TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
   EXPECT_NEAR(std::stod(value), 20e6, 1e-4 * 20e6); // Newton tolerance 1e-5
 }
 
+/// Cells of which a segment broke; four points a cell.
+std::set<int> cells_that_broke(const std::filesystem::path& run)
+{
+  std::set<int> cells;
+  for (const double point : column(run / "cracks.csv", "joint"))
+    cells.insert(int(point) / 4);
+  return cells;
+}
+
+// One volume at all points of three rows of two: but for the seed nothing tells them apart, and they break at a strain of
+// 1.9e-4. With a fifth of the strength the seed breaks at a fifth of it, and what it leaves to its neighbours is at most
+// twice that. The row at mid-height is that of the cells 2 and 3, its element to the right the latter.
+TEST(Multiscale, BreaksFirstWhereItsWeakSeedIs)
+{
+  TemporaryFolder folder;
+  const auto breaks_in = [&](const std::string& seed) {
+    std::string text = input("  set Orientation = fixed\n  set Tension step = 5e-6\n  set Weak seed = " + seed +
+                               "\n  set Weak seed strength = 0.2\n",
+                             "  set List = direct_tension\n  set Stop strain = 5e-5\n");
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{"Realisations = 2", "Realisations = 1"},
+                                   {"Elements across = 1", "Elements across = 2"},
+                                   {"Elements along = 2", "Elements along = 3"}})
+      text.replace(text.find(from), from.size(), to);
+    folder.write("weak.prm", text);
+    const auto run = run_feldspar(folder.path(), "multiscale weak.prm --output " + seed + " --force --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return cells_that_broke(folder.path() / seed);
+  };
+  EXPECT_EQ(breaks_in("row"), (std::set<int>{2, 3}));
+  EXPECT_EQ(breaks_in("element"), (std::set<int>{3}));
+  EXPECT_EQ(breaks_in("none"), (std::set<int>{}));
+}
+
 TEST(Multiscale, SaysInOneLineWhatItCannotDo)
 {
   TemporaryFolder folder;
@@ -519,6 +553,10 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
   expect(input("  set Quadrature = reduced\n", ""), "bad.prm: Sample/Quadrature = reduced: needs Order = 2");
   expect(input("  set Order = 3\n", ""), "Sample/Order = 3: must be an integer in [1, 2]");
   expect(input("  set Material = linear elasticity\n", ""), "bad.prm: Tests/Stop strain = none: without grains");
+  expect(input("  set Material = Mohr-Coulomb\n  set Weak seed = row\n", "  set Stop strain = 1e-5\n"),
+         "bad.prm: Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
+  expect(input("  set Weak seed = row\n  set Weak seed strength = 1.1\n", ""),
+         "Sample/Weak seed strength = 1.1: must lie in (0, 1]");
   expect(input("", "  set Stop strain = 1e-5\nend\nsubsection Continuum\n  set Dilation angle = 60 deg\n"),
          "bad.prm: Continuum/Dilation angle: must be at most Continuum/Friction angle");
 }

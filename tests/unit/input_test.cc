@@ -128,6 +128,8 @@ subsection Sample
   set Softening = as it is
   set Realisations = 5
   set Orientation = fixed
+  set Weak seed = element
+  set Weak seed strength = 0.8
   set Compression step = 3e-5
   set Tension step = 1e-6
   set Most broken share = 0.02
@@ -282,6 +284,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_FALSE(input.sample.scaled_softening);
   EXPECT_EQ(input.sample.n_realisations, 5u);
   EXPECT_FALSE(input.sample.random_orientation);
+  EXPECT_EQ(input.sample.weak_seed, WeakSeed::element);
+  EXPECT_EQ(input.sample.weak_seed_strength, 0.8);
   EXPECT_EQ(input.sample.compression_step, 3e-5);
   EXPECT_EQ(input.sample.tension_step, 1e-6);
   EXPECT_EQ(input.sample.most_broken_share, 0.02);

@@ -202,6 +202,56 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
   EXPECT_NE(dealt(1, 0), dealt(2, 0));
 }
 
+// Weak cells change nothing else: each of their points has the twin of the volume that it had without them, in the same
+// axes, and the twin is the same network with bonds of that share of their strengths.
+TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirVolumes)
+{
+  constexpr double share = 0.8;
+  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  WeakCells<2> weak{{"1_0:"}, {}};
+  for (const std::uint64_t seed : {1, 2})
+    {
+      const Specimen<2> specimen = periodic_specimen(seed);
+      realisations.push_back(std::make_shared<const Network<2>>(specimen));
+      weak.twins.push_back(std::make_shared<const Network<2>>(weakened<2>(specimen, share)));
+      const Network<2>& usual = *realisations.back();
+      const Network<2>& twin = *weak.twins.back();
+      EXPECT_EQ(twin.intact_stiffness(), usual.intact_stiffness());
+      for (std::uint32_t k = 0; k < usual.n_segments(); ++k)
+        {
+          EXPECT_EQ(twin.strength(k).tensile, share * usual.strength(k).tensile);
+          EXPECT_EQ(twin.strength(k).cohesion, share * usual.strength(k).cohesion);
+        }
+      // The first to break does so in tension, at that share of the strain.
+      const Voigt<2> pull = axial<2>(1.0);
+      EXPECT_TRUE(usual.first_break(pull).in_tension);
+      EXPECT_DOUBLE_EQ(twin.first_break(pull).factor, share * usual.first_break(pull).factor);
+    }
+  const auto plain = grain_material<2>(realisations, {});
+  const auto seeded = grain_material<2>(realisations, {}, weak);
+  std::set<const Network<2>*> twins_used;
+  for (const std::string cell : {"0_0:", "1_0:"})
+    for (unsigned int q = 0; q < 20; ++q)
+      {
+        const fem::PointPlace place{cell, 0, q, {0.0, 0.0}, 0.01};
+        const auto grains_of = [](const auto& point) -> const GrainPoint<2>& {
+          return dynamic_cast<const GrainPoint<2>&>(*point);
+        };
+        const auto without = plain.make_point(place);
+        const auto with = seeded.make_point(place);
+        EXPECT_EQ(grains_of(with).orientation(), grains_of(without).orientation());
+        const Network<2>* const usual = &grains_of(without).volume().network();
+        const Network<2>* expected = usual;
+        if (cell == "1_0:")
+          {
+            expected = weak.twins[usual == realisations[0].get() ? 0 : 1].get();
+            twins_used.insert(expected);
+          }
+        EXPECT_EQ(&grains_of(with).volume().network(), expected);
+      }
+  EXPECT_EQ(twins_used.size(), 2u); // missing one in 20 draws has odds of 2e-6
+}
+
 // In space no direction is preferred: of n uniform turns the mean of each entry of R is 0 within 4/√(3n), of its square
 // 1/3 within 4·√(4/45)/√n; angles uniform about fixed axes would fail the second.
 TEST(GrainMaterial, AnyTurnInSpaceIsAsLikelyAsAnyOther)
