@@ -110,9 +110,9 @@ def draw(runs):
         if any(one["geometry"] == geometry for one in runs)
     ]
     script = [
-        f'set terminal pngcairo size {560 * len(panels)},420 font "sans,11"',
+        f'set terminal pngcairo size 1120,{420 * (len(panels) // 2)} font "sans,12"',
         'set output "mesh-study.png"',
-        f"set multiplot layout 1,{len(panels)}",
+        f"set multiplot layout {len(panels) // 2},2",
         'set xlabel "axial strain [1e-3]"',
         'set ylabel "axial stress [MPa]"',
         "set yrange [0:*]",
