@@ -16,7 +16,7 @@ studies=("$@")
   beishan-cylinder/beishan-cylinder
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}
-  multiscale-beishan-cylinder/{tension,cylinder}
+  multiscale-beishan-cylinder/{tension,cylinder,compression}
 )
 for study in "${studies[@]}"; do
   run=$(mktemp --directory)

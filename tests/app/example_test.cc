@@ -199,10 +199,9 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
     }
 
   const auto& envelope = study["fits"]["intact"]["with_tension_point"];
-  const std::string fit =
-    fmt::format("σ_ci {} ± {} MPa,\nm {} ± {} (95 %)", number(envelope["sigma_ci_Pa"], 1e6, 1),
-                number(envelope["sigma_ci_confidence_95_Pa"], 1e6, 1), number(envelope["m"], 1.0, 1),
-                number(envelope["m_confidence_95"], 1.0, 1));
+  const std::string fit = fmt::format("σ_ci {} ± {} MPa,\nm {} ± {} (95 %)", number(envelope["sigma_ci_Pa"], 1e6, 1),
+                                      number(envelope["sigma_ci_confidence_95_Pa"], 1e6, 1),
+                                      number(envelope["m"], 1.0, 1), number(envelope["m_confidence_95"], 1.0, 1));
   EXPECT_NE(readme.find(fit), std::string::npos) << "missing: " << fit;
 
   // The run at the paper's size; times are processor time.
@@ -493,6 +492,24 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
       EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
     }
   EXPECT_NEAR(moduli[1], moduli[0], 0.02 * moduli[0]); // before anything breaks, of different packings
+
+  const auto pressed = nlohmann::json::parse(content(folder + "results/compression.json"));
+  const auto specimens = nlohmann::json::parse(
+    content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/results/beishan-cylinder.json"));
+  for (const auto& [name, kind] : {std::pair("uniaxial", "uniaxial_compression"),
+                                   {"at 10 MPa", "triaxial_compression_10_MPa"},
+                                   {"at 40 MPa", "triaxial_compression_40_MPa"}})
+    {
+      const auto& test = test_of(pressed, std::string(kind) + "_seed_1");
+      const std::string row = fmt::format("| {} | {} | {} | {} | {} |", name, number(test["peak_stress_Pa"], 1e6, 0),
+                                          number(test["strain_at_peak"], 1e-3, 1),
+                                          mean_and_deviation(specimens, kind, "peak_stress_Pa", 1e6, 0),
+                                          mean_and_deviation(specimens, kind, "strain_at_peak", 1e-3, 1));
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      const std::string costs = fmt::format("| section, `compression.prm`, {} | 16 | {} | {} |", name,
+                                            test["steps"].get<int>(), shown_work(test, 16));
+      EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+    }
 }
 
 struct MeshFigure
