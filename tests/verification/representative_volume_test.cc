@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <utility>
 
 namespace feldspar
 {
@@ -123,6 +125,25 @@ TEST(Granite, BreakingTheNearlyWorstTooChangesLittleInTension)
     }
   EXPECT_NEAR(energy[0], energy[1], 0.05 * energy[1]);
   EXPECT_NEAR(strength[0], strength[1], 0.02 * strength[1]);
+}
+
+// In one increment of the first a crack runs through the volume, in which little beside the contact forces is not little
+// beside the work; the second is in two pieces at its end, where all work is round-off.
+TEST(Granite, BalancesHoldWhereACrackRunsThroughAndWhereNothingIsLeft)
+{
+  for (const auto& [edge, seed] : {std::pair(0.0325, 2), {0.012, 3}})
+    {
+      SpecimenParameters wanted;
+      wanted.shape = "periodic";
+      wanted.width = wanted.height = edge;
+      FlatJointParameters joint;
+      joint.installation_gap_ratio = 0.0457; // examples/rve-beishan
+      const auto network = std::make_shared<const Network<2>>(
+        make_specimen<2>(wanted, joint, {}, std::uint64_t(seed), [](std::string_view, double) {}));
+      const auto run = run_axially(network, 4e-4, 0.0, 5e-6);
+      expect_balances(run.record());
+      EXPECT_LT(std::abs(run.record().samples.back().stress[1]), 0.1 * peak(run.record())) << edge;
+    }
 }
 
 TEST(Granite, WhatATensionPathDissipatesDoesNotDependOnItsSteps)
