@@ -85,6 +85,13 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
+  if (input.tests.lateral_boundary == LateralBoundary::membrane)
+    refuse(
+      "Tests/Lateral boundary = membrane: goes round grains; on the sides of a sample of finite elements a pressure is "
+      "one already");
+  if (input.tests.intermediate_stress)
+    refuse(
+      "Tests/Intermediate stress: presses on a box of grains; a sample of finite elements has one lateral pressure");
   if (!has_grains && input.sample.weak_seed != WeakSeed::none)
     refuse("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
   if (!has_grains && !input.tests.stop_strain)

@@ -38,7 +38,8 @@ std::vector<std::string> report_on(const ReportOrder& order)
         input.reference_problem = error.what();
       }
   else
-    input.reference_problem = "there is no reference file: give one with Report/Reference file or --reference";
+    input.reference_problem =
+      "there is no reference file to compare with: name one by Report/Reference file, or by feldspar report --reference";
   return write_report(input, order.output);
 }
 

@@ -357,7 +357,7 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
     fmt::format("$rest << EOD\n{}EOD\n$outline << EOD\n{}EOD\n$cells << EOD\n{}EOD\n",
                 outline(pieces, &Piece::rest, everywhere), outline(pieces, &Piece::moved, everywhere), colours);
   std::string plots =
-    fmt::format("plot $cells using 1:2:3 with points pt 7 ps 0 lc palette notitle, $rest with lines lw 1 dt 2 lc rgb "
+    fmt::format("plot $cells using 1:2:3 with dots lc palette notitle, $rest with lines lw 1 dt 2 lc rgb "
                 "'{}' title 'at rest', $outline with lines lw 1.2 lc rgb '{}' title 'displacements drawn {:g} times'",
                 grey, black, scale);
   std::string caption =
