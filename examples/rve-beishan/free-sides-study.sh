@@ -18,19 +18,27 @@ study() {
     gap=0.05 direction="free, free, -1, free, free, free"
     porosity="set Porosity = 0.385" # of the box: its walls leave voids
   fi
-  local joints="subsection Flat joint
+  # A shape, and what else is said of the specimen.
+  rock() {
+    cat <<END
+subsection Specimen
+  set Dimension = $dimension
+  set Shape = $1
+  set Width = $edge mm
+  set Height = $edge mm
+  ${2-}
+end
+subsection Flat joint
   set Installation gap ratio = $gap
 end
 subsection Seeds
   set Seeds = $seeds
-end"
-  cat >"$work/cell.prm" <<END
-subsection Specimen
-  set Dimension = $dimension
-  set Shape = periodic
-  set Width = $edge mm
-  set Height = $edge mm
 end
+END
+  }
+  {
+    rock periodic
+    cat <<END
 subsection Strain path
   set Direction = $direction
   set Size = $size
@@ -38,24 +46,19 @@ subsection Strain path
   set Solver = explicit
   set Steps per millistrain = 20000
 end
-$joints
 END
+  } >"$work/cell.prm"
   # The laboratory's rate, at which as many waves cross the body up to its peak.
-  cat >"$work/box.prm" <<END
-subsection Specimen
-  set Dimension = $dimension
-  set Shape = box
-  set Width = $edge mm
-  set Height = $edge mm
-  $porosity
-end
+  {
+    rock box "$porosity"
+    cat <<END
 subsection Tests
   set List = uniaxial_compression
   set Compression strain rate = $(awk "BEGIN { print 100 / $edge }") 1/s
   set Stop strain over peak strain = 1.2
 end
-$joints
 END
+  } >"$work/box.prm"
   local name=results/free-sides-${dimension}d-$edge-mm
   "$feldspar" rve "$work/cell.prm" --output "$work/cell" --force --quiet >"$work/log" || cat "$work/log"
   "$feldspar" lab "$work/box.prm" --output "$work/box" --force --quiet >"$work/log" || cat "$work/log"
