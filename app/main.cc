@@ -1,8 +1,8 @@
-#include "app/commands.h"
-#include "app/nearest_name.h"
-#include "app/specimen_source.h"
-#include "dem/input_error.h"
-#include "dem/whole_file.h"
+#include "app/commands/commands.h"
+#include "app/input/nearest_name.h"
+#include "app/run/specimen_source.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
 #include "feldspar_version.h"
 
 #include <CLI/CLI.hpp>

@@ -3,10 +3,10 @@
 //
 //   dynamics_benchmark [--benchmark_filter=...]      FELDSPAR_THREADS=2 for two threads
 
+#include "base/random.h"
 #include "benchmarks/plain_reference.h"
-#include "dem/dynamics.h"
-#include "dem/genesis.h"
-#include "dem/random.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>

@@ -2,8 +2,8 @@
 // at falling rates: what equal accuracy costs. One thread. The counters are what came out: peak stress [MPa], cracks,
 // boundary work and dissipated energy [J].
 
-#include "coupling/explicit_run.h"
-#include "dem/genesis.h"
+#include "coupling/rve/explicit_run.h"
+#include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>

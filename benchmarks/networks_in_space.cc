@@ -1,6 +1,6 @@
-#include "coupling/homogenisation.h"
-#include "coupling/network.h"
-#include "dem/genesis.h"
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/network.h"
+#include "dem/genesis/genesis.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/specimen.h"
+#include "dem/specimen/specimen.h"
 
 #include <algorithm>
 #include <array>

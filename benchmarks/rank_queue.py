@@ -12,7 +12,7 @@ times for its breaks, and all ranks wait for the last each time. Costs are those
 
 Ways of dealing. A rank has one core, or 16 that take its volumes one by one:
   equal          as many cells to each rank, for good
-  measured       cut anew by the time each cell took since the last cut, once that has lost what a move costs (fem/solid.cc)
+  measured       cut anew by the time each cell took since the last cut, once that has lost what a move costs (fem/solid/solid.cc)
   last row       the same by the time of the last row only
   longest first  free cores of a rank take first what took longest in the row before
   queue          one for all cores: a free core asks the first rank for the next volume, a message there and back
@@ -44,8 +44,8 @@ POLICIES = {  # how cells are dealt to ranks, cores of each, whether these take 
 LATENCY_S = 2e-6
 BANDWIDTH_B_PER_S = 10e9
 BYTES_OF_A_VOLUME = 7000  # damaged, some 240 discs; benchmarks/README.md has 12 kB for 408
-LEAST_SHARE_OF_MEAN = 1e-3  # fem/partition.cc
-WORTH_WHILE = 0.9  # fem/solid.cc
+LEAST_SHARE_OF_MEAN = 1e-3  # fem/mesh/partition.cc
+WORTH_WHILE = 0.9  # fem/solid/solid.cc
 FIRST_COST_OF_MOVING_S = 0.01
 
 
@@ -79,7 +79,7 @@ def costs_of_rows(paths, n_cells_across, rng):
 
 
 def cut(weights, n_ranks):
-    """As fem/partition.cc: where each rank begins, and the end."""
+    """As fem/mesh/partition.cc: where each rank begins, and the end."""
     n = len(weights)
     mean = sum(weights) / n
     limited = [w / mean + LEAST_SHARE_OF_MEAN for w in weights] if mean > 0 else [1.0] * n

@@ -1,5 +1,5 @@
-#include "coupling/representative_volume.h"
-#include "dem/genesis.h"
+#include "coupling/rve/representative_volume.h"
+#include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
 

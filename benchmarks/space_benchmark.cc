@@ -3,10 +3,10 @@
 //
 //   space_benchmark [--benchmark_filter=...]      FELDSPAR_THREADS=2 for two threads
 
-#include "dem/dynamics.h"
-#include "dem/genesis.h"
-#include "dem/parallel.h"
-#include "dem/random.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>

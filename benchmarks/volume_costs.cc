@@ -1,5 +1,5 @@
-#include "coupling/grain_material.h"
-#include "dem/genesis.h"
+#include "coupling/sample/grain_material.h"
+#include "dem/genesis/genesis.h"
 
 #include <fmt/format.h>
 

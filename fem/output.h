@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/solid.h"
+#include "fem/solid/solid.h"
 
 #include <deal.II/base/data_out_base.h>
 

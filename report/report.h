@@ -1,7 +1,7 @@
 #pragma once
 
-#include "report/reference.h"
-#include "report/series.h"
+#include "results/folder/reference.h"
+#include "results/series.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/linear_elasticity.h"
+#include "fem/materials/linear_elasticity.h"
 
 namespace feldspar::fem
 {

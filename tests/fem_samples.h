@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/solid.h"
+#include "fem/solid/solid.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/numerics/vector_tools_integrate_difference.h>

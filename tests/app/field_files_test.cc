@@ -1,6 +1,6 @@
 // The files for ParaView, opened by the XDMF library.
 
-#include "report/result_folder.h"
+#include "results/folder/result_folder.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 

@@ -1,5 +1,5 @@
-#include "coupling/checkpoints.h"
-#include "dem/whole_file.h"
+#include "base/whole_file.h"
+#include "coupling/sample/checkpoints.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

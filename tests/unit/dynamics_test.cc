@@ -1,4 +1,4 @@
-#include "dem/dynamics.h"
+#include "dem/dynamics/dynamics.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "tests/unit/small_volume.h"
 
-#include "coupling/explicit_run.h"
-#include "dem/input_error.h"
+#include "base/input_error.h"
+#include "coupling/rve/explicit_run.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "fem/linear_elasticity.h"
+#include "fem/materials/linear_elasticity.h"
 #include "fem/output.h"
-#include "fem/platen_test.h"
+#include "fem/solid/platens.h"
 #include "tests/temporary_folder.h"
 
 #include <H5Cpp.h>

@@ -1,7 +1,7 @@
-#include "dem/fragments.h"
-#include "dem/input_error.h"
-#include "dem/neighbours.h"
-#include "dem/random.h"
+#include "base/input_error.h"
+#include "base/random.h"
+#include "dem/specimen/fragments.h"
+#include "dem/specimen/neighbours.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
-#include "app/input.h"
+#include "app/input/input.h"
 
-#include "app/input_structure.h"
-#include "app/parameter_table.h"
-#include "dem/input_error.h"
+#include "app/input/input_structure.h"
+#include "app/input/parameter_table.h"
+#include "base/input_error.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-#include "dem/lab_results.h"
-#include "dem/lab_tests.h"
+#include "dem/lab/laboratory_test.h"
+#include "results/evaluation.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "fem/linear_elasticity.h"
-#include "fem/mohr_coulomb.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/materials/mohr_coulomb.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "tests/unit/small_volume.h"
 
-#include "dem/input_error.h"
+#include "base/input_error.h"
 #include "tests/unit/small_specimen.h"
 
 #include <Eigen/Eigenvalues>

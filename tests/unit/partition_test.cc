@@ -1,4 +1,4 @@
-#include "fem/partition.h"
+#include "fem/mesh/partition.h"
 
 #include <gtest/gtest.h>
 

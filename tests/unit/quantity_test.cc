@@ -1,6 +1,6 @@
-#include "app/quantity.h"
+#include "app/input/quantity.h"
 
-#include "dem/input_error.h"
+#include "base/input_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,15 +1,15 @@
 // What the report says and reads: compression positive where the laboratory has it so.
 
-#include "dem/input_error.h"
-#include "report/comparison.h"
-#include "report/result_folder.h"
-#include "report/result_table.h"
-#include "report/series.h"
-#include "report/statistics.h"
-#include "report/table.h"
-#include "report/test_groups.h"
-#include "report/trust.h"
-#include "report/verdict.h"
+#include "base/input_error.h"
+#include "report/page/table.h"
+#include "report/sections/comparison.h"
+#include "report/sections/trust.h"
+#include "report/sections/verdict.h"
+#include "results/folder/result_folder.h"
+#include "results/result_table.h"
+#include "results/series.h"
+#include "results/statistics.h"
+#include "results/test_groups.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

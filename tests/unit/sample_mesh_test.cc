@@ -1,6 +1,6 @@
-#include "fem/linear_elasticity.h"
-#include "fem/platen_test.h"
-#include "fem/solid.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/solid/platens.h"
+#include "fem/solid/solid.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

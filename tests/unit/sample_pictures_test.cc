@@ -1,8 +1,8 @@
-#include "report/sample_pictures.h"
+#include "report/pictures/sample_pictures.h"
 
-#include "dem/hdf5_archive.h"
-#include "dem/input_error.h"
-#include "report/result_folder.h"
+#include "base/hdf5_archive.h"
+#include "base/input_error.h"
+#include "results/folder/result_folder.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/genesis.h"
+#include "dem/genesis/genesis.h"
 
 #include <type_traits>
 

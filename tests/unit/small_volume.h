@@ -1,9 +1,9 @@
 #pragma once
 
-#include "coupling/homogenisation.h"
-#include "coupling/representative_volume.h"
-#include "dem/genesis.h"
-#include "dem/random.h"
+#include "base/random.h"
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/representative_volume.h"
+#include "dem/genesis/genesis.h"
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Genesis and explicit dynamics in three dimensions.
 
-#include "dem/dynamics.h"
-#include "dem/specimen_file.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/specimen/specimen_file.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
 

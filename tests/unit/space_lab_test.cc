@@ -1,7 +1,8 @@
 // Laboratory tests on cylinders.
 
-#include "dem/lab_tests.h"
-#include "dem/membrane.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/membrane.h"
+#include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
 

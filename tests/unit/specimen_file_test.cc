@@ -1,6 +1,6 @@
-#include "dem/input_error.h"
-#include "dem/lab_tests.h"
-#include "dem/specimen_file.h"
+#include "base/input_error.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/specimen/specimen_file.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

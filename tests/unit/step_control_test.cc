@@ -1,5 +1,5 @@
-#include "fem/material_points.h"
-#include "fem/step_control.h"
+#include "fem/solid/material_points.h"
+#include "fem/solid/step_control.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>

@@ -1,7 +1,7 @@
 // Hoek-Brown and Mohr-Coulomb envelopes: compression positive, as in report/fit.h.
 
-#include "dem/random.h"
-#include "report/strength_envelopes.h"
+#include "base/random.h"
+#include "results/fits/strength_envelopes.h"
 
 #include <gtest/gtest.h>
 

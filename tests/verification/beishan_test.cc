@@ -1,5 +1,6 @@
-#include "dem/genesis.h"
-#include "dem/lab_tests.h"
+#include "dem/genesis/genesis.h"
+#include "dem/lab/laboratory_test.h"
+#include "results/evaluation.h"
 
 #include <gtest/gtest.h>
 

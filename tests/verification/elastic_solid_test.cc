@@ -1,8 +1,8 @@
 // The solid in linear elasticity, against closed forms.
 
-#include "fem/linear_elasticity.h"
-#include "fem/platen_test.h"
-#include "fem/solid.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/solid/platens.h"
+#include "fem/solid/solid.h"
 #include "tests/fem_samples.h"
 
 #include <deal.II/grid/grid_tools.h>

@@ -1,7 +1,7 @@
-#include "coupling/grain_material.h"
-#include "fem/advance.h"
-#include "fem/platen_test.h"
-#include "fem/solid.h"
+#include "coupling/sample/grain_material.h"
+#include "fem/solid/advance.h"
+#include "fem/solid/platens.h"
+#include "fem/solid/solid.h"
 #include "tests/unit/small_volume.h"
 
 #include <Eigen/Geometry>

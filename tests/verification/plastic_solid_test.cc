@@ -1,9 +1,9 @@
 // The solid where its material yields or breaks: closed forms, Newton's method, cutting of steps.
 
-#include "fem/advance.h"
-#include "fem/linear_elasticity.h"
-#include "fem/mohr_coulomb.h"
-#include "fem/platen_test.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/materials/mohr_coulomb.h"
+#include "fem/solid/advance.h"
+#include "fem/solid/platens.h"
 #include "tests/brittle_point.h"
 #include "tests/fem_samples.h"
 

@@ -1,9 +1,9 @@
 // Representative volumes of the paper's granite (Table 1), some 400 discs at z = 4.2, or spheres with joints up to a gap of
 // 0.05: stiffness of independent programs, break rules, and the balances that hold along every path.
 
-#include "coupling/homogenisation.h"
-#include "coupling/path_run.h"
-#include "dem/genesis.h"
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/path_run.h"
+#include "dem/genesis/genesis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Softening scaled with the size of the element, against closed forms.
 
-#include "coupling/grain_material.h"
-#include "coupling/softening.h"
-#include "fem/advance.h"
-#include "fem/linear_elasticity.h"
-#include "fem/platen_test.h"
+#include "coupling/sample/grain_material.h"
+#include "coupling/sample/softening.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/solid/advance.h"
+#include "fem/solid/platens.h"
 #include "tests/unit/small_volume.h"
 
 #include <gtest/gtest.h>

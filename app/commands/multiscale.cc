@@ -1,0 +1,333 @@
+#include "app/commands/commands.h"
+#include "app/commands/report_command.h"
+#include "app/commands/volume_extract.h"
+#include "app/input/input.h"
+#include "app/run/interrupt.h"
+#include "app/run/multiscale_run.h"
+#include "app/run/output_folder.h"
+#include "app/run/provenance.h"
+#include "app/run/run_record.h"
+#include "app/run/specimen_source.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "coupling/sample/ranks.h"
+#include "report/sections/comparison.h"
+#include "results/fits/strength_data.h"
+#include "results/fits/strength_envelopes.h"
+#include "results/folder/reference.h"
+#include "results/folder/result_folder.h"
+
+#include <deal.II/base/mpi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+
+/// `feldspar multiscale`: laboratory tests on a mesh of finite elements with a representative volume at every point.
+namespace feldspar
+{
+namespace
+{
+std::string describe_run(const Input& input, const std::vector<Rock>& rocks, const std::vector<FinishedTest>& tests,
+                         const std::vector<std::string>& remarks)
+{
+  std::string text;
+  for (const Rock& rock : rocks)
+    if (const auto reports = rock.reports(); !reports.empty())
+      text +=
+        fmt::format("The first of {} volumes of seed {}\n{}\n", reports.size(), rock.seed, describe(reports.front()));
+  std::optional<Reference> reference;
+  if (!input.reference_file.empty())
+    reference = read_reference(input.reference_file);
+  text += as_text(compare(tests, reference)) + "\n";
+  if (const StrengthData data = strength_data(tests); data.points.size() > 1)
+    text += as_text(fit_strength_envelopes(data)) + "\n";
+  for (const auto& test : tests)
+    if (!test.results.peak_stress.value)
+      text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
+    else if (!test.record.ended_early.empty())
+      text += fmt::format("{}: {}\n", test.name, test.record.ended_early);
+  for (const auto& test : tests)
+    if (const RankBalance& of_ranks = test.record.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
+      text += fmt::format(
+        "{}: longest over mean time of the ranks {:.2f}, had no cell moved {:.2f}; cells were dealt out "
+        "anew {} times\n",
+        test.name, of_ranks.longest / of_ranks.mean, of_ranks.longest_unmoved / of_ranks.mean, of_ranks.n_moves);
+  for (const auto& remark : remarks)
+    text += remark + "\n";
+  return text;
+}
+
+/// What can be told before any work; returns what a user should know.
+std::vector<std::string> check(const Input& input, const std::filesystem::path& file)
+{
+  const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
+  const bool has_grains = input.sample.material == SampleMaterial::grains;
+  const SampleGeometry geometry = input.sample.geometry;
+  if (const unsigned int needed = dimension_of_volumes(geometry); has_grains && input.specimen.dimension != needed)
+    refuse(fmt::format("Specimen/Dimension = {}: {}; set Dimension = {}", input.specimen.dimension,
+                       needed == 2 ? "the volumes of a plane sample are of discs (those of plane strain of spheres)"
+                                   : "the volumes of such a Sample/Geometry are of spheres",
+                       needed));
+  if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
+    refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
+  if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
+    refuse("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
+  if (!input.variant_entry.empty())
+    refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
+  if (std::find(input.test_list.begin(), input.test_list.end(), TestKind::brazilian) != input.test_list.end())
+    refuse("Tests/List: brazilian: the sample stands between platens; it makes direct_tension, uniaxial_compression "
+           "and triaxial_compression");
+  if (!input.reference_file.empty())
+    read_reference(input.reference_file);
+
+  if (input.tests.lateral_boundary == LateralBoundary::membrane)
+    refuse(
+      "Tests/Lateral boundary = membrane: goes round grains; on the sides of a sample of finite elements a pressure is "
+      "one already");
+  if (input.tests.intermediate_stress)
+    refuse(
+      "Tests/Intermediate stress: presses on a box of grains; a sample of finite elements has one lateral pressure");
+  if (!has_grains && input.sample.weak_seed != WeakSeed::none)
+    refuse("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
+  if (!has_grains && !input.tests.stop_strain)
+    refuse("Tests/Stop strain = none: without grains the sample does not soften, so a test would not end; give the "
+           "strain at which it is to stop");
+  if (input.sample.widened_past_peak && !input.tests.stop_strain && !input.tests.stop_stress_over_peak)
+    refuse(
+      "Sample/Control past the peak = lateral strain: the axial strain may go back, so that no multiple of that at "
+      "the peak ends the test; give Tests/Stop stress over peak, or Stop strain");
+  if (input.continuum.dilation_angle > input.continuum.friction_angle)
+    refuse("Continuum/Dilation angle: must be at most Continuum/Friction angle");
+  if (!has_grains && geometry != SampleGeometry::plane && input.continuum.poissons_ratio >= 0.5)
+    refuse("Continuum/Poisson ratio: must be below 0.5 in space");
+  if (input.sample.reduced_quadrature && input.sample.order != 2)
+    refuse("Sample/Quadrature = reduced: needs Order = 2; elements of order 1 would deform without strain");
+  // Before the mesh is made, which would take all memory.
+  constexpr double most_cells = 1e6;
+  const double n_across = input.sample.elements_across;
+  if (const double n =
+        (geometry == SampleGeometry::cylinder ? n_across * n_across : n_across) * input.sample.elements_along;
+      input.sample.mesh_file.empty() && n > most_cells)
+    refuse(fmt::format("Sample/Elements across = {}, Elements along = {}: some {:.0e} cells; more than {:.0e} are not "
+                       "meshed",
+                       input.sample.elements_across, input.sample.elements_along, n, most_cells));
+  SampleSize size{};
+  try
+    {
+      size = measure(input.sample);
+    }
+  catch (const InputError& error)
+    {
+      refuse(error.what());
+    }
+  if (const std::uint64_t most = n_cells(input.sample); ranks::number() > most)
+    refuse(fmt::format("{} processes for a sample of {} cells: each needs one; start at most {}, and give them more "
+                       "threads",
+                       ranks::number(), most, most));
+
+  // Elements larger than the volume would have to dissipate more than it holds; docs/theory.md §11.
+  if (!has_grains || !input.specimen.specimen_file.empty())
+    return {};
+  const SampleParameters& sample = input.sample;
+  const double width = input.specimen.width;
+  const double volume = dimension_of_volumes(geometry) == 2 ? std::sqrt(width * input.specimen.height)
+                                                            : std::cbrt(width * width * input.specimen.height);
+  if (size.largest_element <= volume * (1.0 + 1e-9))
+    return {};
+  const std::string larger =
+    fmt::format("elements of {:.1f} mm are larger than the volume of {:.1f} mm that softens for "
+                "them",
+                1e3 * size.largest_element, 1e3 * volume);
+  if (!sample.mesh_file.empty())
+    return {fmt::format("{}; mesh with elements of at most {:.1f} mm", larger, 1e3 * volume * sample.order)};
+  const double across = geometry == SampleGeometry::axisymmetric ? 0.5 * size.width : size.width;
+  return {fmt::format("{}; take at least Elements across = {}, Elements along = {}", larger,
+                      unsigned(std::ceil(across / (volume * sample.order))),
+                      unsigned(std::ceil(size.height / (volume * sample.order))))};
+}
+
+void say_how_to_resume(const std::filesystem::path& folder)
+{
+  fmt::print(stderr, "feldspar: interrupted; go on with: feldspar multiscale --resume {}\n", folder.string());
+}
+
+/// Volumes, tests and report of a run in its folder, from wherever it stands.
+int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
+           const bool quiet, std::vector<std::string> remarks)
+{
+  Progress progress(quiet || !ranks::is_first());
+  watch_for_interrupt();
+
+  // Make the rock.
+  const auto rocks = make_rocks(input, input_file, folder, progress);
+
+  // Break it.
+  std::vector<PlannedSample> planned;
+  try
+    {
+      planned = plan(input, rocks);
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
+    }
+  ranks::first([&] { std::filesystem::create_directories(folder / "fields"); });
+  std::vector<FinishedTest> tests;
+  progress.start("tests");
+  for (const PlannedSample& one : planned)
+    {
+      if (ranks::any(interrupted()))
+        break;
+      std::string last;
+      tests.push_back(run(one, input, folder, [&](const std::string& text) {
+        const bool is_row = text.starts_with(':');
+        if (is_row)
+          last = text;
+        progress.update(
+          std::numeric_limits<double>::quiet_NaN(),
+          fmt::format("{} of {} done; {}{}{}", tests.size(), planned.size(), one.name, last, is_row ? "" : text));
+      }));
+    }
+  progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+
+  const auto failed =
+    std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  if (failed != tests.end() &&
+      std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
+    throw InputError(fmt::format("{}: {}", input_file.string(), failed->record.failure));
+
+  // Report.
+  const bool was_interrupted = ranks::any(interrupted());
+  ranks::first([&] {
+    write_result_folder(provenance(input, input_file), tests, folder);
+    if (!input.reference_file.empty())
+      std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
+                                 std::filesystem::copy_options::overwrite_existing);
+    if (!tests.empty())
+      for (auto& sentence : report_on({{folder}, {}, {}, folder}))
+        remarks.push_back(std::move(sentence));
+    const std::string text = describe_run(input, rocks, tests, remarks);
+    write_whole_file(folder / "log.txt", text);
+    if (!quiet)
+      fmt::print("\n{}\n", text);
+    fmt::print("{}\n", folder.string());
+    if (was_interrupted)
+      say_how_to_resume(folder);
+    else
+      mark_complete(folder);
+    if (!was_interrupted && failed != tests.end())
+      fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  });
+  if (was_interrupted)
+    return exit_code::interrupted;
+  return failed == tests.end() ? 0 : exit_code::user_error;
+}
+} // namespace
+
+namespace
+{
+int run_on_all_ranks(const CommonOptions& options)
+{
+  if (options.input.empty() && !options.resume)
+    throw InputError("multiscale needs an INPUT, or --resume with the folder of a run; see feldspar multiscale --help");
+  if (options.extract)
+    {
+      if (ranks::number() > 1)
+        throw InputError("--extract is the work of one process; start it without mpirun");
+      return extract_volume(options.input, *options.extract, options.quiet);
+    }
+  const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
+    const auto remarks = check(input, input_file);
+    if (ranks::is_first())
+      for (const auto& remark : remarks)
+        fmt::print(stderr, "feldspar: {}: {}\n", input_file.string(), remark);
+    try
+      {
+        return run_in(folder, input, input_file, options.quiet, remarks);
+      }
+    catch (const Interrupted&)
+      {
+        if (ranks::is_first())
+          say_how_to_resume(folder);
+        return exit_code::interrupted;
+      }
+    catch (const OutputError& error)
+      {
+        throw OutputError(
+          fmt::format("{}; once it can, go on with: feldspar multiscale --resume {}", error.what(), folder.string()));
+      }
+  };
+  if (options.resume)
+    {
+      const RunRecord run = read_run_record("multiscale", *options.resume);
+      if (run.complete)
+        {
+          if (ranks::is_first())
+            fmt::print("{}: this run is complete\n", options.resume->string());
+          return 0;
+        }
+      return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
+    }
+
+  const Input input = read_input(options.input);
+  check(input, options.input);
+  // The first rank makes the folder and begins the record of the run; the others learn its name.
+  std::optional<OutputFolder> made;
+  std::filesystem::path folder;
+  ranks::first([&] {
+    made.emplace(options.output, options.input, options.force);
+    folder = made->path();
+    remove_run(folder); // with --force: what an earlier run left would be taken for this one's
+    try
+      {
+        write_run_record("multiscale", options.input, folder);
+      }
+    catch (const OutputError&)
+      {
+        remove_run(folder);
+        throw;
+      }
+  });
+  folder = ranks::of_first(folder.string());
+  try
+    {
+      return run_or_say_how_to_resume(folder, input, options.input);
+    }
+  catch (const InputError&)
+    {
+      ranks::first([&] { remove_run(folder); }); // a mistake leaves nothing
+      throw;
+    }
+}
+} // namespace
+
+int run_multiscale(const CommonOptions& options)
+{
+  // No limit of threads here, as deal.II's tutorials have it: it would leave the volumes one worker.
+  int n_arguments = 0;
+  char** no_arguments = nullptr;
+  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
+  int exit_code = 0;
+  std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
+  {
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+    try
+      {
+        exit_code = ranks::guarded([&] { return run_on_all_ranks(options); });
+      }
+    catch (...)
+      {
+        failure = std::current_exception();
+      }
+  }
+  if (failure)
+    std::rethrow_exception(failure);
+  return exit_code;
+}
+} // namespace feldspar

@@ -1,0 +1,283 @@
+#include "app/commands/commands.h"
+#include "app/input/input.h"
+#include "app/input/strain_path.h"
+#include "app/run/interrupt.h"
+#include "app/run/jobs.h"
+#include "app/run/output_folder.h"
+#include "app/run/progress.h"
+#include "app/run/provenance.h"
+#include "app/run/run_record.h"
+#include "app/run/rve_results.h"
+#include "app/run/specimen_source.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "coupling/rve/explicit_run.h"
+#include "coupling/rve/volume_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+/// `feldspar rve`: representative volumes along a path of strain or stress, one for each seed.
+namespace feldspar
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds time_between_checkpoints{20};
+
+double seconds_since(const Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Tells the progress how all volumes stand.
+class Board
+{
+public:
+  Board(Progress& shown, const std::size_t n_volumes)
+    : progress(shown)
+    , entries(n_volumes)
+  {
+    progress.start("paths");
+  }
+
+  void update(const std::size_t k, const double fraction, const std::string& text)
+  {
+    const std::lock_guard lock(showing);
+    entries[k] = {fraction, text};
+    double sum = 0.0;
+    std::vector<ProgressDetail> running;
+    for (const auto& entry : entries)
+      {
+        sum += entry.fraction / double(entries.size());
+        if (entry.fraction > 0.0 && entry.fraction < 1.0)
+          running.push_back(entry);
+      }
+    progress.update(sum, fmt::format("{} volume(s)", entries.size()), running);
+  }
+
+private:
+  Progress& progress;
+  std::mutex showing;
+  std::vector<ProgressDetail> entries;
+};
+
+template <int dim>
+std::string describe(const std::string& name, const PathSample<dim>& sample)
+{
+  std::string stresses;
+  for (const double component : sample.stress)
+    stresses += fmt::format("{}{:.2f}", stresses.empty() ? "" : ", ", component / 1e6);
+  return fmt::format("{}: stress {} MPa, {} cracks", name, stresses, sample.n_tension_cracks + sample.n_shear_cracks);
+}
+
+/// Hears how far a path is and what its last sample was.
+template <int dim>
+using Listener = std::function<void(double progress, const PathSample<dim>& sample)>;
+
+/// A path from its checkpoint, if there is one, to its end or to Ctrl-C. `begin` makes the run at the start of its path.
+template <typename Begin, typename Show>
+auto go_path(const Begin& begin, const std::filesystem::path& checkpoint, const std::string& identity, const Show& show)
+{
+  auto run = begin();
+  if (std::filesystem::exists(checkpoint))
+    try
+      {
+        run.read_checkpoint(checkpoint, identity);
+      }
+    catch (const InputError& error)
+      {
+        fmt::print(stderr, "feldspar: {}; going back to the start of its path\n", error.what());
+        run = begin();
+      }
+  auto last_checkpoint = Clock::now();
+  while (!run.has_ended() && !interrupted())
+    {
+      run.advance();
+      show(run.progress(), run.record().samples.back());
+      if (Clock::now() - last_checkpoint > time_between_checkpoints)
+        {
+          run.write_checkpoint(checkpoint, identity);
+          last_checkpoint = Clock::now();
+        }
+    }
+  run.write_checkpoint(checkpoint, identity);
+  return run;
+}
+
+/// The path of one volume by the solver that is wanted.
+template <int dim>
+FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
+                               const std::filesystem::path& folder, const Listener<dim>& show)
+{
+  const auto started = Clock::now();
+  const Input& input = variant.input;
+  const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
+  const auto legs = path_legs<dim>(input.strain_path);
+  const auto checkpoint = folder / "checkpoints" / (name + ".h5");
+  const std::string identity = run_identity(input, name);
+  const auto finish = [&](const auto& run) -> FinishedVolume<dim> {
+    return {name,    variant.label, specimen.seed, specimen.report,
+            network, run.record(),  run.state(),   seconds_since(started)};
+  };
+  std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
+  if (const std::string& file = input.specimen.specimen_file; !file.empty())
+    start = read_volume_state(file, *network);
+  if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
+    throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
+                                 "explicit dynamics begin at rest; set Solver = event by event",
+                                 input.specimen.specimen_file));
+  if (input.strain_path.solver == PathSolver::explicit_dynamics)
+    return finish(go_path(
+      [&] {
+        return ExplicitRun<dim>(specimen, network, legs,
+                                {.largest_step = input.strain_path.largest_step,
+                                 .steps_per_millistrain = input.strain_path.steps_per_millistrain,
+                                 .dynamics = input.dynamics});
+      },
+      checkpoint, identity, show));
+  return finish(go_path(
+    [&] {
+      return PathRun<dim>(network, legs,
+                          {.largest_step = input.strain_path.largest_step, .equilibrium = input.equilibrium}, start);
+    },
+    checkpoint, identity, show));
+}
+
+template <int dim>
+int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
+           const bool quiet)
+{
+  Progress progress(quiet);
+  watch_for_interrupt();
+
+  // Make the rock.
+  const auto all_variants = variants(input);
+  const auto orders = specimen_orders(all_variants);
+  const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
+  for (const auto& specimen : specimens)
+    if (!specimen.periodic)
+      throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; a representative volume "
+                                   "needs a periodic cell (feldspar lab takes walls)",
+                                   input_file.string()));
+
+  // Strain it.
+  std::filesystem::create_directories(folder / "checkpoints");
+  struct Run
+  {
+    std::size_t variant;
+    std::size_t specimen;
+    std::string name;
+  };
+  std::vector<Run> runs;
+  for (std::size_t v = 0; v < all_variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+        runs.push_back({v, s,
+                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
+                          (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
+  std::vector<FinishedVolume<dim>> volumes(runs.size());
+  Board board(progress, runs.size());
+  for_each_job(runs.size(), [&](const std::size_t k) {
+    const auto& [variant, specimen, name] = runs[k];
+    volumes[k] = run_volume<dim>(all_variants[variant], name, specimens[specimen], folder,
+                                 [&](const double progress_of_path, const PathSample<dim>& sample) {
+                                   board.update(k, progress_of_path, describe(name, sample));
+                                 });
+  });
+  progress.finish(fmt::format("{} volume(s)", volumes.size()));
+
+  // Report.
+  write_results(provenance(input, input_file), volumes, folder);
+  std::string text;
+  for (const auto& volume : volumes)
+    text += describe(volume) + "\n";
+  write_whole_file(folder / "log.txt", text);
+  if (!quiet)
+    fmt::print("\n{}", text);
+  fmt::print("{}\n", folder.string());
+  if (interrupted())
+    {
+      fmt::print(stderr, "feldspar: interrupted; go on with: feldspar rve --resume {}\n", folder.string());
+      return exit_code::interrupted;
+    }
+  std::filesystem::remove_all(folder / "checkpoints");
+  mark_complete(folder);
+  const auto failed = std::find_if(volumes.begin(), volumes.end(),
+                                   [](const FinishedVolume<dim>& volume) { return !volume.record.failure.empty(); });
+  if (failed == volumes.end())
+    return 0;
+  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
+  return exit_code::user_error;
+}
+
+/// What can be told before any work.
+void check(const Input& input, const std::filesystem::path& file)
+{
+  try
+    {
+      for (const Variant& variant : variants(input))
+        {
+          if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
+            throw InputError(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
+                                         variant.input.specimen.shape));
+          check(variant.input.strain_path);
+        }
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  for (const Variant& variant : variants(input))
+    if (variant.input.specimen.dimension == 2)
+      path_legs<2>(variant.input.strain_path);
+    else
+      path_legs<3>(variant.input.strain_path);
+}
+
+int run_in_dimension(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
+                     const bool quiet)
+{
+  return input.specimen.dimension == 2 ? run_in<2>(folder, input, input_file, quiet)
+                                       : run_in<3>(folder, input, input_file, quiet);
+}
+} // namespace
+
+int run_rve(const CommonOptions& options)
+{
+  if (options.input.empty() && !options.resume)
+    throw InputError("rve needs an INPUT, or --resume with the folder of a run; see feldspar rve --help");
+  if (options.resume)
+    {
+      const RunRecord run = read_run_record("rve", *options.resume);
+      if (run.complete)
+        {
+          fmt::print("{}: this run is complete\n", options.resume->string());
+          return 0;
+        }
+      return run_in_dimension(*options.resume, run.input, run.input_file, options.quiet);
+    }
+  const Input input = read_input(options.input);
+  check(input, options.input);
+  const OutputFolder folder(options.output, options.input, options.force);
+  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
+  write_run_record("rve", options.input, folder.path());
+  try
+    {
+      return run_in_dimension(folder.path(), input, options.input, options.quiet);
+    }
+  catch (const InputError&)
+    {
+      remove_run(folder.path()); // a mistake leaves nothing
+      throw;
+    }
+  catch (const Interrupted&)
+    {
+      remove_run(folder.path());
+      throw;
+    }
+}
+} // namespace feldspar

@@ -1,0 +1,43 @@
+#include "app/commands/commands.h"
+#include "app/input/input.h"
+#include "app/run/interrupt.h"
+#include "app/run/output_folder.h"
+#include "app/run/progress.h"
+#include "app/run/specimen_source.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+int make_specimens(const CommonOptions& options, const Input& input)
+{
+  const OutputFolder folder(options.output, options.input, options.force);
+  Progress progress(options.quiet);
+  watch_for_interrupt();
+
+  const auto all_variants = variants(input);
+  const auto orders = specimen_orders(all_variants);
+  for (const SpecimenOrder& order : orders) // with --force: one that lies there already is another input's
+    std::filesystem::remove(folder.path() / (order.name + ".h5"));
+  const auto specimens = provide_specimens<dim>(all_variants, orders, folder.path(), progress);
+  for (std::size_t k = 0; k < orders.size(); ++k)
+    {
+      if (!options.quiet)
+        fmt::print("\nSeed {}\n{}", specimens[k].seed, describe(specimens[k].report));
+      fmt::print("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
+    }
+  return 0;
+}
+} // namespace
+
+int run_specimen(const CommonOptions& options)
+{
+  const Input input = read_input(options.input);
+  return input.specimen.dimension == 2 ? make_specimens<2>(options, input) : make_specimens<3>(options, input);
+}
+} // namespace feldspar

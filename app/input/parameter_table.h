@@ -1,0 +1,37 @@
+#pragma once
+
+#include "app/input/input.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feldspar
+{
+/// One entry of the input: all there is to know about it.
+struct Parameter
+{
+  std::string_view section;
+  std::string_view entry;
+  std::string unit; ///< in which it is shown; any other of its dimension may be written
+  std::string range;
+  std::string_view meaning;
+  std::function<void(Input&, std::string_view)> read; ///< throws InputError, which says what is allowed
+  std::function<std::string(const Input&)> write;     ///< as it would stand in an input file
+  std::string name() const;                           ///< Section/Entry
+  std::string default_text() const;
+};
+
+/// Every parameter, in the order of the reference. Reading, checking and the reference walk this.
+const std::vector<Parameter>& parameter_table();
+
+/// The sections in the order of the table, each once.
+std::vector<std::string_view> section_names();
+
+/// The entries of a section in the order of the table; none if there is no such section.
+std::vector<std::string_view> entry_names(std::string_view section);
+
+/// Null if there is none of that name.
+const Parameter* find_parameter(std::string_view section, std::string_view entry);
+} // namespace feldspar

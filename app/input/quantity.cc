@@ -1,0 +1,274 @@
+#include "app/input/quantity.h"
+
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <array>
+#include <charconv>
+#include <clocale>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+bool is_digit(const char c) { return '0' <= c && c <= '9'; }
+
+/// Letters of any language: every byte of a UTF-8 sequence counts as one.
+bool is_letter(const char c)
+{
+  return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '%' || c == '_' || (c & 0x80) != 0;
+}
+
+std::size_t count_digits(const std::string_view text)
+{
+  std::size_t n = 0;
+  while (n < text.size() && is_digit(text[n]))
+    ++n;
+  return n;
+}
+
+/// Whether all of the text is [sign] digits [. digits] [e [sign] digits].
+bool is_decimal_number(std::string_view text)
+{
+  const auto skip_one_of = [&](const std::string_view characters) {
+    const bool found = !text.empty() && characters.find(text.front()) != std::string_view::npos;
+    text.remove_prefix(found);
+    return found;
+  };
+  const auto skip_digits = [&] {
+    const std::size_t n = count_digits(text);
+    text.remove_prefix(n);
+    return n;
+  };
+
+  skip_one_of("+-");
+  std::size_t n_digits = skip_digits();
+  if (skip_one_of("."))
+    n_digits += skip_digits();
+  if (n_digits == 0)
+    return false;
+  if (skip_one_of("eE"))
+    {
+      skip_one_of("+-");
+      if (skip_digits() == 0)
+        return false;
+    }
+  return text.empty();
+}
+
+/// Whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one too.
+/// Factors and origins (`MPa.3`, `since 1990`), which UDUNITS would apply without a word, are none.
+bool is_unit_expression(std::string_view text)
+{
+  if (text.starts_with("1/"))
+    text.remove_prefix(2);
+  while (true)
+    {
+      std::size_t n = 0;
+      while (n < text.size() && is_letter(text[n]))
+        ++n;
+      if (n == 0)
+        return false;
+      text.remove_prefix(n);
+
+      const bool power_follows = text.starts_with('^') || text.starts_with('-');
+      text.remove_prefix(text.starts_with('^'));
+      text.remove_prefix(text.starts_with('-'));
+      const std::size_t n_digits = count_digits(text);
+      if (power_follows && n_digits == 0)
+        return false;
+      text.remove_prefix(n_digits);
+
+      if (text.empty())
+        return true;
+      if (text.front() != '.' && text.front() != '*' && text.front() != '/')
+        return false;
+      text.remove_prefix(1);
+    }
+}
+
+double convert_number(const std::string_view text)
+{
+  double value = 0.0;
+  const std::string_view unsigned_text = text.substr(text.starts_with('+')); // from_chars knows no plus
+  const auto end = unsigned_text.data() + unsigned_text.size();
+  if (std::from_chars(unsigned_text.data(), end, value).ec == std::errc::result_out_of_range)
+    throw InputError(fmt::format("\"{}\" is beyond the range of numbers", text));
+  return value;
+}
+
+struct Free
+{
+  void operator()(ut_system* system) const { ut_free_system(system); }
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+template <typename T>
+using Owner = std::unique_ptr<T, Free>;
+
+/// UDUNITS reads the numbers of its own tables by the locale of the thread: the C locale, for as long as this lives.
+class CLocale
+{
+public:
+  CLocale()
+    : c_locale(newlocale(LC_ALL_MASK, "C", nullptr))
+    , previous(uselocale(c_locale))
+  {
+  }
+  CLocale(const CLocale&) = delete;
+  CLocale& operator=(const CLocale&) = delete;
+  ~CLocale()
+  {
+    uselocale(previous);
+    freelocale(c_locale);
+  }
+
+private:
+  const locale_t c_locale;
+  const locale_t previous;
+};
+
+Owner<ut_system> read_unit_system()
+{
+  ut_set_error_message_handler(ut_ignore);
+  Owner<ut_system> system(ut_read_xml(nullptr));
+  if (!system)
+    throw std::runtime_error("the table of units cannot be read; is the package libudunits2-data installed?");
+  const Owner<ut_unit> degree(ut_get_unit_by_name(system.get(), "degree"));
+  ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+  return system;
+}
+
+/// UDUNITS is not made for several threads at once: its parser keeps its place in global variables.
+std::mutex& units_mutex()
+{
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Under the lock.
+Owner<ut_unit> parse_unit(const std::string_view text)
+{
+  const CLocale c_locale;
+  static const Owner<ut_system> system = read_unit_system();
+  return Owner<ut_unit>(ut_parse(system.get(), std::string(text).c_str(), UT_UTF8));
+}
+
+/// For UDUNITS the radian is a pure number and could come and go unseen (`22 %` as an angle, `22 MPa.rad` as a stress):
+/// here it must be the same on both sides.
+bool are_of_one_dimension(ut_unit* unit, ut_unit* si_unit)
+{
+  if (!ut_are_convertible(unit, si_unit))
+    return false;
+  const Owner<ut_unit> ratio(ut_divide(unit, si_unit));
+  std::array<char, 256> definition{};
+  return ratio && ut_format(ratio.get(), definition.data(), definition.size(), UT_ASCII | UT_DEFINITION) > 0 &&
+         std::string_view(definition.data()).find("rad") == std::string_view::npos;
+}
+
+bool is_known_unit(const std::string_view text)
+{
+  const std::lock_guard lock(units_mutex());
+  return is_unit_expression(text) && parse_unit(text);
+}
+
+std::string advice(const Dimension& dimension)
+{
+  return fmt::format("write {}, e.g. \"{}\"", dimension.name, dimension.example);
+}
+
+/// The position of the space between number and unit, both checked for their form.
+std::size_t find_space(const std::string_view text, const Dimension& dimension)
+{
+  const std::size_t space = text.find(' ');
+  const std::string_view number = text.substr(0, space);
+  if (text.empty() || (space == std::string_view::npos && is_known_unit(text)))
+    throw InputError(fmt::format("a number is missing; {}", advice(dimension)));
+  if (!is_decimal_number(number))
+    throw InputError(fmt::format("\"{}\" is not a decimal number; {}", number, advice(dimension)));
+  if (space == std::string_view::npos)
+    throw InputError(fmt::format("a unit is missing; {}", advice(dimension)));
+  if (!is_unit_expression(text.substr(space + 1)))
+    throw InputError(fmt::format("\"{}\" is not one unit; {}", text.substr(space + 1), advice(dimension)));
+  return space;
+}
+} // namespace
+
+std::string_view trim(const std::string_view text)
+{
+  constexpr std::string_view white = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(white);
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(white) + 1 - first);
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text)
+{
+  std::vector<std::string_view> pieces;
+  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(','))
+    {
+      pieces.push_back(trim(text.substr(0, comma)));
+      text.remove_prefix(comma + 1);
+    }
+  pieces.push_back(trim(text));
+  return pieces;
+}
+
+double to_si(const double value, const std::string_view unit, const Dimension& dimension)
+{
+  const std::lock_guard lock(units_mutex());
+  const Owner<ut_unit> from = parse_unit(unit);
+  const Owner<ut_unit> si = parse_unit(dimension.si_unit);
+  if (!from)
+    throw InputError(fmt::format("\"{}\" is not a known unit; {}", unit, advice(dimension)));
+  if (!are_of_one_dimension(from.get(), si.get()))
+    throw InputError(fmt::format("\"{}\" is not the unit of {}; {}", unit, dimension.name, advice(dimension)));
+  const Owner<cv_converter> converter(ut_get_converter(from.get(), si.get()));
+  return cv_convert_double(converter.get(), value);
+}
+
+double parse_number(const std::string_view text)
+{
+  if (!is_decimal_number(text))
+    throw InputError(text.empty() ? "a number is missing" : fmt::format("\"{}\" is not a decimal number", text));
+  return convert_number(text);
+}
+
+double parse_quantity(const std::string_view text, const Dimension& dimension)
+{
+  const std::size_t space = find_space(text, dimension);
+  return to_si(convert_number(text.substr(0, space)), text.substr(space + 1), dimension);
+}
+
+std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
+{
+  std::vector<std::string_view> numbers = split_at_commas(text);
+  const std::string_view last = numbers.back();
+  const std::size_t space = find_space(last, dimension);
+  numbers.back() = last.substr(0, space);
+  std::vector<double> values;
+  values.reserve(numbers.size());
+  for (const std::string_view number : numbers)
+    {
+      if (number.find(' ') != std::string_view::npos)
+        throw InputError(fmt::format("\"{}\": the unit stands once, after the last number", number));
+      values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
+    }
+  return values;
+}
+
+std::string format_number(const double value) { return fmt::format("{:.15g}", value); }
+
+std::string format_quantity(const double si_value, const std::string_view unit, const Dimension& dimension)
+{
+  const double si_per_unit = to_si(1.0, unit, dimension);
+  return fmt::format("{} {}", format_number(si_value / si_per_unit), unit);
+}
+} // namespace feldspar

@@ -1,0 +1,29 @@
+#include "app/run/interrupt.h"
+
+#include <csignal>
+
+#include <atomic>
+
+namespace feldspar
+{
+namespace
+{
+// A signal handler is given nothing, so that what it says has to be global.
+std::atomic<bool> was_interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void note_interrupt(int) { was_interrupted = true; }
+} // namespace
+
+void watch_for_interrupt()
+{
+  struct sigaction action = {};
+  action.sa_handler = note_interrupt;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool interrupted() { return was_interrupted; }
+} // namespace feldspar

@@ -1,0 +1,275 @@
+#include "app/run/lab_run.h"
+
+#include "app/run/interrupt.h"
+#include "app/run/jobs.h"
+#include "app/run/run_record.h"
+#include "base/input_error.h"
+#include "dem/lab/laboratory_test.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+/// What one test of the programme is.
+template <int dim>
+struct PlannedTest
+{
+  TestCase test;
+  const Variant* variant;
+  const Specimen<dim>* specimen;
+  std::string group;
+  std::string name;
+  std::string identity; ///< of its checkpoints: program, input and test
+};
+
+template <int dim>
+std::vector<PlannedTest<dim>> plan(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                                   const std::vector<Specimen<dim>>& specimens)
+{
+  std::vector<PlannedTest<dim>> planned;
+  const auto add_tests = [&](const std::size_t v, const Specimen<dim>& specimen) {
+    const Variant& variant = variants[v];
+    for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
+      {
+        const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", name(test), v + 1) : name(test);
+        const std::string full_name = fmt::format("{}_seed_{}", group, specimen.seed);
+        planned.push_back({test, &variant, &specimen, group, full_name, run_identity(variant.input, full_name)});
+      }
+  };
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+        add_tests(v, specimens[s]);
+  return planned;
+}
+
+/// The order in which the tests are begun: the longest first, so that none is left alone at the end.
+template <int dim>
+std::vector<std::size_t> longest_first(const std::vector<PlannedTest<dim>>& planned)
+{
+  const auto length = [&](const std::size_t k) {
+    const TestCase& test = planned[k].test;
+    return test.kind == TestKind::direct_tension || test.kind == TestKind::brazilian ? -1.0 : test.confining_pressure;
+  };
+  std::vector<std::size_t> order(planned.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](const auto a, const auto b) { return length(a) > length(b); });
+  return order;
+}
+
+/// Tells the progress how all running tests stand.
+template <int dim>
+class Board
+{
+public:
+  Board(Progress& shown, const std::vector<PlannedTest<dim>>& planned)
+    : progress(shown)
+  {
+    for (const auto& test : planned)
+      entries.push_back({&test, PeakWatch(test.test.kind)});
+    progress.start("tests");
+  }
+
+  void update(const std::size_t k, const CurveSample& row)
+  {
+    const std::lock_guard lock(showing);
+    Entry& entry = entries[k];
+    const double sign = laboratory_sign(entry.planned->test.kind);
+    entry.row = row;
+    if (entry.peak.is_highest(sign * row.axial_stress))
+      entry.strain_at_peak = sign * row.axial_strain;
+    // Only a curve that has left its peak tells where it will end.
+    const double stop = entry.planned->variant->input.tests.stop_strain_over_peak_strain;
+    entry.fraction = sign * row.axial_stress < 0.95 * entry.peak.highest
+                       ? std::min(1.0, sign * row.axial_strain / (stop * entry.strain_at_peak))
+                       : 0.0;
+    entry.running = true;
+    draw();
+  }
+
+  void finish(const std::size_t k)
+  {
+    const std::lock_guard lock(showing);
+    entries[k].running = false;
+    entries[k].fraction = 1.0;
+    ++n_finished;
+    draw();
+  }
+
+private:
+  struct Entry
+  {
+    const PlannedTest<dim>* planned;
+    PeakWatch peak;
+    CurveSample row{};
+    double strain_at_peak = 0.0;
+    double fraction = 0.0;
+    bool running = false;
+  };
+
+  void draw()
+  {
+    double sum = 0.0;
+    std::vector<ProgressDetail> details;
+    for (const auto& entry : entries)
+      {
+        sum += entry.fraction;
+        const double sign = laboratory_sign(entry.planned->test.kind);
+        if (entry.running)
+          details.push_back(
+            {entry.fraction, fmt::format("{}: {:.4f} %, {:.1f} MPa, {} cracks", entry.planned->name,
+                                         100.0 * sign * entry.row.axial_strain, sign * entry.row.axial_stress / 1e6,
+                                         entry.row.n_tension_cracks + entry.row.n_shear_cracks)});
+      }
+    progress.update(sum > 0.0 ? sum / double(entries.size()) : std::numeric_limits<double>::quiet_NaN(),
+                    fmt::format("{} of {} done", n_finished, entries.size()), details);
+  }
+
+  Progress& progress;
+  std::mutex showing;
+  std::vector<Entry> entries;
+  std::size_t n_finished = 0;
+};
+
+/// The two last checkpoints of a test.
+template <int dim>
+class Checkpoints
+{
+public:
+  Checkpoints(const std::filesystem::path& folder, const PlannedTest<dim>& of_test)
+    : planned(of_test)
+    , newest(folder / (of_test.name + ".h5"))
+    , one_before(folder / (of_test.name + ".previous.h5"))
+  {
+  }
+
+  void write(LabTest<dim>& test) const
+  {
+    if (std::filesystem::exists(newest))
+      std::filesystem::rename(newest, one_before);
+    test.write_checkpoint(newest, planned.identity);
+  }
+
+  /// The test as its last good checkpoint has it, else from the start.
+  LabTest<dim> open() const
+  {
+    const Input& input = planned.variant->input;
+    for (const auto& file : {newest, one_before})
+      if (std::filesystem::exists(file))
+        try
+          {
+            LabTest<dim> test(planned.test, *planned.specimen, input.tests, input.dynamics);
+            test.read_checkpoint(file, planned.identity);
+            return test;
+          }
+        catch (const InputError& error)
+          {
+            fmt::print(stderr, "feldspar: {}; going back to {}\n", error.what(),
+                       file == newest && std::filesystem::exists(one_before) ? "the one before it"
+                                                                             : "the start of this test");
+          }
+    return LabTest<dim>(planned.test, *planned.specimen, input.tests, input.dynamics);
+  }
+
+private:
+  const PlannedTest<dim>& planned;
+  std::filesystem::path newest;
+  std::filesystem::path one_before;
+};
+
+/// Of a test that could not be made.
+template <int dim>
+TestRecord record_of_failure(const PlannedTest<dim>& planned, const std::string& why)
+{
+  TestRecord record;
+  record.kind = planned.test.kind;
+  record.confining_pressure = planned.test.confining_pressure;
+  record.seed = planned.specimen->seed;
+  record.size = in_space<dim>(planned.specimen->size);
+  record.specimen = planned.specimen->report;
+  record.bulk_density = planned.specimen->bulk_density;
+  record.interrupted = true;
+  record.failure = why;
+  return record;
+}
+
+/// Runs a test from where it stands to its end or to Ctrl-C.
+template <int dim>
+TestRecord run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
+               const std::function<void(const CurveSample&)>& show)
+{
+  LabTest<dim> test = checkpoints.open();
+  const std::uint64_t interval = planned.variant->input.steps_between_checkpoints;
+  std::uint64_t next_checkpoint = test.n_steps() + interval;
+  while (!test.has_ended() && !interrupted())
+    {
+      test.advance();
+      show(test.last_row());
+      if (test.has_ended() || test.n_steps() >= next_checkpoint || interrupted())
+        {
+          checkpoints.write(test);
+          next_checkpoint = test.n_steps() + interval;
+        }
+    }
+  return test.finish(!test.has_ended());
+}
+} // namespace
+
+template <int dim>
+std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                                        const std::vector<Specimen<dim>>& specimens,
+                                        const std::filesystem::path& folder, Progress& progress)
+{
+  const auto planned = plan(variants, orders, specimens);
+  const auto order = longest_first(planned);
+  const std::filesystem::path checkpoint_folder = folder / "checkpoints";
+  std::filesystem::create_directories(checkpoint_folder);
+
+  Board<dim> board(progress, planned);
+  std::vector<std::optional<FinishedTest>> slots(planned.size());
+  for_each_job(planned.size(), [&](const std::size_t position) {
+    const std::size_t k = order[position];
+    if (interrupted())
+      return;
+    FinishedTest test;
+    test.group = planned[k].group;
+    test.name = planned[k].name;
+    test.variant = planned[k].variant->label;
+    try
+      {
+        test.record = run(planned[k], Checkpoints<dim>(checkpoint_folder, planned[k]),
+                          [&](const CurveSample& row) { board.update(k, row); });
+      }
+    catch (const InputError& error)
+      {
+        // One test that cannot be made must not cost the others.
+        test.record = record_of_failure(planned[k], error.what());
+      }
+    test.results = evaluate(test.record);
+    board.finish(k);
+    slots[k] = std::move(test);
+  });
+
+  std::vector<FinishedTest> finished;
+  for (auto& slot : slots)
+    if (slot)
+      finished.push_back(std::move(*slot));
+  progress.finish(fmt::format("{} of {} done", finished.size(), planned.size()));
+  return finished;
+}
+
+template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                    const std::vector<Specimen<2>>&, const std::filesystem::path&,
+                                                    Progress&);
+template std::vector<FinishedTest> run_programme<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                    const std::vector<Specimen<3>>&, const std::filesystem::path&,
+                                                    Progress&);
+} // namespace feldspar

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "app/run/progress.h"
+#include "app/run/specimen_source.h"
+#include "dem/specimen/specimen.h"
+#include "results/run.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace feldspar
+{
+/// Runs the whole programme of an input on its specimens, as many tests at a time as there are threads, longest first.
+/// Each leaves a checkpoint in `folder`/checkpoints every so many steps, by which a later call takes it up; a test that
+/// has ended is not run again. After Ctrl-C comes what is there. Results stand in the order of variants, seeds, tests.
+template <int dim>
+std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                                        const std::vector<Specimen<dim>>& specimens,
+                                        const std::filesystem::path& folder, Progress& progress);
+} // namespace feldspar

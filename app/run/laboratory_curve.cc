@@ -1,0 +1,154 @@
+#include "app/run/laboratory_curve.h"
+
+#include "app/input/csv.h"
+#include "app/input/quantity.h"
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+constexpr Dimension strain{"a strain", "1", "0.1 %"};
+constexpr double steady = 0.05; // by so much the pressure may wander from its mean
+
+/// A quantity that the file must have.
+struct Quantity
+{
+  std::string_view name;
+  const Dimension* dimension;
+};
+
+constexpr std::array<Quantity, 4> quantities{Quantity{"axial_strain", &strain}, Quantity{"lateral_strain", &strain},
+                                             Quantity{"axial_stress", &stress},
+                                             Quantity{"confining_pressure", &stress}};
+constexpr std::string_view right_header =
+  "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+
+/// Where a quantity stands in the file, and its unit in SI.
+struct Place
+{
+  std::size_t column;
+  double unit;
+};
+
+std::array<Place, quantities.size()> places_of(const std::string& header, const std::filesystem::path& file)
+{
+  const auto refuse = [&](const std::string& what) {
+    return InputError(fmt::format("{}:1: {}; the header must be as in \"{}\"", file.string(), what, right_header));
+  };
+  std::array<std::optional<Place>, quantities.size()> found;
+  const auto columns = split_at_commas(header);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      const std::string_view column = columns[c];
+      const std::size_t bracket = std::min(column.find('['), column.size());
+      const std::string_view name = trim(column.substr(0, bracket));
+      const auto quantity =
+        std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& one) { return one.name == name; });
+      if (quantity == quantities.end())
+        continue; // a column more does no harm
+      if (bracket == column.size() || !column.ends_with(']'))
+        throw refuse(fmt::format("\"{}\" has no unit in square brackets", column));
+      const std::string_view unit = trim(column.substr(bracket + 1, column.size() - bracket - 2));
+      const bool is_plain = quantity->dimension == &strain && (unit == "-" || unit == "1");
+      auto& place = found[std::size_t(quantity - quantities.begin())];
+      if (place)
+        throw refuse(fmt::format("{} is there twice", name));
+      try
+        {
+          place = Place{c, is_plain ? 1.0 : parse_quantity(fmt::format("1 {}", unit), *quantity->dimension)};
+        }
+      catch (const InputError& error)
+        {
+          throw refuse(fmt::format("\"{}\": {}", column, error.what()));
+        }
+    }
+  std::array<Place, quantities.size()> places{};
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    if (!found[q])
+      throw refuse(fmt::format("there is no column {}", quantities[q].name));
+    else
+      places[q] = *found[q];
+  return places;
+}
+
+/// The mean pressure; 0 of a uniaxial test.
+double steady_pressure(const std::vector<double>& pressures, const std::filesystem::path& file)
+{
+  double mean = 0.0;
+  for (const double pressure : pressures)
+    mean += pressure / double(pressures.size());
+  for (std::size_t k = 0; k < pressures.size(); ++k)
+    if (std::abs(pressures[k] - mean) > steady * std::abs(mean) || pressures[k] < 0.0)
+      throw InputError(
+        fmt::format("{}: confining_pressure is {:g} MPa in row {} and {:g} MPa in the mean; it must be the "
+                    "same within 5 % all through the test, and not negative",
+                    file.string(), pressures[k] / 1e6, k + 1, mean / 1e6));
+  return std::round(mean); // to the pascal, as sums are not exact
+}
+} // namespace
+
+Series read_laboratory_curve(const std::filesystem::path& file)
+{
+  const std::string header = read_csv_header(file);
+  const auto places = places_of(header, file);
+  const auto rows = read_csv(file, header);
+
+  FinishedTest test;
+  test.name = test.group = file.stem().string();
+  std::vector<double> pressures;
+  for (const auto& row : rows)
+    {
+      const auto value = [&](const std::size_t q) { return places[q].unit * row[places[q].column]; };
+      CurveSample sample; // tension positive
+      sample.step = test.record.curve.size();
+      sample.axial_strain = sample.gauge_axial_strain = -value(0);
+      sample.gauge_lateral_strain = -value(1);
+      sample.gauge_volumetric_strain = sample.gauge_axial_strain + 2.0 * sample.gauge_lateral_strain; // a cylinder
+      sample.axial_stress = -value(2);
+      sample.lateral_stress = -value(3);
+      pressures.push_back(value(3));
+      test.record.curve.push_back(sample);
+    }
+  test.record.confining_pressure = steady_pressure(pressures, file);
+  test.record.kind =
+    test.record.confining_pressure > 0.0 ? TestKind::triaxial_compression : TestKind::uniaxial_compression;
+  const auto peak = peak_row(test.record);
+  if (!peak)
+    throw InputError(
+      fmt::format("{}: axial_stress never peaks: it must rise and fall again, compression positive", file.string()));
+  const auto& curve = test.record.curve;
+  if (curve[*peak].axial_strain >= curve.front().axial_strain)
+    throw InputError(
+      fmt::format("{}: axial_strain does not grow up to the peak; shortening is positive", file.string()));
+  // Elastic rock widens when it is pressed: positive lateral strains would pass as a negative Poisson's ratio.
+  for (std::size_t k = 0; k <= *peak; ++k)
+    if (curve[k].axial_stress <=
+        0.5 * (curve[*peak].axial_stress - curve.front().axial_stress) + curve.front().axial_stress)
+      {
+        if (curve[k].gauge_lateral_strain <= curve.front().gauge_lateral_strain)
+          throw InputError(fmt::format("{}: lateral_strain grows with the load at half of the peak; compression is "
+                                       "positive, so a specimen that widens has negative lateral strains",
+                                       file.string()));
+        break;
+      }
+
+  test.results = evaluate(test.record);
+  const Figure not_counted{std::nullopt, "a measured curve counts no cracks"};
+  test.results.crack_initiation_stress = test.results.shear_share_at_peak = not_counted;
+  test.results.n_tension_cracks_at_peak = test.results.n_shear_cracks_at_peak = not_counted;
+  const Figure not_known{std::nullopt, "not known of a measured curve"};
+  test.results.kinetic_to_strain_energy = test.results.unbalanced_force_ratio = not_known;
+  test.results.end_stress_difference = test.results.p_wave_transits_to_peak = not_known;
+  return {file.filename().string(), SeriesKind::laboratory_curve, {}, {test}, {}};
+}
+} // namespace feldspar

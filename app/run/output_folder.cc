@@ -1,0 +1,89 @@
+#include "app/run/output_folder.h"
+
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+InputError cannot_write(const std::filesystem::path& folder, const int error)
+{
+  return InputError(fmt::format("{}: cannot be written into: {}; choose another folder with --output", folder.string(),
+                                std::generic_category().message(error)));
+}
+} // namespace
+
+OutputFolder::OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input,
+                           const bool force)
+{
+  try
+    {
+      if (wanted)
+        make_wanted(*wanted, force);
+      else
+        make_numbered(input);
+    }
+  catch (...)
+    {
+      remove_empty();
+      throw;
+    }
+}
+
+OutputFolder::~OutputFolder() { remove_empty(); }
+
+bool OutputFolder::make(const std::filesystem::path& new_folder)
+{
+  if (mkdir(new_folder.c_str(), 0777) == 0)
+    {
+      made.push_back(new_folder);
+      return true;
+    }
+  if (errno != EEXIST)
+    throw cannot_write(new_folder, errno);
+  return false;
+}
+
+void OutputFolder::make_numbered(const std::filesystem::path& input)
+{
+  for (unsigned int number = 1; made.empty(); ++number)
+    {
+      folder = input.parent_path() / fmt::format("{}-results-{:03}", input.stem().string(), number);
+      make(folder);
+    }
+}
+
+void OutputFolder::make_wanted(const std::filesystem::path& wanted, const bool force)
+{
+  folder = wanted.has_filename() ? wanted : wanted.parent_path(); // without a slash at the end
+  std::filesystem::path parent;
+  bool is_new = false;
+  for (const std::filesystem::path& part : folder)
+    {
+      parent /= part;
+      is_new = make(parent);
+    }
+  if (is_new)
+    return;
+  if (!std::filesystem::is_directory(folder))
+    throw cannot_write(folder, ENOTDIR);
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw cannot_write(folder, errno);
+  if (!std::filesystem::is_empty(folder) && !force)
+    throw InputError(
+      fmt::format("{}: is not empty; choose another folder, or --force to write over it", folder.string()));
+}
+
+void OutputFolder::remove_empty() const
+{
+  for (auto last = made.rbegin(); last != made.rend(); ++last)
+    rmdir(last->c_str()); // which keeps a folder with something in it
+}
+} // namespace feldspar

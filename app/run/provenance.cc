@@ -1,0 +1,41 @@
+#include "app/run/provenance.h"
+
+#include "app/input/parameter_table.h"
+#include "feldspar_version.h"
+
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <thread>
+
+namespace feldspar
+{
+namespace
+{
+std::string processor_name()
+{
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      return line.substr(std::min(line.size(), line.find(':') + 2));
+  return "unknown";
+}
+} // namespace
+
+Provenance provenance(const Input& input, const std::filesystem::path& input_file)
+{
+  Provenance result;
+  result.version = version;
+  result.commit = commit;
+  result.input_file = input_file.filename().string();
+  for (const auto& parameter : parameter_table())
+    result.input.push_back({std::string(parameter.section), std::string(parameter.entry), parameter.write(input)});
+  result.processor = processor_name();
+  result.n_threads = unsigned(std::min<std::size_t>(
+    std::thread::hardware_concurrency(),
+    oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism)));
+  return result;
+}
+} // namespace feldspar

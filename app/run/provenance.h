@@ -1,0 +1,12 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "results/run.h"
+
+#include <filesystem>
+
+namespace feldspar
+{
+/// Version, input as understood, machine.
+Provenance provenance(const Input& input, const std::filesystem::path& input_file);
+} // namespace feldspar

@@ -1,0 +1,111 @@
+#include "app/run/run_record.h"
+
+#include "app/input/parameter_table.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "feldspar_version.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+constexpr const char* record_name = "run.json";
+
+/// JSON input keeps its ending: the ending tells how to read it.
+std::filesystem::path copy_of_input(const std::filesystem::path& folder, const std::filesystem::path& input_file)
+{
+  return folder / ("input" + input_file.extension().string());
+}
+
+struct Contents
+{
+  std::string command;
+  std::filesystem::path input_file;
+  std::filesystem::path relative_to; ///< the folder of the input
+  bool complete;
+};
+
+void write(const std::filesystem::path& folder, const Contents& contents)
+{
+  nlohmann::ordered_json json;
+  json["command"] = contents.command;
+  json["input_file"] = contents.input_file.string();
+  json["relative_to"] = contents.relative_to.string();
+  json["complete"] = contents.complete;
+  write_whole_file(folder / record_name, json.dump(2) + "\n");
+}
+
+Contents read(const std::filesystem::path& folder)
+{
+  std::ifstream in(folder / record_name);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto holds = [&](const char* name, const nlohmann::json::value_t type) {
+    return json.is_object() && json.contains(name) && json[name].type() == type;
+  };
+  using Type = nlohmann::json::value_t;
+  if (!holds("command", Type::string) || !holds("input_file", Type::string) || !holds("relative_to", Type::string) ||
+      !holds("complete", Type::boolean))
+    throw InputError(fmt::format("--resume {}: not the folder of a run; {} is missing in it or damaged",
+                                 folder.string(), record_name));
+  return {json["command"].get<std::string>(), json["input_file"].get<std::string>(),
+          json["relative_to"].get<std::string>(), json["complete"].get<bool>()};
+}
+} // namespace
+
+void write_run_record(const std::string& command, const std::filesystem::path& input_file,
+                      const std::filesystem::path& folder)
+{
+  std::ifstream in(input_file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  write_whole_file(copy_of_input(folder, input_file), text);
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), false});
+}
+
+std::string run_identity(const Input& input, const std::string& part)
+{
+  std::string text = fmt::format("{} {}\n", version, part);
+  for (const Parameter& parameter : parameter_table())
+    text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+  return text;
+}
+
+void mark_complete(const std::filesystem::path& folder)
+{
+  Contents contents = read(folder);
+  contents.complete = true;
+  write(folder, contents);
+}
+
+void remove_run(const std::filesystem::path& folder)
+{
+  for (const char* name : {record_name, "input.prm", "input.json", "checkpoints", "curves", "grains", "fields",
+                           "points", "volumes", "states", "extracted", "figures", "tables", "cracks.csv",
+                           "summary.json", "reference.json", "report.html", "log.txt"})
+    std::filesystem::remove_all(folder / name);
+  std::vector<std::filesystem::path> specimens;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with("specimen") && name.ends_with(".h5"))
+      specimens.push_back(entry.path());
+  for (const auto& specimen : specimens)
+    std::filesystem::remove(specimen);
+}
+
+RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder)
+{
+  const Contents contents = read(folder);
+  if (contents.command != command)
+    throw InputError(
+      fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
+  return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to), contents.input_file,
+          contents.complete};
+}
+} // namespace feldspar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "app/input/input.h"
+
+#include <filesystem>
+#include <string>
+
+namespace feldspar
+{
+/// What a run's folder says of how it was begun, so that it can be taken up without anything else.
+struct RunRecord
+{
+  Input input;
+  std::filesystem::path input_file; ///< as it was named
+  bool complete = false;            ///< nothing is left to be resumed
+};
+
+/// Puts a copy of the input, where it came from and the command that reads it into the run's folder.
+void write_run_record(const std::string& command, const std::filesystem::path& input_file,
+                      const std::filesystem::path& folder);
+
+/// Of a checkpoint of one part of a run: program, part and every parameter.
+std::string run_identity(const Input& input, const std::string& part);
+
+/// Notes that the run has come to its end.
+void mark_complete(const std::filesystem::path& folder);
+
+/// Takes out whatever a run writes into its folder, and nothing else.
+void remove_run(const std::filesystem::path& folder);
+
+/// Throws InputError where the folder is not that of a run of this command.
+RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder);
+} // namespace feldspar

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "app/run/progress.h"
+#include "dem/specimen/specimen.h"
+
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// Ctrl-C where there is nothing yet to be kept.
+struct Interrupted : std::exception
+{
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// A specimen of a run.
+struct SpecimenOrder
+{
+  std::vector<std::size_t> variants; ///< numbers of those that test it, among the run's
+  std::uint64_t seed;
+  std::string name; ///< of its file without ending: specimen, specimen_seed_3, specimen_variant_2_seed_3
+};
+
+/// One for each rock and seed: variants that differ in the tests alone share theirs.
+std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants);
+
+/// Provides the specimens, several at a time, and writes each into the folder; one that is there already, from a run
+/// that was broken off, is read. Throws InputError, and Interrupted.
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variants,
+                                             const std::vector<SpecimenOrder>& orders,
+                                             const std::filesystem::path& folder, Progress& progress);
+
+/// For a terminal: what genesis has to report.
+std::string describe(const SpecimenReport& report);
+} // namespace feldspar

@@ -1,0 +1,46 @@
+#include "base/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+/// 0, or the error number. Streams of the standard library do not tell the cause.
+int write_all(const std::filesystem::path& file, std::string_view content)
+{
+  const int out = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (out < 0)
+    return errno;
+  int error = 0;
+  while (!content.empty() && error == 0)
+    if (const ssize_t n = write(out, content.data(), content.size()); n >= 0)
+      content.remove_prefix(std::size_t(n));
+    else if (errno != EINTR)
+      error = errno;
+  if (close(out) != 0 && error == 0)
+    error = errno;
+  return error;
+}
+} // namespace
+
+void write_whole_file(const std::filesystem::path& file, const std::string_view content)
+{
+  std::filesystem::path unfinished = file;
+  unfinished += ".unfinished";
+  std::error_code error(write_all(unfinished, content), std::generic_category());
+  if (!error)
+    std::filesystem::rename(unfinished, file, error);
+  if (error)
+    {
+      std::error_code ignored;
+      std::filesystem::remove(unfinished, ignored);
+      throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
+    }
+}
+} // namespace feldspar

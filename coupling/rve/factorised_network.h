@@ -1,0 +1,77 @@
+#pragma once
+
+#include "coupling/rve/link.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace feldspar
+{
+/// Where the stiffness of each link goes in the matrix of a network's grains, whose grains are ordered for little fill.
+template <int dim>
+class StiffnessPattern
+{
+public:
+  StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains);
+
+  /// The lower triangle, all zero.
+  const Eigen::SparseMatrix<double>& matrix() const { return lower; }
+  /// Row of each motion; [n_motions * n_grains].
+  const Eigen::VectorXi& place() const { return row_of_motion; }
+  /// Adds Gᵀ D G of a link to the values of a matrix of this pattern.
+  void add(const std::vector<Link<dim>>& links, std::size_t link, const JointStiffness<dim>& stiffness,
+           Eigen::SparseMatrix<double>& sum) const;
+
+private:
+  /// An entry of the lower triangle and the one of a link's matrix that goes there.
+  struct Slot
+  {
+    std::uint32_t value;
+    std::uint16_t row, column;
+  };
+
+  Eigen::SparseMatrix<double> lower;
+  Eigen::VectorXi row_of_motion;
+  std::vector<std::uint32_t> first_slot; ///< of each link, [n_links + 1]
+  std::vector<Slot> slots;
+};
+
+/// Stiffness of a link, or nothing where it has none at present.
+template <int dim>
+using StiffnessOf = std::function<const JointStiffness<dim>*(std::uint32_t link)>;
+
+/// A network with given stiffnesses, solved directly: nearly the inverse of its equations, for conjugate gradients.
+template <int dim>
+class FactorisedNetwork
+{
+public:
+  /// `lent`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
+  FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern<dim>& pattern,
+                    const StiffnessOf<dim>& stiffness_of, const Motion<dim>& lent);
+
+  /// Motions for forces on grains and on the free strains; the other strains stay.
+  Unknowns solve(const Unknowns& forces, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
+
+  /// Grain motions under unit strains, nearly; [n_motions * n_grains × n_voigt].
+  const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
+
+  /// How many iterations of conjugate gradients cost as much as factorising anew, by counting operations.
+  unsigned int cost_in_iterations() const { return cost; }
+
+private:
+  Eigen::VectorXd solve_grains(const Eigen::VectorXd& forces) const;
+
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+  const StiffnessPattern<dim>& pattern;
+  std::unique_ptr<Factor> factor; ///< on the heap: Eigen's cannot be moved
+  Eigen::MatrixXd unit_motion;
+  Stiffness<dim> condensed; ///< volume × stiffness [N m]
+  unsigned int cost;
+};
+} // namespace feldspar

@@ -1,0 +1,178 @@
+#include "coupling/rve/homogenisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace feldspar
+{
+namespace
+{
+/// Broken since the start, ascending.
+template <int dim>
+std::vector<std::uint32_t> broken_segments(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  std::vector<std::uint32_t> broken;
+  for (const auto& unbonded : state.unbonded)
+    if (unbonded.segment < network.n_segments() &&
+        !std::binary_search(network.unbonded().begin(), network.unbonded().end(), unbonded.segment))
+      broken.push_back(unbonded.segment);
+  return broken;
+}
+} // namespace
+
+template <int dim>
+std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  return Equilibrium<dim>(network, state, {}).link_forces();
+}
+
+template <int dim>
+Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+{
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    {
+      const Link<dim>& link = network.links()[k];
+      sum += link.axes.transpose() * forces[k].template head<dim>() * link.branch.transpose();
+    }
+  return sum / network.volume();
+}
+
+template <int dim>
+Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+{
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    {
+      const Link<dim>& link = network.links()[k];
+      const Vector<dim> way = shift(PeriodicImage<dim>{link.grain_2, network.boxes_crossed()[k]}, network.cell());
+      sum += link.axes.transpose() * forces[k].template head<dim>() * way.transpose();
+    }
+  return sum / network.volume();
+}
+
+template <int dim>
+double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
+                            const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
+                            const std::vector<Motion<dim>>& forces_after, const double least_work)
+{
+  const Unknowns from = unknowns_of(network, before);
+  const Unknowns to = unknowns_of(network, after);
+  double of_links = 0.0;
+  for (std::size_t k = 0; k < forces_after.size(); ++k)
+    {
+      const Link<dim>& link = network.links()[k];
+      of_links += 0.5 * (forces_before[k] + forces_after[k]).dot(link_motion(link, to) - link_motion(link, from));
+    }
+  const double of_body = 0.5 * network.volume() * (before.stress + after.stress).dot(after.strain - before.strain);
+  const double size = std::max(std::abs(of_links) + std::abs(of_body), least_work);
+  return size > 0.0 ? std::abs(of_body - of_links) / size : 0.0;
+}
+
+template <int dim>
+Tensor<dim> fabric(const Network<dim>& network)
+{
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    {
+      const Vector<dim> normal = network.links()[j].axes.row(0);
+      sum += normal * normal.transpose();
+    }
+  return sum / double(network.n_joints());
+}
+
+template <int dim>
+CrackMeasures<dim> crack_measures(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  double all = 0.0;
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    for (std::uint32_t i = 0; i < network.links()[j].n_segments; ++i)
+      all += network.segment_area(network.links()[j], i);
+  double area = 0.0;
+  CrackMeasures<dim> result{0.0, 0.0, Tensor<dim>::Zero()};
+  for (const std::uint32_t segment : broken_segments(network, state))
+    {
+      const Link<dim>& link = network.links()[network.link_of_segment(segment)];
+      const double of_segment = network.segment_area(link, segment - link.first_segment);
+      const Vector<dim> normal = link.axes.row(0);
+      area += of_segment;
+      result.orientation += of_segment / network.volume() * normal * normal.transpose();
+    }
+  result.area_share = area / all;
+  result.density = area / network.volume();
+  return result;
+}
+
+template <int dim>
+std::size_t n_fragments(const Network<dim>& network, const NetworkState<dim>& state)
+{
+  std::vector<std::uint32_t> n_unbonded(network.n_joints(), 0);
+  for (const auto& unbonded : state.unbonded)
+    if (const auto link = network.link_of_segment(unbonded.segment); link < network.n_joints())
+      ++n_unbonded[link];
+
+  std::vector<std::uint32_t> parent(network.n_grains());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (parent[i] != i)
+      i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    if (const Link<dim>& link = network.links()[j]; n_unbonded[j] < link.n_segments)
+      {
+        const std::uint32_t one = root(link.grain_1);
+        const std::uint32_t two = root(link.grain_2);
+        parent[std::max(one, two)] = std::min(one, two);
+      }
+  std::vector<std::uint32_t> n_members(network.n_grains(), 0);
+  for (std::uint32_t i = 0; i < network.n_grains(); ++i)
+    ++n_members[root(i)];
+  return std::size_t(std::count_if(n_members.begin(), n_members.end(), [](const auto n) { return n > 1; }));
+}
+
+template <int dim>
+IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
+{
+  // Projections on the spherical and the deviatoric part; in Mandel's components the norm is that of the tensor.
+  Stiffness<dim> mandel = stiffness;
+  for (int k = dim; k < n_voigt<dim>; ++k)
+    {
+      mandel.row(k) *= std::numbers::sqrt2;
+      mandel.col(k) *= std::numbers::sqrt2;
+    }
+  Stiffness<dim> spherical = Stiffness<dim>::Zero();
+  spherical.template topLeftCorner<dim, dim>().setConstant(1.0 / dim);
+  const Stiffness<dim> deviatoric = Stiffness<dim>::Identity() - spherical;
+  IsotropicConstants result{};
+  result.bulk_modulus = mandel.cwiseProduct(spherical).sum() / dim;
+  result.shear_modulus = mandel.cwiseProduct(deviatoric).sum() / (2.0 * (n_voigt<dim> - 1));
+  const double K = result.bulk_modulus;
+  const double G = result.shear_modulus;
+  result.youngs_modulus = dim == 2 ? 4.0 * K * G / (K + G) : 9.0 * K * G / (3.0 * K + G);
+  result.poissons_ratio = dim == 2 ? (K - G) / (K + G) : (3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G));
+  result.anisotropy = (mandel - dim * K * spherical - 2.0 * G * deviatoric).norm() / mandel.norm();
+  return result;
+}
+
+template std::vector<Motion<2>> link_forces<2>(const Network<2>&, const NetworkState<2>&);
+template Tensor<2> branch_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
+template Tensor<2> boundary_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
+template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const std::vector<Motion<2>>&,
+                                        const NetworkState<2>&, const std::vector<Motion<2>>&, double);
+template Tensor<2> fabric<2>(const Network<2>&);
+template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
+template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
+template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
+template std::vector<Motion<3>> link_forces<3>(const Network<3>&, const NetworkState<3>&);
+template Tensor<3> branch_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
+template Tensor<3> boundary_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
+template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const std::vector<Motion<3>>&,
+                                        const NetworkState<3>&, const std::vector<Motion<3>>&, double);
+template Tensor<3> fabric<3>(const Network<3>&);
+template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);
+template std::size_t n_fragments<3>(const Network<3>&, const NetworkState<3>&);
+template IsotropicConstants isotropic_constants<3>(const Stiffness<3>&);
+} // namespace feldspar

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "coupling/rve/equilibrium.h"
+
+#include <vector>
+
+/// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §10.5.
+namespace feldspar
+{
+/// Of every link at a state, in its own axes [N, N m]; a pull between its grains is positive.
+template <int dim>
+std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
+
+/// σ = (1/V) Σ f ⊗ l over all links [Pa]; symmetric where couples balance (Love 1927, Weber 1966).
+template <int dim>
+Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
+
+/// The same from the links that cross the sides of the cell alone, (1/V) Σ f ⊗ (boxes crossed × edges) [Pa]: the mean of
+/// the tractions. Equal where forces balance.
+template <int dim>
+Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
+
+/// Hill and Mandel: |V σ̄ : Δε - Σ s·Δm| over the sum of both magnitudes, or over `least_work` [J] if that is more, between
+/// two states, with the mean forces s and stress σ̄ of both and the motions m of the links. Breaking and sliding do not
+/// enter: it only says how well forces balance.
+template <int dim>
+double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
+                            const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
+                            const std::vector<Motion<dim>>& forces_after, double least_work = 0.0);
+
+/// Mean of n ⊗ n over the joints; its trace is 1 (Oda 1982).
+template <int dim>
+Tensor<dim> fabric(const Network<dim>& network);
+
+/// What has broken.
+template <int dim>
+struct CrackMeasures
+{
+  double area_share;       ///< area of broken segments over that of all
+  double density;          ///< area of broken segments over volume [1/m]
+  Tensor<dim> orientation; ///< Σ area n ⊗ n over volume [1/m]; its trace is the density (Kachanov 1980, Oda 1982)
+};
+
+/// Segments without a bond from the start are no cracks.
+template <int dim>
+CrackMeasures<dim> crack_measures(const Network<dim>& network, const NetworkState<dim>& state);
+
+/// Number of bodies of two grains or more that hang together by segments with bonds; a body that spans the cell is one.
+template <int dim>
+std::size_t n_fragments(const Network<dim>& network, const NetworkState<dim>& state);
+
+/// The isotropic stiffness nearest to one, and how far off it is.
+struct IsotropicConstants
+{
+  double bulk_modulus;   ///< [Pa]; in the plane that of plane strain
+  double shear_modulus;  ///< [Pa]
+  double youngs_modulus; ///< [Pa]; in the plane that of the free plane, 4KG/(K + G)
+  double poissons_ratio; ///< in the plane (K - G)/(K + G)
+  double anisotropy;     ///< |C - C_iso| over |C|, Frobenius in Mandel's components
+};
+
+template <int dim>
+IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness);
+} // namespace feldspar

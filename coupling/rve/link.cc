@@ -1,0 +1,84 @@
+#include "coupling/rve/link.h"
+
+namespace feldspar
+{
+template <int dim>
+ElementRows<dim> element_rows(const FaceElement<dim>& element, const double half_length)
+{
+  ElementRows<dim> rows = ElementRows<dim>::Zero();
+  rows.template leftCols<dim>().setIdentity();
+  if constexpr (dim == 2)
+    rows(0, 2) = -half_length * element.offset[0]; // g = g_0 + U_n - θρ (6)
+  else
+    {
+      const double r_1 = half_length * element.offset[0];
+      const double r_2 = half_length * element.offset[1];
+      rows(0, 4) = r_2; // g = g_0 + U_n + n·(θ × r)
+      rows(0, 5) = -r_1;
+      rows(1, 3) = -r_2;
+      rows(2, 3) = r_1;
+    }
+  return rows;
+}
+
+template <int dim>
+JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, const double area,
+                                             const double second_moment)
+{
+  JointStiffness<dim> stiffness = link.normal_stiffness * area * rows.row(0).transpose() * rows.row(0);
+  stiffness += link.shear_stiffness * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
+  if constexpr (dim == 2)
+    stiffness(2, 2) += link.normal_stiffness * second_moment;
+  else
+    static_cast<void>(second_moment); // elements of a disk are lumped
+  return stiffness;
+}
+
+template <int dim>
+LinkGradient<dim> link_gradient(const Link<dim>& link)
+{
+  LinkGradient<dim> gradient = LinkGradient<dim>::Zero();
+  auto of_1 = gradient.template leftCols<n_motions<dim>>();
+  auto of_2 = gradient.template rightCols<n_motions<dim>>();
+  of_1.template topLeftCorner<dim, dim>() = -link.axes;
+  of_2.template topLeftCorner<dim, dim>() = link.axes;
+  // U of the contact point: a turn φ adds φ × (a_1 n) to the one side and φ × (-a_2 n) to the other.
+  if constexpr (dim == 2)
+    {
+      of_1(1, 2) = -link.arm_1;
+      of_2(1, 2) = -link.arm_2;
+      of_1(2, 2) = -1.0;
+      of_2(2, 2) = 1.0;
+    }
+  else
+    {
+      const auto about_t1 = link.axes.row(1);
+      const auto about_t2 = link.axes.row(2);
+      of_1.template block<1, 3>(1, 3) = -link.arm_1 * about_t2;
+      of_1.template block<1, 3>(2, 3) = link.arm_1 * about_t1;
+      of_2.template block<1, 3>(1, 3) = -link.arm_2 * about_t2;
+      of_2.template block<1, 3>(2, 3) = link.arm_2 * about_t1;
+      of_1.template bottomRightCorner<3, 3>() = -link.axes;
+      of_2.template bottomRightCorner<3, 3>() = link.axes;
+    }
+  return gradient;
+}
+
+template <int dim>
+LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link)
+{
+  LinkStrainGradient<dim> gradient = LinkStrainGradient<dim>::Zero();
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    gradient.template block<dim, 1>(0, k) = link.axes * (strain_tensor<dim>(Voigt<dim>::Unit(k)) * link.branch);
+  return gradient;
+}
+
+template ElementRows<2> element_rows<2>(const FaceElement<2>&, double);
+template ElementRows<3> element_rows<3>(const FaceElement<3>&, double);
+template JointStiffness<2> bonded_element_stiffness<2>(const Link<2>&, const ElementRows<2>&, double, double);
+template JointStiffness<3> bonded_element_stiffness<3>(const Link<3>&, const ElementRows<3>&, double, double);
+template LinkGradient<2> link_gradient<2>(const Link<2>&);
+template LinkGradient<3> link_gradient<3>(const Link<3>&);
+template LinkStrainGradient<2> link_strain_gradient<2>(const Link<2>&);
+template LinkStrainGradient<3> link_strain_gradient<3>(const Link<3>&);
+} // namespace feldspar

@@ -1,0 +1,352 @@
+#include "coupling/rve/network.h"
+
+#include "base/input_error.h"
+#include "coupling/rve/conjugate_gradients.h"
+#include "dem/laws/contact_motion.h"
+#include "dem/specimen/neighbours.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
+constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
+
+/// Axes n, t (n, t_1, t_2) of a contact as rows; in space t_1 is any vector across n, the same for the same n.
+Tensor<2> contact_axes(const Vector<2>& normal)
+{
+  Tensor<2> axes;
+  axes << normal[0], normal[1], -normal[1], normal[0];
+  return axes;
+}
+
+Tensor<3> contact_axes(const Vector<3>& normal, const Vector<3>& tangent)
+{
+  Tensor<3> axes;
+  axes << normal.transpose(), tangent.transpose(), normal.cross(tangent).transpose();
+  return axes;
+}
+
+Tensor<3> contact_axes(const Vector<3>& normal)
+{
+  const auto tangent = space::tangent_to({normal[0], normal[1], normal[2]});
+  return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
+}
+
+/// In space the elements of a face lie by its own tangent.
+template <int dim>
+Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
+{
+  const Vector<dim> normal = at<dim>(joints.normal, joint);
+  if constexpr (dim == 2)
+    return contact_axes(normal);
+  else
+    return contact_axes(normal, at<dim>(joints.tangent, joint));
+}
+} // namespace
+
+template <int dim>
+Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation)
+  : number_of_grains(specimen.grains.size())
+  , number_of_joints(specimen.joints.size())
+  , cell_volume(specimen.volume())
+  , plane_thickness(specimen.thickness)
+  , tan_bond_friction(specimen.joints.friction_slope)
+  , edges(specimen.cell())
+  , face(specimen.joints.elements)
+  , grain_radii(specimen.grains.radius)
+{
+  if (!specimen.periodic)
+    throw InputError("Specimen/Shape: a representative volume needs a periodic specimen");
+  if (number_of_joints == 0)
+    throw InputError("Flat joint/Installation gap ratio: joins no two grains of the volume, so that nothing holds it; "
+                     "make it larger");
+  const auto& joints = specimen.joints;
+  for (std::size_t i = 0; i < number_of_grains; ++i)
+    centres.push_back(at<dim>(specimen.grains.position, i));
+
+  using Pair = std::pair<std::uint32_t, PeriodicImage<dim>>;
+  std::set<Pair> jointed;
+  mean_branch_length = 0.0;
+  mean_stiffness = 0.0;
+  for (std::size_t j = 0; j < number_of_joints; ++j)
+    {
+      const Vector<dim> normal = at<dim>(joints.normal, j);
+      const double distance = joints.rest_distance[j] + joints.opening[j];
+      const auto second = specimen.second_of(j);
+      jointed.insert({joints.grain_1[j], second});
+      PeriodicImage<dim> first{joints.grain_1[j], second.boxes}; // as grain 2 sees it
+      for (int& boxes_away : first.boxes)
+        boxes_away = -boxes_away;
+      jointed.insert({joints.grain_2[j], first});
+      boxes.push_back(second.boxes);
+      mean_branch_length += distance / double(number_of_joints);
+      all_links.push_back({joints.grain_1[j], joints.grain_2[j], std::uint32_t(j * face.size()),
+                           std::uint32_t(face.size()), true, joint_axes(joints, j), distance * normal,
+                           0.5 * distance + joints.half_radius_difference[j],
+                           0.5 * distance - joints.half_radius_difference[j], joints.normal_stiffness[j],
+                           joints.shear_stiffness[j], joints.half_length[j], joints.opening[j], joints.friction});
+      JointStiffness<dim> stiffness = JointStiffness<dim>::Zero();
+      for (std::uint32_t i = 0; i < face.size(); ++i)
+        {
+          const std::size_t k = joints.segment(i, j);
+          strengths.push_back({joints.tensile_strength[k], joints.cohesion[k]});
+          if (joints.bonded[k] < 0.5)
+            unbonded_at_rest.push_back(std::uint32_t(strengths.size() - 1));
+          const double r = joints.half_length[j];
+          const double width = dim == 2 ? plane_thickness : r;
+          stiffness += bonded_element_stiffness(all_links.back(), element_rows(face[i], r), face[i].area * r * width,
+                                                face[i].second_moment * r * r * r * plane_thickness);
+        }
+      bonded_stiffnesses.push_back(stiffness);
+      mean_stiffness += bonded_stiffnesses.back()(0, 0) * distance / double(number_of_joints);
+    }
+
+  // Pairs that may come to touch.
+  const double reach = touch_search_ratio * specimen.grains.mean_radius();
+  const auto images = images_within(specimen.grains, edges, reach);
+  const auto all = with_images(specimen.grains, images, edges);
+  std::uint32_t next_segment = std::uint32_t(strengths.size());
+  for (const auto& [one, two] : pairs_within(all, reach))
+    {
+      if (one >= number_of_grains || (two >= number_of_grains && !counts(one, images[two - number_of_grains])))
+        continue;
+      const PeriodicImage<dim> second =
+        two < number_of_grains ? PeriodicImage<dim>{two, {}} : images[two - number_of_grains];
+      if (jointed.contains({one, second}))
+        continue;
+      const Vector<dim> branch = at<dim>(all.position, two) - at<dim>(all.position, one);
+      const double radius_1 = all.radius[one];
+      const double radius_2 = all.radius[two];
+      const double k_n = stiffness_per_area(specimen.particle_contact.modulus, radius_1, radius_2);
+      const double half_difference = 0.5 * (radius_1 - radius_2);
+      boxes.push_back(second.boxes);
+      all_links.push_back({one, second.owner, next_segment++, 1, false, contact_axes(Vector<dim>(branch.normalized())),
+                           branch, 0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
+                           k_n / specimen.particle_contact.stiffness_ratio, std::min(radius_1, radius_2),
+                           std::max(0.0, branch.norm() - radius_1 - radius_2), specimen.particle_contact.friction});
+    }
+
+  // Cell and grains turn together; what a link is in its own axes stays.
+  edges = rotation * edges;
+  for (Vector<dim>& centre : centres)
+    centre = rotation * centre;
+  for (Link<dim>& link : all_links)
+    {
+      link.axes = link.axes * rotation.transpose();
+      link.branch = rotation * link.branch;
+    }
+
+  for (Link<dim>& link : all_links)
+    {
+      link.by_grains = link_gradient(link);
+      link.by_strain = link_strain_gradient(link);
+    }
+
+  factorise_intact();
+  solve_unit_strains();
+  bound_segments();
+}
+
+template <int dim>
+double Network<dim>::segment_area(const Link<dim>& link, const std::uint32_t i) const
+{
+  const double r = link.half_length;
+  if (!link.has_face)
+    return face_area<dim>(r, plane_thickness);
+  return face[i].area * r * (dim == 2 ? plane_thickness : r);
+}
+
+template <int dim>
+Unknowns Network<dim>::apply_bonded(const Unknowns& unknowns) const
+{
+  Unknowns result = Unknowns::Zero(n_unknowns());
+  for (std::size_t j = 0; j < number_of_joints; ++j)
+    add_forces(all_links[j], bonded_stiffnesses[j] * link_motion(all_links[j], unknowns), result);
+  return result;
+}
+
+template <int dim>
+void Network<dim>::factorise_intact()
+{
+  pattern = std::make_unique<StiffnessPattern<dim>>(all_links, number_of_grains);
+  // Displacements and turns have their own scale each.
+  stiffness_scale.setZero();
+  for (std::size_t j = 0; j < number_of_joints; ++j)
+    {
+      const auto& gradient = all_links[j].by_grains;
+      const Eigen::Matrix<double, 2 * n_motions<dim>, 1> diagonal =
+        (gradient.transpose() * bonded_stiffnesses[j] * gradient).diagonal();
+      stiffness_scale += (diagonal.template head<n_motions<dim>>() + diagonal.template tail<n_motions<dim>>()) /
+                         double(number_of_grains);
+    }
+  const auto bonded = [&](const std::uint32_t link) {
+    return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
+  };
+  factorised = std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, bonded, regularity * stiffness_scale);
+
+  std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
+  for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
+    stiffest.push_back(bonded_element_stiffness(all_links[k], element_rows(point, all_links[k].half_length),
+                                                segment_area(all_links[k], 0), 0.0));
+  factorised_all = std::make_unique<FactorisedNetwork<dim>>(
+    all_links, *pattern, [&](const std::uint32_t link) { return &stiffest[link]; }, regularity * stiffness_scale);
+}
+
+template <int dim>
+void Network<dim>::solve_unit_strains()
+{
+  constexpr std::array<bool, n_voigt<dim>> no_strain_free{};
+  const Eigen::Index n_own = n_unknowns() - n_voigt<dim>;
+  unit_motion = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      Unknowns affine = Unknowns::Zero(n_unknowns());
+      affine[n_own + k] = 1.0;
+      Unknowns right = -apply_bonded(affine);
+      right.tail<n_voigt<dim>>().setZero();
+      const auto apply = [&](const Unknowns& x) {
+        Unknowns y = apply_bonded(x);
+        y.tail<n_voigt<dim>>().setZero();
+        return y;
+      };
+      const auto solution = conjugate_gradients(
+        apply, [&](const Unknowns& r) { return factorised->solve(r, no_strain_free); }, right, 1e-13, 500);
+      if (!solution.converged)
+        throw std::runtime_error("the intact network has no solution");
+      unit_motion.col(k) = solution.x.head(n_own);
+      affine.head(n_own) = unit_motion.col(k);
+      c_0.col(k) = apply_bonded(affine).template tail<n_voigt<dim>>() / cell_volume;
+    }
+  c_0 = 0.5 * (c_0 + c_0.transpose()).eval();
+
+  unit_responses.resize(strengths.size());
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const Unknowns unit = intact_unknowns(Voigt<dim>::Unit(k));
+      for (std::size_t j = 0; j < number_of_joints; ++j)
+        {
+          const Link<dim>& link = all_links[j];
+          const Motion<dim> motion = link_motion(link, unit);
+          for (std::uint32_t i = 0; i < link.n_segments; ++i)
+            {
+              Vector<dim> stress = element_rows(face[i], link.half_length) * motion;
+              stress[0] *= link.normal_stiffness;
+              stress.template tail<dim - 1>() *= -link.shear_stiffness;
+              unit_responses[link.first_segment + i].col(k) = stress;
+            }
+        }
+    }
+}
+
+template <int dim>
+void Network<dim>::bound_segments()
+{
+  for (std::uint32_t k = 0; k < strengths.size(); ++k)
+    {
+      const double normal = unit_responses[k].row(0).norm();
+      const double shear = unit_responses[k].bottomRows(dim - 1).norm();
+      const double overload =
+        std::max(normal / strengths[k].tensile, (shear + tan_bond_friction * normal) / strengths[k].cohesion);
+      bounds.push_back({overload, k});
+    }
+  std::sort(bounds.begin(), bounds.end(), [](const Bound& a, const Bound& b) {
+    return a.overload != b.overload ? a.overload > b.overload : a.segment < b.segment;
+  });
+
+  touching_strain = std::numeric_limits<double>::infinity();
+  std::vector<Unknowns> unit;
+  for (int c = 0; c < n_voigt<dim>; ++c)
+    unit.push_back(intact_unknowns(Voigt<dim>::Unit(c)));
+  for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
+    {
+      opening_rates.emplace_back();
+      for (int c = 0; c < n_voigt<dim>; ++c)
+        opening_rates.back()[c] = link_motion(all_links[k], unit[c])[0];
+      touching_strain = std::min(touching_strain, all_links[k].opening / opening_rates.back().norm());
+    }
+}
+
+template <int dim>
+Unknowns Network<dim>::lent(const Unknowns& unknowns) const
+{
+  Unknowns result = Unknowns::Zero(n_unknowns());
+  for (std::size_t i = 0; i < number_of_grains; ++i)
+    {
+      const Eigen::Index first = n_motions<dim> * Eigen::Index(i);
+      result.segment<n_motions<dim>>(first) = stiffness_scale.cwiseProduct(unknowns.segment<n_motions<dim>>(first));
+    }
+  return result;
+}
+
+template <int dim>
+Unknowns Network<dim>::intact_unknowns(const Voigt<dim>& strain) const
+{
+  Unknowns unknowns(n_unknowns());
+  unknowns << unit_motion * strain, strain;
+  return unknowns;
+}
+
+template <int dim>
+bool Network<dim>::stays_linear(const Voigt<dim>& strain) const
+{
+  const double size = strain.norm();
+  if (!unbonded_at_rest.empty() || !std::isfinite(size))
+    return false;
+  if (size >= touching_strain)
+    for (std::size_t k = 0; k < opening_rates.size(); ++k)
+      if (all_links[number_of_joints + k].opening + opening_rates[k].dot(strain) < 0.0)
+        return false;
+  return true;
+}
+
+template <int dim>
+bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
+{
+  if (!stays_linear(strain))
+    return false;
+  const double size = strain.norm();
+  for (const Bound& bound : bounds)
+    {
+      if (bound.overload * size < 1.0)
+        return true; // and so are all behind it
+      const Vector<dim> stress = unit_responses[bound.segment] * strain;
+      const Strength& bond = strengths[bound.segment];
+      if (stress[0] > bond.tensile ||
+          stress.template tail<dim - 1>().norm() + tan_bond_friction * stress[0] > bond.cohesion)
+        return false;
+    }
+  return true;
+}
+
+template <int dim>
+FirstBreak Network<dim>::first_break(const Voigt<dim>& direction) const
+{
+  FirstBreak first{std::numeric_limits<double>::infinity(), 0, true, std::numeric_limits<double>::infinity()};
+  for (std::size_t k = 0; k < opening_rates.size(); ++k)
+    if (const double rate = opening_rates[k].dot(direction); rate < 0.0)
+      first.touch = std::min(first.touch, -all_links[number_of_joints + k].opening / rate);
+  for (std::uint32_t k = 0; k < strengths.size(); ++k)
+    {
+      const Vector<dim> stress = unit_responses[k] * direction;
+      if (stress[0] > 0.0 && strengths[k].tensile / stress[0] < first.factor)
+        first = {strengths[k].tensile / stress[0], k, true, first.touch};
+      const double shear = stress.template tail<dim - 1>().norm() + tan_bond_friction * stress[0]; // (15)
+      if (shear > 0.0 && strengths[k].cohesion / shear < first.factor)
+        first = {strengths[k].cohesion / shear, k, false, first.touch};
+    }
+  return first;
+}
+
+template class Network<2>;
+template class Network<3>;
+} // namespace feldspar

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "coupling/rve/factorised_network.h"
+#include "coupling/rve/link.h"
+#include "dem/specimen/specimen.h"
+
+#include <cstdint>
+#include <vector>
+
+/// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
+/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §10.
+namespace feldspar
+{
+/// Bond of one segment.
+struct Strength
+{
+  double tensile;  ///< σ_b [Pa]
+  double cohesion; ///< c_b [Pa]
+};
+
+/// Normal and shear stress of a segment under unit strains, per Voigt component.
+template <int dim>
+using UnitResponse = Eigen::Matrix<double, dim, n_voigt<dim>>;
+
+/// Where a straight strain path meets the first break.
+struct FirstBreak
+{
+  double factor; ///< of the direction; infinity if nothing breaks along it
+  std::uint32_t segment;
+  bool in_tension;
+  double touch; ///< factor at which a pair without a face comes to touch; no answer is linear beyond it
+};
+
+template <int dim>
+class Network
+{
+public:
+  /// The specimen turned by a rotation. Throws InputError where it is not periodic.
+  explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity());
+
+  std::size_t n_grains() const { return number_of_grains; }
+  std::size_t n_joints() const { return number_of_joints; }
+  std::size_t n_segments() const { return strengths.size(); }
+  Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
+  double volume() const { return cell_volume; }
+  double mean_branch() const { return mean_branch_length; }
+  /// Of the joints, normal stiffness times length of the branch [N].
+  double mean_normal_stiffness() const { return mean_stiffness; }
+
+  /// Joints first, then pairs that may come to touch.
+  const std::vector<Link<dim>>& links() const { return all_links; }
+  const std::vector<FaceElement<dim>>& elements() const { return face; }
+  /// Along which a link crosses from box to box; [n_links].
+  const std::vector<std::array<int, dim>>& boxes_crossed() const { return boxes; }
+  const std::vector<Vector<dim>>& positions() const { return centres; }
+  const std::vector<double>& radii() const { return grain_radii; }
+  const Tensor<dim>& cell() const { return edges; }
+
+  const Strength& strength(const std::uint32_t segment) const { return strengths[segment]; }
+  double friction_slope() const { return tan_bond_friction; }
+  double thickness() const { return plane_thickness; }
+  /// Of a link's segment i [m²].
+  double segment_area(const Link<dim>& link, std::uint32_t i) const;
+  std::uint32_t link_of_segment(const std::uint32_t segment) const
+  {
+    const auto n = std::uint32_t(strengths.size());
+    return segment < n ? segment / std::uint32_t(face.size()) : std::uint32_t(number_of_joints) + segment - n;
+  }
+  /// Segments without a bond from the start.
+  const std::vector<std::uint32_t>& unbonded() const { return unbonded_at_rest; }
+
+  /// Of a link whose segments are all bonded.
+  const JointStiffness<dim>& bonded_stiffness(const std::size_t joint) const { return bonded_stiffnesses[joint]; }
+
+  /// The network with all bonds intact, K x.
+  Unknowns apply_bonded(const Unknowns& unknowns) const;
+  /// Nearly its inverse.
+  const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
+  /// The same with every pair that may come to touch touching: no state is stiffer.
+  const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
+  /// With other stiffnesses of its links, and a little lent to what floats.
+  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share) const
+  {
+    return FactorisedNetwork<dim>(all_links, *pattern, stiffness_of, lent_share * stiffness_scale);
+  }
+  /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
+  Unknowns lent(const Unknowns& unknowns) const;
+
+  // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain.
+
+  /// C_0 [Pa].
+  const Stiffness<dim>& intact_stiffness() const { return c_0; }
+  /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
+  const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
+  const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
+  Unknowns intact_unknowns(const Voigt<dim>& strain) const;
+  /// Whether no pair without a face can come to touch at this strain: with all bonds kept the network is linear.
+  bool stays_linear(const Voigt<dim>& strain) const;
+  /// Whether no segment is overloaded and no pair touches at this strain.
+  bool stays_intact(const Voigt<dim>& strain) const;
+  /// Along the ray `factor * direction`, in closed form.
+  FirstBreak first_break(const Voigt<dim>& direction) const;
+
+private:
+  void factorise_intact();
+  void solve_unit_strains();
+  void bound_segments();
+
+  std::size_t number_of_grains;
+  std::size_t number_of_joints;
+  double cell_volume;
+  double plane_thickness;
+  double tan_bond_friction;
+  double mean_branch_length;
+  double mean_stiffness;
+  Tensor<dim> edges;
+  std::vector<FaceElement<dim>> face;
+  std::vector<Link<dim>> all_links;
+  std::vector<std::array<int, dim>> boxes;
+  std::vector<Vector<dim>> centres;
+  std::vector<double> grain_radii;
+  std::vector<Strength> strengths;
+  std::vector<std::uint32_t> unbonded_at_rest;
+  std::vector<JointStiffness<dim>> bonded_stiffnesses;
+
+  std::unique_ptr<StiffnessPattern<dim>> pattern; ///< on the heap: what is factorised refers to it
+  std::unique_ptr<FactorisedNetwork<dim>> factorised;
+  std::unique_ptr<FactorisedNetwork<dim>> factorised_all;
+  Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain
+  Stiffness<dim> c_0;
+  Eigen::MatrixXd unit_motion;
+  std::vector<UnitResponse<dim>> unit_responses;
+
+  /// Segments with the largest overload that a strain of unit norm could give them, largest first.
+  struct Bound
+  {
+    double overload;
+    std::uint32_t segment;
+  };
+  std::vector<Bound> bounds;
+  std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
+  double touching_strain;                ///< norm below which no such pair can come to touch
+};
+} // namespace feldspar

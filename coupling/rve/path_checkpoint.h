@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/hdf5_archive.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+/// Checkpoints of `feldspar rve`, whichever solver goes the path.
+namespace feldspar
+{
+void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                           const std::function<void(Hdf5Writer&)>& transfer);
+
+/// Throws InputError where the file is damaged or has another identity.
+void read_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
+                          const std::function<void(Hdf5Reader&)>& transfer);
+} // namespace feldspar

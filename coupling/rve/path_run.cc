@@ -1,0 +1,269 @@
+#include "coupling/rve/path_run.h"
+
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/path_checkpoint.h"
+#include "coupling/rve/state_archive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+std::array<double, n_voigt<dim>> as_array(const Voigt<dim>& voigt)
+{
+  std::array<double, n_voigt<dim>> result;
+  std::copy(voigt.data(), voigt.data() + voigt.size(), result.begin());
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::string describe(const Control<dim>& control)
+{
+  std::string text;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const std::string given =
+        control.stress_given[k]
+          ? fmt::format("stress_{} = {:.6g} MPa", voigt_name<dim>(k), control.stress[k] / 1e6)
+          : fmt::format("strain_{} = {:.6g}", voigt_name<dim>(k), (k < dim ? 1.0 : 0.5) * control.strain[k]);
+      text += (text.empty() ? "" : ", ") + given;
+    }
+  return text;
+}
+
+template <int dim>
+LegCourse<dim>::LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& from,
+                          const RepresentativeVolume<dim>& volume)
+  : start(leg.target)
+  , target(leg.target)
+{
+  start.strain = from.strain;
+  start.stress = from.stress;
+  if (leg.counts_from_here)
+    target.strain += from.strain;
+  way = volume.intact_strain(target) - volume.intact_strain(start);
+}
+
+template <int dim>
+Control<dim> LegCourse<dim>::at(const double share) const
+{
+  Control<dim> control = target;
+  control.strain = start.strain + share * (target.strain - start.strain);
+  control.stress = start.stress + share * (target.stress - start.stress);
+  return control;
+}
+
+template <int dim>
+std::uint64_t LegCourse<dim>::n_increments(const double largest_step) const
+{
+  // A leg without a way is one increment: it finds the equilibrium.
+  return std::uint64_t(std::max(1.0, std::ceil(size() / largest_step - 1e-9)));
+}
+
+template <int dim>
+double PathSample<dim>::energy_imbalance() const
+{
+  const double size = std::abs(work.boundary) + std::abs(stored_energy) + std::abs(work.slip) +
+                      std::abs(work.released) + std::abs(work.settled);
+  return size > 0.0 ? std::abs(unaccounted()) / size : 0.0;
+}
+
+template <int dim>
+PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> wanted_legs,
+                      const PathParameters& wanted, const std::optional<NetworkState<dim>>& begin)
+  : legs(std::move(wanted_legs))
+  , parameters(wanted)
+  , body(std::move(network), wanted.equilibrium)
+  , forces(body.network().links().size(), Motion<dim>::Zero())
+{
+  if (begin)
+    {
+      body.restore(*begin);
+      forces = link_forces(body.network(), body.state());
+      add(look_at(*begin, *begin, 0.0));
+    }
+  else
+    path_record.samples.emplace_back();
+  begin_leg();
+}
+
+template <int dim>
+void PathRun<dim>::begin_leg()
+{
+  start = body.state();
+  position = 0;
+  cuts = 0;
+  if (leg == legs.size())
+    return;
+  course = LegCourse<dim>(legs[leg], start, body);
+  length = course.n_increments(parameters.largest_step) << parameters.most_cuts;
+}
+
+template <int dim>
+void PathRun<dim>::advance()
+{
+  // To the next mark of its own kind, also from where a break was found between two.
+  const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
+  std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
+  next_is_short = false;
+  Trial<dim> trial =
+    body.trial(control_at(position + increment), increment > 1 ? Bonds::until_break : Bonds::may_break);
+  if (trial.would_break)
+    {
+      // As far as nothing breaks; the break itself is then within one of the smallest cuts.
+      const auto until_break = std::uint64_t(std::ceil(trial.share_until_break * double(increment)));
+      increment = std::clamp(until_break > 1 ? until_break - 1 : 1, std::uint64_t(1), increment - 1);
+      trial = body.trial(control_at(position + increment));
+      next_is_short = trial.breaks.empty();
+    }
+  if (!trial.in_equilibrium)
+    {
+      if (cuts == parameters.most_cuts)
+        path_record.failure =
+          fmt::format("no equilibrium was found at {}; the path ends before it, at {}",
+                      describe(control_at(position + increment)), describe(strain_control<dim>(body.state().strain)));
+      else
+        ++cuts;
+      return;
+    }
+  auto look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+  // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
+  // through the volume: then the same from a more exact beginning, which takes the place of the last row, to a more exact
+  // end.
+  TrialOptions<dim> exacter;
+  for (int k = 0; k < 3 && look.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
+    {
+      exacter.share_of_tolerance *= 0.1;
+      auto beginning = body.trial(control_at(position), exacter);
+      if (!beginning.in_equilibrium || !beginning.breaks.empty())
+        break;
+      auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio);
+      auto& row = path_record.samples.back();
+      last.sample.hill_mandel_residual = std::max(row.hill_mandel_residual, last.sample.hill_mandel_residual);
+      row = last.sample;
+      forces = std::move(last.forces);
+      body.accept(std::move(beginning));
+      auto again = body.trial(control_at(position + increment), exacter);
+      if (!again.in_equilibrium)
+        break;
+      trial = std::move(again);
+      look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+    }
+  for (const auto& event : trial.breaks)
+    {
+      const std::uint32_t joint = body.network().link_of_segment(event.segment);
+      path_record.cracks.push_back({path_record.samples.size(), joint,
+                                    event.segment - body.network().links()[joint].first_segment, event.in_tension,
+                                    event.released_energy});
+    }
+  body.accept(std::move(trial));
+  add(std::move(look));
+
+  position += increment;
+  if (cuts > 0 && position % (2 * longest) == 0)
+    --cuts;
+  if (position == length)
+    {
+      ++leg;
+      begin_leg();
+    }
+}
+
+/// A state that follows the one before, whose link forces are `forces`.
+template <int dim>
+typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state, const NetworkState<dim>& before,
+                                                  const double unbalanced_ratio) const
+{
+  const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
+  Look look;
+  look.forces = equilibrium.link_forces();
+  auto& sample = look.sample;
+  sample.strain = as_array<dim>(state.strain);
+  sample.stress = as_array<dim>(state.stress);
+  sample.n_tension_cracks = state.n_tension_breaks;
+  sample.n_shear_cracks = state.n_shear_breaks;
+  sample.work = state.work;
+  sample.stored_energy = equilibrium.stored_energy();
+  sample.unbalanced_ratio = unbalanced_ratio;
+  // A volume that has come apart does no work but round-off.
+  constexpr double least_share_of_work = 1e-6;
+  sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, look.forces,
+                                                     least_share_of_work * std::abs(state.work.boundary));
+  const Tensor<dim> stress = branch_stress(body.network(), look.forces);
+  if (const double size = stress.norm(); size > 0.0)
+    sample.boundary_stress_error = (boundary_stress(body.network(), look.forces) - stress).norm() / size;
+  sample.crack_density = crack_measures(body.network(), state).density;
+  return look;
+}
+
+template <int dim>
+void PathRun<dim>::add(Look&& look)
+{
+  path_record.samples.push_back(look.sample);
+  forces = std::move(look.forces);
+}
+
+template <int dim>
+double PathRun<dim>::progress() const
+{
+  return (double(leg) + double(position) / double(length)) / double(legs.size());
+}
+
+template <int dim>
+template <typename Archive>
+void PathRun<dim>::transfer(Archive& archive)
+{
+  auto state_group = archive.subgroup("state");
+  NetworkState<dim> state = body.state();
+  feldspar::transfer(state_group, state);
+  archive.value("leg", leg);
+  if (leg > legs.size())
+    throw InputError("a path of another length");
+  auto start_group = archive.subgroup("start");
+  feldspar::transfer(start_group, start);
+  if constexpr (Archive::reads)
+    {
+      body.restore(start);
+      begin_leg(); // the target and the length of the leg
+      body.restore(state);
+    }
+  archive.value("position", position);
+  archive.value("cuts", cuts);
+  transfer_flag(archive, "next_is_short", next_is_short);
+  archive.bytes("samples", path_record.samples);
+  archive.bytes("cracks", path_record.cracks);
+  archive.text("failure", path_record.failure);
+  if constexpr (Archive::reads)
+    forces = link_forces(body.network(), body.state());
+}
+
+template <int dim>
+void PathRun<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity) const
+{
+  write_path_checkpoint(file, identity, [&](Hdf5Writer& root) {
+    PathRun copy = *this; // one description serves writing and reading, and reading changes
+    copy.transfer(root);
+  });
+}
+
+template <int dim>
+void PathRun<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_path_checkpoint(file, identity, [&](Hdf5Reader& root) { transfer(root); });
+}
+
+template struct LegCourse<2>;
+template struct LegCourse<3>;
+template std::string describe(const Control<3>&);
+template std::string describe(const Control<2>&);
+template struct PathSample<2>;
+template class PathRun<2>;
+template struct PathSample<3>;
+template class PathRun<3>;
+} // namespace feldspar

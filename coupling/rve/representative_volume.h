@@ -1,0 +1,97 @@
+#pragma once
+
+#include "coupling/rve/equilibrium.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// Where all links are in the states it was made for.
+template <int dim>
+struct Tangent
+{
+  std::uint64_t states = 0;
+  Stiffness<dim> value; ///< [Pa]
+};
+
+/// What a representative volume would answer.
+template <int dim>
+struct Trial
+{
+  bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
+  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
+  std::vector<BreakEvent<dim>> breaks;
+  bool would_break = false;            ///< it stands overloaded; with Bonds::until_break
+  double share_until_break = 1.0;      ///< of the way from the state before, about; 1: nothing broke
+  std::optional<Tangent<dim>> tangent; ///< on request
+  double unbalanced_ratio = 0.0;       ///< largest unbalanced over mean contact force
+  /// What its linear systems were solved with last; empty: the intact network. Shared with the next trial, which changes
+  /// nothing in it.
+  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+};
+
+enum class Bonds
+{
+  may_break,
+  break_once,  ///< after the first break, and those that break with it, they are frozen
+  until_break, ///< as frozen, but says whether and where the first would break; then it cannot be accepted
+  frozen
+};
+
+/// How a trial is made.
+template <int dim>
+struct TrialOptions
+{
+  Bonds bonds = Bonds::may_break;
+  bool with_tangent = false;
+  /// Where to begin the search: what an earlier trial from the same state found. Not kept.
+  const NetworkState<dim>* nearby = nullptr;
+  /// Only strain, stress and motions of the state are wanted, as between the iterations of a solver: it cannot be
+  /// accepted.
+  bool provisional = false;
+  /// Of an earlier trial, so that none is made anew; may be empty.
+  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  /// Of an earlier trial, handed out again where the states are the same.
+  std::optional<Tangent<dim>> tangent{};
+  double share_of_tolerance = 1.0; ///< of the final one, up to which the forces may stay unbalanced
+};
+
+/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
+/// network and hold their own state only. Trying is not doing: history changes on accept().
+template <int dim>
+class RepresentativeVolume
+{
+public:
+  RepresentativeVolume(std::shared_ptr<const Network<dim>> network, const EquilibriumParameters& parameters = {});
+
+  Trial<dim> trial(const Control<dim>& control, const TrialOptions<dim>& options) const;
+  Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
+                   const bool with_tangent = false) const
+  {
+    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr, {}});
+  }
+  Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
+                   const bool with_tangent = false) const
+  {
+    return trial(strain_control<dim>(strain), bonds, with_tangent);
+  }
+  void accept(Trial<dim>&& trial) { current = std::move(trial.state); }
+
+  const NetworkState<dim>& state() const { return current; }
+  void restore(NetworkState<dim> state) { current = std::move(state); }
+  const Network<dim>& network() const { return *reference; }
+  /// The strain at which the intact volume would meet a control.
+  Voigt<dim> intact_strain(const Control<dim>& control) const;
+  /// Energy stored in the contacts [J].
+  double stored_energy() const;
+
+private:
+  Trial<dim> intact_trial(const Voigt<dim>& strain, bool with_tangent) const;
+
+  std::shared_ptr<const Network<dim>> reference; ///< shared: hundreds of volumes refer to one network
+  EquilibriumParameters parameters;
+  NetworkState<dim> current;
+};
+} // namespace feldspar

@@ -1,0 +1,300 @@
+#include "coupling/sample/grain_material.h"
+
+#include "base/fingerprint.h"
+#include "base/random.h"
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/state_archive.h"
+
+#include <Eigen/Geometry>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace feldspar
+{
+template <int dim>
+GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
+                            const EquilibriumParameters& parameters)
+  : turn(orientation)
+  , accepted(network, parameters)
+  , at_work(std::move(network), parameters)
+{
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    strain_to_volume.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
+}
+
+template <int dim>
+Voigt<dim> GrainPoint<dim>::to_volume(const Voigt<dim>& strain) const
+{
+  return strain_to_volume * strain;
+}
+
+template <int dim>
+fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
+{
+  const Voigt<dim> wanted = to_volume(strain);
+  if (!tried_strain || *tried_strain != wanted)
+    {
+      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
+      const NetworkState<dim> nearby = std::move(tried.state);
+      if (tried_strain && !nearby.motions.empty())
+        options.nearby = &nearby;
+      tried = at_work.trial(strain_control<dim>(wanted), options);
+      tried_strain = wanted;
+      factorised = tried.factorised;
+      if (tried.tangent && !at_work.state().intact)
+        last_tangent = tried.tangent;
+    }
+  if (!tried.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium");
+  // Work is the same in both axes, so stress and stiffness follow from how strain turns.
+  return {strain_to_volume.transpose() * tried.state.stress,
+          strain_to_volume.transpose() * tried.tangent->value * strain_to_volume};
+}
+
+/// From where Newton's method was last.
+template <int dim>
+Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
+{
+  TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
+  if (tried_strain && !tried.state.motions.empty())
+    options.nearby = &tried.state;
+  Trial<dim> settled = at_work.trial(strain_control<dim>(to_volume(strain)), options);
+  factorised = settled.factorised;
+  return settled;
+}
+
+template <int dim>
+fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bonds bonds)
+{
+  Trial<dim> broken = settle(strain, bonds);
+  if (!broken.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium after a break");
+  const std::size_t n_events = broken.breaks.size();
+  const Voigt<dim> stress = strain_to_volume.transpose() * broken.state.stress;
+  if (n_events == 0)
+    {
+      stable = {to_volume(strain), std::move(broken)};
+      return {0, stress};
+    }
+  events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
+  at_work.accept(std::move(broken));
+  forget_trial();
+  return {n_events, stress};
+}
+
+template <int dim>
+void GrainPoint<dim>::accept(const Voigt<dim>& strain)
+{
+  Trial<dim> found =
+    stable && stable->first == to_volume(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen);
+  if (!found.in_equilibrium)
+    throw fem::PointFailure("the grains of a volume find no equilibrium");
+  at_work.accept(std::move(found));
+  forget_trial();
+  factorised.reset();
+  accepted = at_work;
+  accepted_tangent = last_tangent;
+  events_accepted = std::exchange(events_at_work, {});
+}
+
+template <int dim>
+void GrainPoint<dim>::reject()
+{
+  at_work = accepted;
+  events_at_work.clear();
+  forget_trial();
+  factorised.reset();
+  last_tangent = accepted_tangent;
+}
+
+namespace
+{
+/// It goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
+template <typename Archive, int dim>
+void transfer(Archive& archive, std::optional<Tangent<dim>>& tangent)
+{
+  bool there = tangent.has_value();
+  transfer_flag(archive, "", there);
+  if (!there)
+    return tangent.reset();
+  if (!tangent)
+    tangent.emplace();
+  archive.value("", tangent->states);
+  for (double& entry : tangent->value.reshaped())
+    archive.value("", entry);
+}
+} // namespace
+
+template <int dim>
+std::string GrainPoint<dim>::stored() const
+{
+  BytesWriter writer;
+  // One description serves writing and reading, and reading changes.
+  NetworkState<dim> state = accepted.state();
+  std::optional<Tangent<dim>> tangent = accepted_tangent;
+  transfer(writer, state);
+  transfer(writer, tangent);
+  return writer.all;
+}
+
+template <int dim>
+void GrainPoint<dim>::restore(const std::string& stored)
+{
+  BytesReader reader(stored);
+  NetworkState<dim> state;
+  transfer(reader, state);
+  transfer(reader, accepted_tangent);
+  accepted.restore(std::move(state));
+  events_accepted.clear();
+  reject();
+}
+
+template <int dim>
+void GrainPoint<dim>::forget_trial()
+{
+  tried_strain.reset();
+  tried = {};
+  stable.reset();
+}
+
+template <int dim>
+std::vector<PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
+{
+  std::vector<PointCrack<dim>> cracks;
+  const Network<dim>& network = accepted.network();
+  for (const BreakEvent<dim>& event : events_accepted)
+    {
+      const Link<dim>& link = network.links()[network.link_of_segment(event.segment)];
+      const double area = network.segment_area(link, event.segment - link.first_segment);
+      cracks.push_back({event.in_tension ? CrackKind::tension : CrackKind::shear, event.segment,
+                        turn * link.axes.row(0).transpose(), dim == 2 ? area / network.thickness() : std::sqrt(area),
+                        event.released_energy});
+    }
+  return cracks;
+}
+
+template <int dim>
+std::optional<fem::PointEnergies> GrainPoint<dim>::energies() const
+{
+  const NetworkWork& work = at_work.state().work;
+  const double volume = at_work.network().volume();
+  return fem::PointEnergies{work.boundary / volume, at_work.stored_energy() / volume, work.slip / volume,
+                            work.released / volume, work.settled / volume};
+}
+
+namespace
+{
+/// Of GrainPoint::fields(); components along the axes of the sample.
+template <int dim>
+std::vector<std::string> names_of_fields()
+{
+  std::vector<std::string> names{"broken_segments_share", "broken_in_shear_share", "dissipation_J_per_m3",
+                                 "crack_density_per_m"};
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    names.push_back(fmt::format("crack_orientation_{}_per_m", voigt_name<dim>(k)));
+  return names;
+}
+} // namespace
+
+template <int dim>
+std::vector<double> GrainPoint<dim>::fields() const
+{
+  const NetworkState<dim>& state = accepted.state();
+  const auto n = double(accepted.network().n_segments());
+  const NetworkWork& work = state.work;
+  const CrackMeasures<dim> cracks = crack_measures(accepted.network(), state);
+  std::vector<double> values{(state.n_tension_breaks + state.n_shear_breaks) / n, state.n_shear_breaks / n,
+                             (work.slip + work.released + work.settled) / accepted.network().volume(), cracks.density};
+  const Voigt<dim> orientation = stress_voigt<dim>(turn * cracks.orientation * turn.transpose());
+  values.insert(values.end(), orientation.begin(), orientation.end());
+  return values;
+}
+
+namespace
+{
+/// A number of its own for each point of each sample.
+std::uint64_t point_seed(const std::uint64_t seed, const fem::PointPlace& place)
+{
+  Fingerprint print;
+  print.add(seed);
+  for (const char c : place.cell)
+    print.add_byte(std::uint8_t(c));
+  print.add_byte(place.quadrature_point);
+  return print.value();
+}
+
+/// Any turn as likely as any other.
+template <int dim>
+Tensor<dim> random_turn(Random& random)
+{
+  if constexpr (dim == 2)
+    return Eigen::Rotation2Dd(random.uniform(0.0, 2.0 * std::numbers::pi)).toRotationMatrix();
+  else
+    {
+      // A direction in four dimensions, taken as a quaternion (Shoemake 1992).
+      Eigen::Quaterniond turn;
+      for (double& component : turn.coeffs())
+        component = random.normal(0.0, 1.0);
+      return turn.normalized().toRotationMatrix();
+    }
+}
+
+/// From r, θ, z to x, y, z.
+template <int dim>
+Tensor<dim> local_axes(const fem::PointPlace& place)
+{
+  Tensor<dim> axes = Tensor<dim>::Identity();
+  axes.template topLeftCorner<2, 2>() =
+    Eigen::Rotation2Dd(std::atan2(place.position[1], place.position[0])).toRotationMatrix();
+  return axes;
+}
+} // namespace
+
+template <int dim>
+Specimen<dim> weakened(Specimen<dim> specimen, const double share)
+{
+  auto& joints = specimen.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (std::size_t i = 0; i < joints.elements.size(); ++i)
+      {
+        const std::size_t k = joints.segment(i, j);
+        joints.tensile_strength[k] *= share;
+        joints.cohesion[k] *= share;
+      }
+  return specimen;
+}
+
+template <int dim>
+fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak)
+{
+  fem::Material<dim> material;
+  material.field_names = names_of_fields<dim>();
+  material.make_point = [realisations = std::move(realisations), parameters, weak = std::move(weak)](
+                          const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
+    Random random(point_seed(parameters.seed, place), RandomStream::dealing);
+    const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
+    const auto& network = candidates[std::size_t(random.uniform() * double(candidates.size()))];
+    Tensor<dim> turn = Tensor<dim>::Identity();
+    if (parameters.random_orientation)
+      turn = random_turn<dim>(random);
+    if (parameters.in_local_axes)
+      turn = local_axes<dim>(place) * turn;
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium);
+  };
+  return material;
+}
+
+template class GrainPoint<2>;
+template Specimen<2> weakened<2>(Specimen<2>, double);
+template fem::Material<2> grain_material<2>(std::vector<std::shared_ptr<const Network<2>>>,
+                                            const GrainMaterialParameters&, WeakCells<2>);
+template class GrainPoint<3>;
+template Specimen<3> weakened<3>(Specimen<3>, double);
+template fem::Material<3> grain_material<3>(std::vector<std::shared_ptr<const Network<3>>>,
+                                            const GrainMaterialParameters&, WeakCells<3>);
+} // namespace feldspar

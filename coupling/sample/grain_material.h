@@ -1,0 +1,98 @@
+#pragma once
+
+#include "coupling/rve/representative_volume.h"
+#include "fem/materials/material.h"
+#include "results/record.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The law made of grains: a representative volume at every point of a sample; docs/theory.md §11.
+namespace feldspar
+{
+/// A broken segment of the volume at a point, in the axes of the sample.
+template <int dim>
+struct PointCrack
+{
+  CrackKind kind;
+  std::uint32_t segment;
+  Vector<dim> normal;
+  double size;            ///< length in the plane, root of the area in space [m]
+  double released_energy; ///< [J]
+};
+
+template <int dim>
+class GrainPoint final : public fem::MaterialPoint<dim>
+{
+public:
+  /// orientation: turns the axes of the volume into those of the sample.
+  GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
+             const EquilibriumParameters& parameters);
+
+  fem::MaterialAnswer<dim> trial(const Voigt<dim>& strain) const override;
+  std::size_t relax(const Voigt<dim>& strain) override { return relax(strain, Bonds::may_break).n; }
+  fem::PointEvents<dim> relax_once(const Voigt<dim>& strain) override { return relax(strain, Bonds::break_once); }
+  void accept(const Voigt<dim>& strain) override;
+  void reject() override;
+  std::string stored() const override;
+  void restore(const std::string& stored) override;
+  std::vector<double> fields() const override;
+  std::optional<fem::PointEnergies> energies() const override;
+
+  /// The volume in its accepted state, in its own axes.
+  const RepresentativeVolume<dim>& volume() const { return accepted; }
+  const Tensor<dim>& orientation() const { return turn; }
+  /// Broken in the last accepted step.
+  std::vector<PointCrack<dim>> cracks_of_last_step() const;
+
+private:
+  fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
+  Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds) const;
+  void forget_trial();
+  Voigt<dim> to_volume(const Voigt<dim>& strain) const;
+
+  Tensor<dim> turn;
+  Stiffness<dim> strain_to_volume; ///< Voigt strain of the sample's axes to that of the volume's
+  RepresentativeVolume<dim> accepted;
+  RepresentativeVolume<dim> at_work; ///< with what broke in this step
+  std::vector<BreakEvent<dim>> events_at_work;
+  std::vector<BreakEvent<dim>> events_accepted;
+  mutable std::optional<Voigt<dim>> tried_strain; ///< in the volume's axes; what `tried` answers
+  mutable Trial<dim> tried;
+  mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
+  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the volume's axes
+  std::optional<Tangent<dim>> accepted_tangent;                     ///< the last of the accepted state
+  std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the volume's axes: nothing breaks there
+};
+
+struct GrainMaterialParameters
+{
+  std::uint64_t seed = 1;         ///< of the dealing
+  bool random_orientation = true; ///< each volume turned by an angle of its own
+  bool in_local_axes = false;     ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
+  EquilibriumParameters equilibrium;
+};
+
+/// The same packing with bonds of this share of their strengths.
+template <int dim>
+Specimen<dim> weakened(Specimen<dim> specimen, double share);
+
+/// Cells whose points get weaker twins of the volumes that are dealt to them.
+template <int dim>
+struct WeakCells
+{
+  std::set<std::string> cells;                            ///< as PointPlace::cell
+  std::vector<std::shared_ptr<const Network<dim>>> twins; ///< one of each realisation
+};
+
+/// Volumes of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
+/// number of ranks. The material's fields are those of GrainPoint::fields().
+template <int dim>
+fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak = {});
+} // namespace feldspar

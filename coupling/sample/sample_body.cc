@@ -1,0 +1,408 @@
+#include "coupling/sample/sample_body.h"
+
+#include "base/input_error.h"
+#include "coupling/sample/grain_material.h"
+#include "coupling/sample/ranks.h"
+#include "coupling/sample/sample_run.h"
+#include "coupling/sample/softening.h"
+#include "fem/materials/linear_elasticity.h"
+#include "fem/materials/mohr_coulomb.h"
+#include "fem/materials/plane_strain.h"
+#include "fem/solid/platens.h"
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+fem::Kinematics kinematics_of(const SampleGeometry geometry)
+{
+  return geometry == SampleGeometry::axisymmetric ? fem::Kinematics::axisymmetric
+         : geometry == SampleGeometry::cylinder   ? fem::Kinematics::full
+                                                  : fem::Kinematics::plane;
+}
+
+std::vector<std::string> boundaries_of(const SampleGeometry geometry)
+{
+  switch (geometry)
+    {
+    case SampleGeometry::axisymmetric:
+      return {"axis", "side", "bottom", "top"};
+    case SampleGeometry::cylinder:
+      return {"side", "bottom", "top"};
+    default:
+      return {"left", "right", "bottom", "top"};
+    }
+}
+
+template <int dim>
+fem::SampleMesh<dim> made_mesh(const SampleParameters& sample)
+{
+  const std::array<unsigned int, 2> divisions{sample.elements_across, sample.elements_along};
+  if constexpr (dim == 3)
+    return fem::cylinder_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+  else if (sample.geometry == SampleGeometry::axisymmetric)
+    return fem::axisymmetric_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+  else
+    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height, divisions, 0);
+}
+
+template <int dim>
+fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
+{
+  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0);
+  for (const std::string& boundary : boundaries_of(sample.geometry))
+    mesh.boundary(boundary);
+  if (sample.geometry == SampleGeometry::axisymmetric)
+    {
+      const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+      if (const double inner = box.lower_bound(0); std::abs(inner) > 1e-9 * box.side_length(0))
+        throw fem::MeshError(fmt::format("{}: begins at x = {:g} m; in r-z the axis is x = 0, and the sample reaches "
+                                         "from there to x > 0",
+                                         sample.mesh_file, inner));
+    }
+  if (sample.geometry == SampleGeometry::cylinder)
+    {
+      const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+      for (int axis = 0; axis < 2; ++axis)
+        if (const double centre = 0.5 * (box.lower_bound(axis) + box.upper_bound(axis));
+            std::abs(centre) > 1e-3 * box.side_length(axis))
+          throw fem::MeshError(fmt::format("{}: its axis lies at {} = {:g} m; a cylinder stands on x = y = 0",
+                                           sample.mesh_file, "xy"[axis], centre));
+    }
+  return mesh;
+}
+
+template <int dim>
+fem::SampleMesh<dim> mesh_of(const SampleParameters& sample)
+{
+  try
+    {
+      return sample.mesh_file.empty() ? made_mesh<dim>(sample) : read_mesh<dim>(sample);
+    }
+  catch (const fem::MeshError& error)
+    {
+      throw InputError(sample.mesh_file.empty()
+                         ? fmt::format("Sample/Elements across = {}: {}", sample.elements_across, error.what())
+                         : fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
+    }
+}
+
+template <int dim>
+SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample)
+{
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  double largest = 0.0;
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    largest = std::max(largest, std::pow(cell->measure(), 1.0 / dim) / sample.order);
+  const double sides = sample.geometry == SampleGeometry::axisymmetric ? 2.0 : 1.0;
+  return {sides * box.side_length(0), box.side_length(dim - 1), largest};
+}
+
+/// By their places alone. All ranks know all cells: none is refined.
+template <int dim>
+std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
+{
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  const double round_off = 1e-9 * box.side_length(dim - 1);
+  const double middle = box.center()[dim - 1] + round_off;
+  std::map<std::array<long long, dim>, std::string> row; // the outermost last
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    {
+      const auto extent = cell->bounding_box();
+      if (extent.lower_bound(dim - 1) > middle || extent.upper_bound(dim - 1) <= middle)
+        continue;
+      const auto centre = cell->center();
+      std::array<long long, dim> place{}; // what differs by round-off is the same place
+      for (unsigned int c = 0; c < dim; ++c)
+        place[c] = std::llround(centre[c] / round_off);
+      row[place] = cell->id().to_string();
+    }
+  if (seed == WeakSeed::element)
+    return {row.rbegin()->second};
+  std::set<std::string> cells;
+  for (const auto& [place, cell] : row)
+    cells.insert(cell);
+  return cells;
+}
+
+std::set<std::string> cells_of_weak_seed(const SampleParameters& sample)
+{
+  if (sample.weak_seed == WeakSeed::none)
+    return {};
+  return sample.geometry == SampleGeometry::cylinder ? cells_of_weak_seed(mesh_of<3>(sample), sample.weak_seed)
+                                                     : cells_of_weak_seed(mesh_of<2>(sample), sample.weak_seed);
+}
+
+template <int dim, int material_dim>
+class FiniteElementBody final : public SampleBody
+{
+public:
+  FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up,
+                    const fem::Material<material_dim>& material)
+    : sample(its_sample)
+    , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth,
+              set_up.confining_pressure}
+    , mesh(mesh_of<dim>(sample))
+    , lower_corner(dealii::GridTools::compute_bounding_box(*mesh.triangulation).get_boundary_points().first)
+    , its_size(size_of(mesh, sample))
+    , solid(mesh, parameters_of(set_up), material)
+  {
+  }
+
+  fem::NewtonReport seat(const double fraction) override { return solid.solve(platens.seating(), fraction); }
+  fem::NewtonReport press(const double top_displacement, const double fraction) override
+  {
+    return solid.solve(platens.pressing(top_displacement), fraction);
+  }
+  fem::NewtonReport widen(const double lateral_strain, const double fraction) override
+  {
+    return solid.solve(platens.widening(lateral_strain * volume_of_lateral_strain()), fraction);
+  }
+  void accept() override { solid.accept(); }
+  void reject() override { solid.reject(); }
+  void limit_events(const std::uint64_t most_events) override { solid.limit_events(most_events); }
+
+  SampleSize size() const override { return its_size; }
+  std::array<double, 3> box() const override
+  {
+    const double width = its_size.width;
+    const double height = its_size.height;
+    if (sample.geometry == SampleGeometry::plane)
+      return {width, height, 0.0};
+    constexpr double thickness = 1.0;
+    return {width, sample.geometry == SampleGeometry::plane_strain ? thickness : width, height};
+  }
+  std::uint64_t n_points() const override { return solid.n_points(); }
+  std::size_t n_points_per_cell() const override { return solid.n_points_per_cell(); }
+
+  double top_displacement() const override { return solid.mean_displacement("top", dim - 1); }
+  double lateral_strain() const override
+  {
+    double swept = 0.0;
+    for (const std::string& boundary : boundaries_of(sample.geometry))
+      if (boundary == "left" || boundary == "right" || boundary == "side")
+        swept += solid.swept_volume(boundary);
+    return swept / volume_of_lateral_strain();
+  }
+  double n_lateral_directions() const override { return platens.kinematics == fem::Kinematics::plane ? 1.0 : 2.0; }
+  double platen_stress(const std::string& end) const override { return solid.reaction(end, dim - 1) / solid.area(end); }
+  double mean_axial_stress() const override { return solid.mean_stress()[material_dim - 1]; }
+
+  bool has_grains() const override { return sample.material == SampleMaterial::grains; }
+
+  std::vector<Crack> cracks_of_last_step() const override
+  {
+    std::vector<Crack> cracks;
+    if (!has_grains())
+      return cracks;
+    for (std::size_t i = 0; i < n_points_here(); ++i)
+      for (const PointCrack<material_dim>& broken : point(i).cracks_of_last_step())
+        cracks.push_back({broken.kind, solid.number_of_point(i), broken.segment, 0, 0.0, in_box(i),
+                          in_space<material_dim>(broken.normal), broken.size, broken.released_energy});
+    return cracks;
+  }
+
+  Energies energies() const override
+  {
+    if (!has_grains())
+      {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        return {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+      }
+    std::vector<double> sums(5, 0.0);
+    for (std::size_t i = 0; i < n_points_here(); ++i)
+      {
+        const double volume = solid.volumes()[i];
+        const fem::PointEnergies densities = *solid.material_points()[i].energies();
+        sums[0] += volume * densities.work;
+        sums[1] += volume * densities.stored;
+        sums[2] += volume * densities.slip;
+        sums[3] += volume * densities.released;
+        sums[4] += volume * densities.settled;
+      }
+    sums = ranks::sums(sums);
+    Energies energies;
+    energies.boundary_work = sums[0];
+    energies.strain = sums[1];
+    energies.slip = sums[2];
+    energies.released = sums[3];
+    energies.damping = sums[4];
+    return energies;
+  }
+
+  std::uint64_t n_damaged_points() const override
+  {
+    std::uint64_t n = 0;
+    for (std::size_t i = 0; has_grains() && i < n_points_here(); ++i)
+      n += !point(i).volume().state().intact;
+    return ranks::sum(n);
+  }
+
+  std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(const std::uint64_t number) const override
+  {
+    std::size_t i = 0;
+    while (i < n_points_here() && solid.number_of_point(i) != number)
+      ++i;
+    if (i == n_points_here())
+      return std::nullopt;
+    const GrainPoint<material_dim>& at = point(i);
+    return SampleVolume<material_dim>{number, position(i), at.orientation(), &at.volume().network(),
+                                      at.volume().state()};
+  }
+
+  void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }
+  std::vector<std::string> boundaries() const override { return boundaries_of(sample.geometry); }
+  fem::Balance rebalance() override { return solid.rebalance(); }
+  fem::StoredSolid stored() const override { return solid.stored(); }
+  void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
+
+private:
+  /// What the sides sweep by a lateral strain of one [m³].
+  double volume_of_lateral_strain() const { return n_lateral_directions() * solid.area("top") * its_size.height; }
+
+  fem::SolidParameters parameters_of(const SampleSetUp& set_up) const
+  {
+    fem::SolidParameters parameters;
+    parameters.kinematics = platens.kinematics;
+    parameters.order = sample.order;
+    parameters.reduced_quadrature = sample.reduced_quadrature;
+    parameters.newton_tolerance = sample.newton_tolerance;
+    parameters.watch = set_up.watch;
+    return parameters;
+  }
+
+  std::size_t n_points_here() const { return solid.material_points().size(); }
+
+  /// Where there are grains.
+  const GrainPoint<material_dim>& point(const std::size_t i) const
+  {
+    const auto& at = static_cast<const SofteningPoint<material_dim>&>(solid.material_points()[i]);
+    return static_cast<const GrainPoint<material_dim>&>(at.volume());
+  }
+
+  Vector<material_dim> position(const std::size_t i) const
+  {
+    const auto& place = solid.places()[i].position;
+    Vector<material_dim> result = Vector<material_dim>::Zero();
+    for (std::size_t c = 0; c + 1 < place.size(); ++c)
+      result[Eigen::Index(c)] = place[c];
+    result[material_dim - 1] = place.back();
+    return result;
+  }
+
+  /// As seen in box(), with its lower corner as origin.
+  std::array<double, 3> in_box(const std::size_t i) const
+  {
+    Vector<material_dim> result = position(i);
+    result[0] -= lower_corner[0];
+    result[material_dim - 1] -= lower_corner[dim - 1];
+    if (sample.geometry == SampleGeometry::axisymmetric) // the right half of the section in front
+      {
+        result[0] += 0.5 * its_size.width;
+        result[1] += 0.5 * its_size.width;
+      }
+    else if (material_dim == 3)
+      result[1] -= dim == 3 ? lower_corner[1] : -0.5 * box()[1];
+    return in_space<material_dim>(result);
+  }
+
+  SampleParameters sample;
+  fem::PlatenTest<dim> platens;
+  fem::SampleMesh<dim> mesh;
+  dealii::Point<dim> lower_corner;
+  SampleSize its_size;
+  fem::Solid<dim, material_dim> solid;
+};
+
+template <int material_dim>
+std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                      const fem::Material<material_dim>& material)
+{
+  if constexpr (material_dim == 2)
+    return std::make_unique<FiniteElementBody<2, 2>>(sample, set_up, material);
+  else if (sample.geometry == SampleGeometry::cylinder)
+    return std::make_unique<FiniteElementBody<3, 3>>(sample, set_up, material);
+  else
+    return std::make_unique<FiniteElementBody<2, 3>>(sample, set_up, material);
+}
+} // namespace
+
+SampleSize measure(const SampleParameters& sample)
+{
+  return sample.geometry == SampleGeometry::cylinder ? size_of(mesh_of<3>(sample), sample)
+                                                     : size_of(mesh_of<2>(sample), sample);
+}
+
+std::uint64_t n_cells(const SampleParameters& sample)
+{
+  return sample.geometry == SampleGeometry::cylinder ? mesh_of<3>(sample).triangulation->n_global_active_cells()
+                                                     : mesh_of<2>(sample).triangulation->n_global_active_cells();
+}
+
+template <int dim>
+std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                const EquilibriumParameters& equilibrium,
+                                                std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
+                                                const std::uint64_t seed)
+{
+  if (dimension_of_volumes(sample.geometry) != dim)
+    throw std::invalid_argument("volumes of another dimension than the sample's");
+  GrainMaterialParameters material;
+  material.seed = seed;
+  material.random_orientation = sample.random_orientation;
+  material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
+  material.equilibrium = equilibrium;
+  const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);
+  const double unscaled = 0.0; // any element is larger
+  auto volumes = grain_material<dim>(std::move(realisations), material,
+                                     WeakCells<dim>{cells_of_weak_seed(sample), std::move(weak_twins)});
+  return make_body<dim>(sample, set_up,
+                        scaled_softening<dim>(std::move(volumes), sample.scaled_softening ? size : unscaled));
+}
+
+std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                 const ContinuumParameters& continuum)
+{
+  const bool is_elastic = sample.material == SampleMaterial::linear_elasticity;
+  const auto mohr_coulomb = [&](const double E, const double nu) {
+    return fem::mohr_coulomb({E, nu, continuum.cohesion, continuum.friction_angle, continuum.dilation_angle});
+  };
+  if (sample.geometry == SampleGeometry::plane)
+    {
+      // Plane strain that shows the modulus and the ratio asked for.
+      const auto [E, nu] = fem::plane_strain_equal_to_plate({continuum.modulus, continuum.poissons_ratio});
+      return make_body<2>(sample, set_up,
+                          is_elastic ? fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu))
+                                     : fem::plane_strain(mohr_coulomb(E, nu)));
+    }
+  const double E = continuum.modulus;
+  const double nu = continuum.poissons_ratio;
+  return make_body<3>(sample, set_up,
+                      is_elastic ? fem::linear_elasticity<3>(fem::isotropic_stiffness<3>(E, nu)) : mohr_coulomb(E, nu));
+}
+
+template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
+                                                            const EquilibriumParameters&,
+                                                            std::vector<std::shared_ptr<const Network<2>>>,
+                                                            std::vector<std::shared_ptr<const Network<2>>>,
+                                                            std::uint64_t);
+template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
+                                                            const EquilibriumParameters&,
+                                                            std::vector<std::shared_ptr<const Network<3>>>,
+                                                            std::vector<std::shared_ptr<const Network<3>>>,
+                                                            std::uint64_t);
+} // namespace feldspar

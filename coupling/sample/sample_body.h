@@ -1,0 +1,87 @@
+#pragma once
+
+#include "coupling/rve/parameters.h"
+#include "coupling/sample/sample_parameters.h"
+#include "coupling/sample/sample_volume.h"
+#include "fem/output.h"
+#include "fem/solid/solid.h"
+#include "results/record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The finite elements of a sample, in whatever dimension: what a test on it asks of them.
+namespace feldspar
+{
+/// What is asked of a body between platens.
+struct SampleSetUp
+{
+  double confining_pressure;                           ///< [Pa]
+  std::function<void(const fem::NewtonReport&)> watch; ///< as SolidParameters::watch
+};
+
+/// Between platens, the sides under a confining pressure. Changes on accept() only, and every query is about
+/// the accepted state.
+class SampleBody
+{
+public:
+  virtual ~SampleBody() = default;
+
+  /// A fraction of the way to the confining pressure all round, the top plate free to follow.
+  virtual fem::NewtonReport seat(double fraction) = 0;
+  /// The same to a displacement of the top platen [m].
+  virtual fem::NewtonReport press(double top_displacement, double fraction) = 0;
+  /// To a lateral strain, the platens as near as that takes.
+  virtual fem::NewtonReport widen(double lateral_strain, double fraction) = 0;
+  virtual void accept() = 0;
+  virtual void reject() = 0;
+  virtual void limit_events(std::uint64_t most_events) = 0;
+
+  virtual SampleSize size() const = 0;
+  virtual std::array<double, 3> box() const = 0; ///< as TestRecord::size
+  virtual std::uint64_t n_points() const = 0;
+  virtual std::size_t n_points_per_cell() const = 0;
+
+  virtual double top_displacement() const = 0; ///< [m]
+  /// Mean over the directions that are free to widen, by the volume between the sides at rest and as they are displaced.
+  virtual double lateral_strain() const = 0;
+  virtual double n_lateral_directions() const = 0;
+  virtual double platen_stress(
+    const std::string& end) const = 0;          ///< its force along the axis over its area at rest [Pa]
+  virtual double mean_axial_stress() const = 0; ///< over the volume [Pa]
+
+  // Where there are grains.
+  virtual bool has_grains() const = 0;
+  virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
+  virtual Energies energies() const = 0;                      ///< NaN where there are none
+  virtual std::uint64_t n_damaged_points() const = 0;
+  /// None where the point is another rank's.
+  virtual std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(std::uint64_t point) const = 0;
+
+  virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
+  virtual std::vector<std::string> boundaries() const = 0;
+  virtual fem::Balance rebalance() = 0; ///< as Solid's
+  virtual fem::StoredSolid stored() const = 0;
+  /// Throws std::invalid_argument where it is of another mesh.
+  virtual void restore(const fem::StoredSolid& stored) = 0;
+};
+
+/// With volumes of these realisations dealt to its points by the seed. Throws std::invalid_argument where they
+/// are not of the dimension that the geometry needs.
+template <int dim>
+std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                const EquilibriumParameters& equilibrium,
+                                                std::vector<std::shared_ptr<const Network<dim>>> realisations,
+                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
+                                                std::uint64_t seed);
+/// Of what sample.material says, without grains.
+std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                                 const ContinuumParameters& continuum);
+} // namespace feldspar

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "coupling/rve/network.h"
+#include "coupling/rve/network_state.h"
+
+#include <cstdint>
+
+namespace feldspar
+{
+/// The volume at one point of a sample.
+template <int dim>
+struct SampleVolume
+{
+  std::uint64_t number;        ///< of the point, as cracks name it
+  Vector<dim> position;        ///< in the axes of the material [m]; fem/solid/kinematics.h
+  Tensor<dim> orientation;     ///< turns the axes of the volume into those of the material
+  const Network<dim>* network; ///< of the realisation that was dealt to it
+  NetworkState<dim> state;
+};
+} // namespace feldspar

@@ -1,0 +1,236 @@
+#include "coupling/sample/softening.h"
+
+#include "coupling/rve/state_archive.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace feldspar
+{
+template <int dim>
+SofteningPoint<dim>::SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, const double its_scale)
+  : inner(std::move(volume))
+  , scale(its_scale)
+  , compliance(inner->trial(Voigt<dim>::Zero()).tangent.inverse())
+{
+}
+
+template <int dim>
+Voigt<dim> SofteningPoint<dim>::residual(const Voigt<dim>& strain, const Voigt<dim>& volume_strain,
+                                         const Voigt<dim>& stress) const
+{
+  return volume_strain - scale * strain - (1.0 - scale) * (compliance * stress + at_work.inelastic_strain);
+}
+
+/// Newton's method on the strain of the volume, bonds frozen. C is at most C_0, so the gradient lies between κ and 1.
+/// One step at least: what is left of the tolerance from where the search began would stay, however the strain is refined.
+template <int dim>
+auto SofteningPoint<dim>::find(const Voigt<dim>& strain) const -> const Found&
+{
+  if (found && found->strain == strain)
+    return *found;
+  if (!at_work.localised || scale == 1.0)
+    return found.emplace(Found{strain, strain, inner->trial(strain)});
+
+  constexpr double tolerance = 1e-7; // of the strain; the stresses of a volume are known to some 1e-6
+  constexpr int most_iterations = 30;
+  Voigt<dim> at = nearby;
+  auto answer = inner->trial(at);
+  Voigt<dim> missing = residual(strain, at, answer.stress);
+  for (int k = 0; k < most_iterations; ++k)
+    {
+      if (k > 0 && missing.norm() <= tolerance * std::max(at.norm(), strain.norm()))
+        {
+          nearby = at;
+          return found.emplace(Found{strain, at, std::move(answer)});
+        }
+      const Voigt<dim> step = gradient(answer.tangent).partialPivLu().solve(missing);
+      double share = 1.0;
+      for (;; share *= 0.5) // faces that open, close and slide make kinks
+        {
+          const Voigt<dim> next = at - share * step;
+          auto there = inner->trial(next);
+          const Voigt<dim> left = residual(strain, next, there.stress);
+          if (left.norm() < missing.norm() || share < 0.1)
+            {
+              at = next;
+              answer = std::move(there);
+              missing = left;
+              break;
+            }
+        }
+    }
+  throw fem::PointFailure("no strain of a softening volume fits that of its element");
+}
+
+template <int dim>
+fem::MaterialAnswer<dim> SofteningPoint<dim>::trial(const Voigt<dim>& strain) const
+{
+  const Found& at = find(strain);
+  if (!at_work.localised || scale == 1.0)
+    return at.answer;
+  // dσ/dε = C (I - (1 - κ) S_0 C)⁻¹ κ
+  const auto& C = at.answer.tangent;
+  return {at.answer.stress, scale * C * gradient(C).inverse()};
+}
+
+template <int dim>
+std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
+{
+  if (scale == 1.0)
+    {
+      const std::size_t n_events = inner->relax(strain);
+      if (n_events > 0)
+        {
+          found.reset();
+          look_whether_localised(strain, find(strain).answer.stress);
+        }
+      return n_events;
+    }
+  std::size_t n_events = 0;
+  Voigt<dim> at = find(strain).volume_strain;
+  Stiffness<dim> tangent = found->answer.tangent; // one event changes it little
+  bool relation_holds = true;
+  for (;;)
+    {
+      const auto events = inner->relax_once(at);
+      n_events += events.n;
+      if (events.n == 0 && relation_holds)
+        return n_events;
+      if (events.n > 0)
+        {
+          found.reset();
+          look_whether_localised(strain, events.stress);
+        }
+      if (!at_work.localised)
+        continue;
+      if (events.n > 0)
+        {
+          at -= gradient(tangent).partialPivLu().solve(residual(strain, at, events.stress));
+          nearby = at;
+          relation_holds = false;
+        }
+      else
+        {
+          at = find(strain).volume_strain;
+          tangent = found->answer.tangent;
+          relation_holds = true;
+        }
+    }
+}
+
+template <int dim>
+void SofteningPoint<dim>::look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress)
+{
+  if (at_work.localised || (stress - accepted.stress).dot(strain - accepted.strain) >= 0.0)
+    return;
+  at_work.localised = true;
+  at_work.inelastic_strain = strain - compliance * stress;
+  at_work.energies = inner->energies().value_or(fem::PointEnergies{});
+  at_work.elastic_energy = 0.5 * stress.dot(compliance * stress);
+  at_work.elastic_strain = (compliance * stress).norm();
+  nearby = strain;
+}
+
+template <int dim>
+void SofteningPoint<dim>::accept(const Voigt<dim>& strain)
+{
+  const Found at = find(strain);
+  inner->accept(at.volume_strain);
+  at_work.strain = strain;
+  at_work.volume_strain = nearby = at.volume_strain;
+  at_work.stress = at.answer.stress;
+  accepted = at_work;
+  found.reset();
+}
+
+template <int dim>
+void SofteningPoint<dim>::reject()
+{
+  inner->reject();
+  at_work = accepted;
+  nearby = accepted.volume_strain;
+  found.reset();
+}
+
+template <int dim>
+template <typename Archive>
+void SofteningPoint<dim>::State::transfer(Archive& archive)
+{
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    for (auto* const columns : {&strain, &volume_strain, &stress, &inelastic_strain})
+      archive.value("", (*columns)[k]);
+  transfer_flag(archive, "", localised);
+  archive.value("", energies);
+  archive.value("", elastic_energy);
+  archive.value("", elastic_strain);
+}
+
+template <int dim>
+std::string SofteningPoint<dim>::stored() const
+{
+  BytesWriter writer;
+  State state = accepted; // one description serves writing and reading, and reading changes
+  state.transfer(writer);
+  const std::string of_volume = inner->stored();
+  std::vector<char> bytes(of_volume.begin(), of_volume.end());
+  writer.bytes("", bytes);
+  return writer.all;
+}
+
+template <int dim>
+void SofteningPoint<dim>::restore(const std::string& stored)
+{
+  BytesReader reader(stored);
+  State state;
+  state.transfer(reader);
+  std::vector<char> bytes;
+  reader.bytes("a volume", bytes);
+  inner->restore({bytes.begin(), bytes.end()});
+  accepted = state;
+  reject();
+}
+
+template <int dim>
+std::vector<double> SofteningPoint<dim>::fields() const
+{
+  std::vector<double> values = inner->fields();
+  const Voigt<dim> since = accepted.strain - compliance * accepted.stress - accepted.inelastic_strain;
+  values.push_back(accepted.localised && since.norm() > accepted.elastic_strain ? 1.0 : 0.0);
+  return values;
+}
+
+template <int dim>
+std::optional<fem::PointEnergies> SofteningPoint<dim>::energies() const
+{
+  auto all = inner->energies();
+  if (!all || !accepted.localised)
+    return all;
+  const fem::PointEnergies& then = accepted.energies;
+  const double elastic = 0.5 * accepted.stress.dot(compliance * accepted.stress) - accepted.elastic_energy;
+  const auto scaled = [this](const double now, const double before, const double unscaled) {
+    return before + unscaled + (now - before - unscaled) / scale;
+  };
+  return fem::PointEnergies{scaled(all->work, then.work, elastic), scaled(all->stored, then.stored, elastic),
+                            scaled(all->slip, then.slip, 0.0), scaled(all->released, then.released, 0.0),
+                            scaled(all->settled, then.settled, 0.0)};
+}
+
+template <int dim>
+fem::Material<dim> scaled_softening(const fem::Material<dim>& volumes, const double size)
+{
+  fem::Material<dim> material;
+  material.field_names = volumes.field_names;
+  material.field_names.push_back("localised_share");
+  material.make_point = [make = volumes.make_point,
+                         size](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
+    return std::make_unique<SofteningPoint<dim>>(make(place), std::min(1.0, place.element_size / size));
+  };
+  return material;
+}
+
+template class SofteningPoint<2>;
+template class SofteningPoint<3>;
+template fem::Material<2> scaled_softening<2>(const fem::Material<2>&, double);
+template fem::Material<3> scaled_softening<3>(const fem::Material<3>&, double);
+} // namespace feldspar

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "coupling/rve/voigt.h"
+#include "fem/materials/material.h"
+
+#include <Eigen/LU>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace feldspar
+{
+/// A volume of one size as the material of a piece of the sample of another, so that what a band of pieces dissipates per
+/// area does not depend on their size; docs/theory.md §11.
+///
+/// Until the point localises the strain of the volume is that of the piece. It localises where an event leaves it with
+/// dσ : dε < 0 since the last accepted step. From then on the strain beyond the elastic one is scaled,
+///
+///     e - S_0 σ - ε_i0 = κ (ε - S_0 σ - ε_i0),        κ = size of the piece / size of the volume,
+///
+/// with e the strain of the volume, ε that of the piece, S_0 the intact compliance and ε_i0 the inelastic strain when it
+/// localised. The events that follow hold this relation.
+template <int dim>
+class SofteningPoint final : public fem::MaterialPoint<dim>
+{
+public:
+  /// scale: κ in (0, 1].
+  SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, double scale);
+
+  fem::MaterialAnswer<dim> trial(const Voigt<dim>& strain) const override;
+  std::size_t relax(const Voigt<dim>& strain) override;
+  void accept(const Voigt<dim>& strain) override;
+  void reject() override;
+  std::string stored() const override;
+  void restore(const std::string& stored) override;
+  /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
+  /// a break in a small volume may let the stress fall for a moment.
+  std::vector<double> fields() const override;
+  /// Of the piece: what the volume lost after it localised counts 1/κ times.
+  std::optional<fem::PointEnergies> energies() const override;
+
+  const fem::MaterialPoint<dim>& volume() const { return *inner; }
+  bool has_localised() const { return at_work.localised; }
+  /// Of the volume, in the accepted state.
+  const Voigt<dim>& volume_strain() const { return accepted.volume_strain; }
+
+private:
+  struct State
+  {
+    Voigt<dim> strain = Voigt<dim>::Zero();
+    Voigt<dim> volume_strain = Voigt<dim>::Zero();
+    Voigt<dim> stress = Voigt<dim>::Zero();
+    bool localised = false;
+    Voigt<dim> inelastic_strain = Voigt<dim>::Zero(); ///< ε_i0
+    fem::PointEnergies energies{};                    ///< of the volume, when it localised
+    double elastic_energy = 0.0;                      ///< ½ σ S_0 σ then [J/m³]
+    double elastic_strain = 0.0;                      ///< |S_0 σ| then
+
+    template <typename Archive>
+    void transfer(Archive& archive);
+  };
+
+  /// A strain, where the volume is then, and what it answers.
+  struct Found
+  {
+    Voigt<dim> strain;
+    Voigt<dim> volume_strain;
+    fem::MaterialAnswer<dim> answer;
+  };
+
+  const Found& find(const Voigt<dim>& strain) const;
+  Voigt<dim> residual(const Voigt<dim>& strain, const Voigt<dim>& volume_strain, const Voigt<dim>& stress) const;
+  /// ∂residual/∂(strain of the volume).
+  Stiffness<dim> gradient(const Stiffness<dim>& tangent) const
+  {
+    return Stiffness<dim>::Identity() - (1.0 - scale) * compliance * tangent;
+  }
+  void look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress);
+
+  std::unique_ptr<fem::MaterialPoint<dim>> inner;
+  double scale;
+  Stiffness<dim> compliance; ///< S_0 [1/Pa]
+  State accepted;
+  State at_work;                                  ///< but for strains and stress, which are those of the accepted one
+  mutable std::optional<Found> found;             ///< with the structure at work
+  mutable Voigt<dim> nearby = Voigt<dim>::Zero(); ///< where the search for a strain of the volume begins
+};
+
+/// The volumes of a material, of this size [m], at points whose elements may be smaller. Elements that are larger are
+/// taken to be as large.
+template <int dim>
+fem::Material<dim> scaled_softening(const fem::Material<dim>& volumes, double size);
+} // namespace feldspar

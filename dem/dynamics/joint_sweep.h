@@ -1,0 +1,24 @@
+#pragma once
+
+#include "dem/storage/joints.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+/// A segment that broke in a sweep.
+struct Break
+{
+  std::uint32_t joint;
+  std::uint32_t segment;
+  bool in_tension;        ///< else in shear
+  double released_energy; ///< [J]
+};
+
+/// Carries every joint over one step of dt [s]: reads the grains' positions (at its end) and spins (at its middle),
+/// updates the segments and leaves forces and couples in the joints. Breaks come in the order of joint and segment,
+/// whatever the number of threads.
+template <int dim>
+std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt);
+} // namespace feldspar

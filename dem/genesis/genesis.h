@@ -1,0 +1,26 @@
+#pragma once
+
+#include "dem/laws/parameters.h"
+#include "dem/specimen/parameters.h"
+#include "dem/specimen/specimen.h"
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace feldspar
+{
+/// Told now and then what genesis does; may throw to end it.
+using GenesisMonitor = std::function<void(std::string_view stage, double fraction)>;
+
+/// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs flat joints; docs/theory.md
+/// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
+template <int dim>
+Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointParameters& flat_joint,
+                            const ParticleContactParameters& particle_contact, std::uint64_t seed,
+                            const GenesisMonitor& monitor);
+
+/// Flat joints, stress free, between the grains of a specimen that has none; fills in its report.
+template <int dim>
+void install_joints(Specimen<dim>& specimen, const FlatJointParameters& flat_joint);
+} // namespace feldspar

@@ -1,0 +1,295 @@
+#include "dem/lab/laboratory_test.h"
+
+#include "base/hdf5_archive.h"
+#include "dem/laws/contact_motion.h"
+#include "dem/specimen/fragments.h"
+
+#include <Eigen/Geometry>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+SetUpTest<dim> set_up_test(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+                           const DynamicsParameters& dynamics)
+{
+  switch (test.kind)
+    {
+    case TestKind::direct_tension:
+      return set_up_direct_tension(specimen, wanted, dynamics);
+    case TestKind::uniaxial_compression:
+      return set_up_uniaxial_compression(specimen, wanted, dynamics);
+    case TestKind::triaxial_compression:
+      return set_up_triaxial_compression(specimen, test.confining_pressure, wanted, dynamics);
+    case TestKind::brazilian:
+      return set_up_brazilian(specimen, wanted, dynamics);
+    }
+  throw std::logic_error("a test kind without a protocol");
+}
+
+template <int dim>
+Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
+{
+  const auto& joints = dynamics.specimen().joints;
+  const Vector<dim> normal = at<dim>(joints.normal, event.joint);
+  const double arm =
+    arms(joints.rest_distance[event.joint] + joints.opening[event.joint], joints.half_radius_difference[event.joint])
+      .one;
+  const double half_length = joints.half_length[event.joint];
+  const FaceElement<dim>& element = joints.elements[event.segment];
+  Vector<dim> from_contact;
+  if constexpr (dim == 2)
+    from_contact = half_length * element.offset[0] * Vector<dim>(-normal[1], normal[0]);
+  else
+    {
+      const Vector<dim> tangent = at<dim>(joints.tangent, event.joint);
+      from_contact = half_length * (element.offset[0] * tangent + element.offset[1] * normal.cross(tangent));
+    }
+
+  Crack result;
+  result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
+  result.joint = joints.number[event.joint];
+  result.segment = event.segment;
+  result.step = dynamics.n_steps();
+  result.axial_strain = axial_strain;
+  result.centroid = in_space<dim>(at<dim>(dynamics.specimen().grains.position, joints.grain_1[event.joint]) +
+                                  arm * normal + from_contact);
+  result.normal = in_space<dim>(normal);
+  result.size = half_length * (dim == 2 ? element.area : std::sqrt(element.area));
+  result.released_energy = event.released_energy;
+  return result;
+}
+} // namespace
+
+template <int dim>
+LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
+                      const DynamicsParameters& dynamics)
+  : wanted(parameters)
+  , stop_rule(test.kind)
+  , set_up(set_up_test(test, specimen, parameters, dynamics))
+{
+  const Specimen<dim>& tested = set_up.dynamics.specimen();
+  record.kind = test.kind;
+  record.confining_pressure = test.confining_pressure;
+  record.seed = tested.seed;
+  record.has_servo = bool(set_up.protocol.servo_stress);
+  record.strain_rate = std::abs(set_up.protocol.strain_rate);
+  record.size = in_space<dim>(tested.size);
+  record.specimen = tested.report;
+  record.bulk_density = tested.bulk_density;
+  n_broken_segments.assign(tested.grains.size(), 0);
+}
+
+template <int dim>
+void LabTest<dim>::start_gauge()
+{
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, gauge_positions);
+}
+
+template <int dim>
+bool LabTest<dim>::advance()
+{
+  const auto clock = std::chrono::steady_clock::now();
+  auto& dynamics = set_up.dynamics;
+  const auto& protocol = set_up.protocol;
+  if (!seated)
+    {
+      if (protocol.seat)
+        protocol.seat(dynamics);
+      gauge_positions = dynamics.specimen().grains.position;
+      start_gauge();
+      time_at_start = dynamics.time();
+      seated = true;
+      record.curve.push_back(sample());
+      take_snapshot();
+    }
+
+  const double next_strain = double(record.curve.size()) * protocol.sampling_strain;
+  const double time_of_last_row = dynamics.time();
+  double lateral_stress_over_time = 0.0;
+  for (double strain = 0.0; std::abs(strain) < next_strain;)
+    {
+      if (protocol.drive)
+        protocol.drive(dynamics);
+      const auto breaks = dynamics.step();
+      lateral_stress_over_time += dynamics.time_step() * lateral_stress();
+      strain = protocol.strain_rate * (dynamics.time() - time_at_start);
+      for (const auto& event : breaks)
+        {
+          record.cracks.push_back(crack(dynamics, event, strain));
+          ++(event.in_tension ? n_tension : n_shear);
+          ++n_broken_segments[dynamics.specimen().joints.grain_1[event.joint]];
+          ++n_broken_segments[dynamics.specimen().joints.grain_2[event.joint]];
+        }
+    }
+  record.curve.push_back(sample());
+  record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
+  if ((record.curve.size() - 1) % rows_between_snapshots == 0)
+    take_snapshot();
+  record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
+  return !ended;
+}
+
+template <int dim>
+double LabTest<dim>::lateral_stress() const
+{
+  return record.has_servo ? set_up.protocol.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
+}
+
+template <int dim>
+CurveSample LabTest<dim>::sample() const
+{
+  constexpr int axis = dim - 1;
+  const auto& dynamics = set_up.dynamics;
+  const Specimen<dim>& specimen = dynamics.specimen();
+  CurveSample row;
+  row.step = dynamics.n_steps();
+  row.time = dynamics.time() - time_at_start;
+  row.axial_strain = set_up.protocol.strain_rate * row.time;
+  const EndStress stress = set_up.protocol.end_stress(dynamics);
+  row.axial_stress = 0.5 * (stress.lower + stress.upper);
+  row.end_stress_difference = stress.upper - stress.lower;
+  row.lateral_stress = lateral_stress();
+  const double area = specimen.volume() / specimen.size[axis];
+  row.mid_stress = -dynamics.force_across(0.5 * specimen.size[axis]) / area; // pulled down from below: tension
+  const Tensor<dim> gradient = gauge.displacement_gradient(specimen.grains);
+  row.gauge_axial_strain = gradient(axis, axis);
+  row.gauge_volumetric_strain = gradient.trace();
+  row.gauge_lateral_strain = (gradient.trace() - gradient(axis, axis)) / (dim - 1);
+  row.n_tension_cracks = n_tension;
+  row.n_shear_cracks = n_shear;
+  row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();
+  row.energies = dynamics.energies();
+  return row;
+}
+
+/// How long the curve will be is not known: when there are too many, every second one goes.
+template <int dim>
+void LabTest<dim>::take_snapshot()
+{
+  constexpr std::size_t most_snapshots = 32;
+  const auto& specimen = set_up.dynamics.specimen();
+  Snapshot now;
+  now.step = set_up.dynamics.n_steps();
+  now.axial_strain = record.curve.back().axial_strain;
+  now.axial_stress = record.curve.back().axial_stress;
+  for (int c = 0; c < dim; ++c)
+    now.position[c] = specimen.grains.position[c];
+  now.fragment = fragments(specimen.joints, specimen.grains.size());
+  now.n_broken_segments = n_broken_segments;
+  record.snapshots.push_back(std::move(now));
+  if (record.snapshots.size() < most_snapshots)
+    return;
+  std::vector<Snapshot> kept;
+  for (std::size_t k = 0; k < record.snapshots.size(); k += 2)
+    kept.push_back(std::move(record.snapshots[k]));
+  record.snapshots = std::move(kept);
+  rows_between_snapshots *= 2;
+}
+
+template <int dim>
+TestRecord LabTest<dim>::finish(const bool interrupted) const
+{
+  TestRecord result = record;
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  result.interrupted = interrupted;
+  result.steps = set_up.dynamics.n_steps();
+  result.time_step = set_up.dynamics.time_step();
+  const auto fragment = fragments(specimen.joints, specimen.grains.size());
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    result.grains_at_end.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
+                                    in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i],
+                                    fragment[i]});
+  return result;
+}
+
+template <int dim>
+template <typename Archive>
+void LabTest<dim>::transfer(Archive& archive)
+{
+  auto dynamics = archive.subgroup("dynamics");
+  set_up.dynamics.transfer(dynamics);
+  archive.bytes("curve", record.curve);
+  archive.bytes("cracks", record.cracks);
+  for (std::size_t c = 0; c < gauge_positions.size(); ++c)
+    archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
+  archive.value("wall_time", record.wall_time);
+  archive.value("time_at_start", time_at_start);
+  archive.value("n_tension", n_tension);
+  archive.value("n_shear", n_shear);
+  archive.value("peak_deviator", stop_rule.peak.highest);
+  std::uint32_t fallen = stop_rule.peak.fallen;
+  archive.value("fallen", fallen);
+  stop_rule.peak.fallen = fallen;
+  std::uint32_t has_ended = ended;
+  archive.value("ended", has_ended);
+  ended = has_ended;
+  archive.value("strain_at_peak", stop_rule.strain_at_peak);
+  archive.array("n_broken_segments", n_broken_segments);
+  archive.value("rows_between_snapshots", rows_between_snapshots);
+  std::uint64_t n_snapshots = record.snapshots.size();
+  archive.value("n_snapshots", n_snapshots);
+  record.snapshots.resize(n_snapshots);
+  for (std::size_t k = 0; k < n_snapshots; ++k)
+    {
+      Snapshot& snapshot = record.snapshots[k];
+      auto group = archive.subgroup(fmt::format("snapshot_{}", k));
+      group.value("step", snapshot.step);
+      group.value("axial_strain", snapshot.axial_strain);
+      group.value("axial_stress", snapshot.axial_stress);
+      for (int c = 0; c < dim; ++c)
+        group.array(fmt::format("position_{}", "xyz"[c]), snapshot.position[c]);
+      group.array("fragment", snapshot.fragment);
+      group.array("n_broken_segments", snapshot.n_broken_segments);
+    }
+}
+
+namespace
+{
+const std::string checkpoint_format = "feldspar checkpoint";
+
+/// What must agree before the rest is worth reading.
+template <typename Archive>
+void transfer_identity(Archive& archive, const std::string& identity)
+{
+  std::string format = checkpoint_format;
+  std::string whose = identity;
+  archive.text("format", format);
+  archive.text("identity", whose);
+  if (format != checkpoint_format)
+    throw InputError("another kind of file");
+  if (whose != identity)
+    throw InputError("of another test, input or version of this program");
+}
+} // namespace
+
+template <int dim>
+void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  write_hdf5(file, [&](Hdf5Writer& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+}
+
+template <int dim>
+void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_hdf5(file, "a checkpoint of this test", [&](Hdf5Reader& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+  start_gauge();
+  seated = true;
+}
+
+template class LabTest<2>;
+template class LabTest<3>;
+} // namespace feldspar

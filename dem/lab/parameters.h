@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+/// What the user may choose of the laboratory tests, in SI units and radians, tension positive. A default-constructed value is the
+/// default.
+namespace feldspar
+{
+/// What presses the side of a cylinder in a triaxial test.
+enum class LateralBoundary
+{
+  wall,    ///< a rigid cylinder that shrinks and widens
+  membrane ///< a pressure on the outer grains, each by its share of the side
+};
+
+/// The laboratory tests and when they end.
+struct TestParameters
+{
+  double compression_strain_rate = 1.0;      ///< [1/s]
+  double tension_strain_rate = 0.164;        ///< [1/s]
+  double compression_sampling_strain = 1e-5; ///< strain between two rows of the curve
+  double tension_sampling_strain = 1e-6;
+  double brazilian_strain_rate = 0.164; ///< of the diameter [1/s]
+  double brazilian_sampling_strain = 2e-6;
+  double platen_friction = 0.0;
+  double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
+  LateralBoundary lateral_boundary = LateralBoundary::wall;
+  std::optional<double> intermediate_stress; ///< σ_2 on a box in space, compression positive [Pa]; none: σ_3
+  double brazilian_length_ratio = 0.5;       ///< length of the disc over its diameter, in space
+  double grip_ratio = 0.1;                   ///< height of each grip over the specimen's
+  double stop_strain_over_peak_strain = 1.6;
+  std::optional<double> stop_strain;           ///< stop at this axial strain instead
+  std::optional<double> stop_stress_over_peak; ///< or when the deviator has fallen to this share of its peak
+};
+} // namespace feldspar

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "dem/dynamics/dynamics.h"
+
+namespace feldspar
+{
+/// The walls below and above a specimen.
+struct Platens
+{
+  std::size_t lower;
+  std::size_t upper;
+};
+
+/// Stands both at rest, across the last axis.
+template <int dim>
+Platens add_platens(Dynamics<dim>& dynamics, const double lower, const double upper, const double friction)
+{
+  constexpr int axis = dim - 1;
+  return {dynamics.add_wall({axis, 1.0, lower, 0.0, friction}), dynamics.add_wall({axis, -1.0, upper, 0.0, friction})};
+}
+
+/// Brings the platens together at `speed` [m/s], half of it each.
+template <int dim>
+void close(Dynamics<dim>& dynamics, const Platens& platens, const double speed)
+{
+  dynamics.wall(platens.lower).velocity = 0.5 * speed;
+  dynamics.wall(platens.upper).velocity = -0.5 * speed;
+}
+
+/// Gives the grains, on top of what they have, the velocities of a steady, uniform stretch [1/s] about the middle: set
+/// off from rest, the ends would send waves through the specimen that spoil the first tenth of the curve.
+template <int dim>
+void start_steadily(Dynamics<dim>& dynamics, const double strain_rate)
+{
+  constexpr int axis = dim - 1;
+  const auto& grains = dynamics.specimen().grains;
+  for (std::uint32_t i = 0; i < grains.size(); ++i)
+    dynamics.push(i, strain_rate * (grains.position[axis][i] - 0.5 * dynamics.specimen().size[axis]) *
+                       Vector<dim>::Unit(axis));
+}
+} // namespace feldspar

@@ -1,0 +1,211 @@
+#include "base/input_error.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/membrane.h"
+#include "dem/lab/platens.h"
+#include "dem/lab/servo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+/// Walls that press together on an area with one pressure.
+template <int dim>
+struct Press
+{
+  std::vector<std::size_t> walls;
+  std::function<double(const Dynamics<dim>&)> area; ///< of each [m²]
+  double pressure;                                  ///< compression positive [Pa]
+};
+
+/// Two walls across one axis.
+struct WallPair
+{
+  std::size_t low;
+  std::size_t high;
+};
+
+template <int dim>
+double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
+{
+  return dynamics.walls()[pair.high].position - dynamics.walls()[pair.low].position;
+}
+
+/// What surrounds a specimen in a triaxial test.
+template <int dim>
+struct Surroundings
+{
+  std::vector<Press<dim>> sides; ///< the first holds the confining pressure; none with a membrane
+  std::function<double(const Dynamics<dim>&)> end_area;
+};
+
+/// Stands the walls around the sides of a specimen.
+template <int dim>
+Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const double confining_pressure,
+                           const TestParameters& wanted)
+{
+  using State = const Dynamics<dim>&;
+  const Vector<dim> size = dynamics.specimen().size;
+  const double thickness = dynamics.specimen().thickness;
+  Surroundings<dim> around;
+  if constexpr (dim == 3)
+    if (dynamics.specimen().round)
+      {
+        if (wanted.lateral_boundary == LateralBoundary::membrane)
+          {
+            around.end_area = [=](State state) {
+              return lateral_surface(state.specimen(), state.walls()[ends.low].position,
+                                     state.walls()[ends.high].position)
+                .cross_section;
+            };
+            return around;
+          }
+        const std::size_t wall = dynamics.add_wall(round_wall(dynamics.specimen()));
+        const auto radius = [=](State state) { return state.walls()[wall].position; };
+        around.sides = {{{wall},
+                         [=](State state) { return 2.0 * std::numbers::pi * radius(state) * distance(state, ends); },
+                         confining_pressure}};
+        around.end_area = [=](State state) { return std::numbers::pi * radius(state) * radius(state); };
+        return around;
+      }
+
+  std::vector<WallPair> pairs; // across every axis but the last
+  for (int axis = 0; axis < dim - 1; ++axis)
+    {
+      const std::size_t low = dynamics.add_wall({axis, 1.0, 0.0});
+      pairs.push_back({low, dynamics.add_wall({axis, -1.0, size[axis]})});
+    }
+  for (int axis = 0; axis < dim - 1; ++axis)
+    {
+      const WallPair pair = pairs[std::size_t(axis)];
+      const auto area = [=](State state) {
+        return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
+      };
+      const bool is_intermediate = axis == 1 && wanted.intermediate_stress;
+      around.sides.push_back(
+        {{pair.low, pair.high}, area, is_intermediate ? *wanted.intermediate_stress : confining_pressure});
+    }
+  around.end_area = [=](State state) {
+    return distance(state, pairs[0]) * (dim == 2 ? thickness : distance(state, pairs.back()));
+  };
+  return around;
+}
+
+/// Puts the pressure on the outer grains, now and then anew as they move.
+template <int dim>
+void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double pressure)
+{
+  if constexpr (dim == 3)
+    {
+      auto forces =
+        lateral_surface(dynamics.specimen(), dynamics.walls()[ends.low].position, dynamics.walls()[ends.high].position)
+          .inward_area;
+      for (auto& component : forces)
+        for (double& force : component)
+          force *= pressure;
+      dynamics.apply_forces(forces);
+    }
+}
+} // namespace
+
+template <int dim>
+SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
+                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  const double height = specimen.size[axis];
+  const double closing_speed = wanted.compression_strain_rate * height;
+  const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
+
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const auto platens = add_platens(test.dynamics, 0.0, height, wanted.platen_friction);
+  const WallPair ends{platens.lower, platens.upper};
+  const auto around = surround(test.dynamics, ends, confining_pressure, wanted);
+  const bool membrane = around.sides.empty();
+  // Fitting the membrane anew at every step of the seating would change the ends' area by nothing to speak of.
+  const double area_at_rest = membrane ? around.end_area(test.dynamics) : 0.0;
+  const auto seating_area = [=](const Dynamics<dim>& state) {
+    return membrane ? area_at_rest : around.end_area(state);
+  };
+  const Press<dim> end_press{{ends.low, ends.high}, seating_area, confining_pressure};
+
+  const auto hold = [=](Dynamics<dim>& state, const Press<dim>& press, const double share) {
+    const double area = press.area(state);
+    for (const std::size_t wall : press.walls)
+      hold_pressure(state, wall, area, share * press.pressure, largest_servo_speed);
+  };
+  const auto membrane_is_due = [=](const Dynamics<dim>& state) {
+    constexpr std::uint64_t steps_between_fits = 200; // the grains move by thousandths of a radius meanwhile
+    return membrane && state.n_steps() % steps_between_fits == 0;
+  };
+
+  // All walls press, raised over some transits of a wave so as not to hit the specimen.
+  test.protocol.seat = [=](Dynamics<dim>& state) {
+    const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
+    const double ramp = wanted.seating_transits * height / wave_speed;
+    constexpr double tolerance = 0.005;
+    constexpr double most_ramps = 20.0;
+    for (;;)
+      {
+        const double share = std::min(1.0, state.time() / ramp);
+        for (const auto& side : around.sides)
+          hold(state, side, share);
+        if (membrane_is_due(state) || (membrane && share < 1.0 && state.n_steps() % 20 == 0))
+          press_membrane(state, ends, share * confining_pressure);
+        hold(state, end_press, share);
+        state.step();
+        if (state.time() > most_ramps * ramp)
+          throw InputError(fmt::format("Tests/Confinements: the walls cannot hold {:g} MPa on this specimen",
+                                       confining_pressure / 1e6));
+        if (state.time() < 1.5 * ramp)
+          continue;
+        double worst = 0.0;
+        const auto look = [&](const Press<dim>& press) {
+          for (const std::size_t wall : press.walls)
+            worst = std::max(worst, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
+        };
+        for (const auto& side : around.sides)
+          look(side);
+        look(end_press);
+        if (worst < tolerance)
+          break;
+      }
+    if (membrane)
+      press_membrane(state, ends, confining_pressure);
+    start_steadily(state, -wanted.compression_strain_rate);
+    close(state, platens, closing_speed);
+  };
+  test.protocol.drive = [=](Dynamics<dim>& state) {
+    for (const auto& side : around.sides)
+      hold(state, side, 1.0);
+    if (membrane_is_due(state))
+      press_membrane(state, ends, confining_pressure);
+  };
+
+  test.protocol.strain_rate = -wanted.compression_strain_rate;
+  test.protocol.sampling_strain = wanted.compression_sampling_strain;
+  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+    const double end_area = around.end_area(state);
+    return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
+  };
+  if (!membrane)
+    test.protocol.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
+      double force = 0.0;
+      for (const std::size_t wall : side.walls)
+        force += state.wall_force(wall) / double(side.walls.size());
+      return -force / side.area(state);
+    };
+  return test;
+}
+
+template SetUpTest<2> set_up_triaxial_compression<2>(const Specimen<2>&, double, const TestParameters&,
+                                                     const DynamicsParameters&);
+template SetUpTest<3> set_up_triaxial_compression<3>(const Specimen<3>&, double, const TestParameters&,
+                                                     const DynamicsParameters&);
+} // namespace feldspar

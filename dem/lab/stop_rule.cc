@@ -1,0 +1,27 @@
+#include "dem/lab/stop_rule.h"
+
+namespace feldspar
+{
+bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure, const TestParameters& wanted)
+{
+  const double sign = laboratory_sign(peak.kind);
+  const double strain = sign * row.axial_strain;
+  const double deviator = sign * row.axial_stress - confining_pressure;
+  if (peak.is_highest(deviator))
+    strain_at_peak = strain;
+  // Nothing that is rock is left at such a strain, whether the curve has peaked or not.
+  constexpr double largest_strain = 0.2;
+  // A row that is meant to be there may lack a last bit, which differs between numbers of processes.
+  constexpr double but_for_round_off = 1.0 - 1e-9;
+  if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_strain))
+    return true;
+  // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
+  if (row.n_tension_cracks + row.n_shear_cracks == 0 && deviator > 0.9 * peak.highest)
+    return false;
+  if (wanted.stop_stress_over_peak)
+    return deviator <= *wanted.stop_stress_over_peak * peak.highest;
+  if (wanted.stop_strain)
+    return false;
+  return strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
+}
+} // namespace feldspar

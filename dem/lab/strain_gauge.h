@@ -1,0 +1,31 @@
+#pragma once
+
+#include "dem/storage/grains.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+/// Strain of the middle of a specimen: least-squares gradient of the displacements of the grains within 0.4 of the
+/// width and 0.25 of the height from its centre, where the ends disturb least; in a cylinder 0.4 of the diameter from its
+/// axis.
+template <int dim>
+class StrainGauge
+{
+public:
+  StrainGauge() = default;
+
+  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m]; round: a cylinder.
+  StrainGauge(const Vector<dim>& size, bool round, const Components<dim>& undeformed);
+
+  /// Displacement gradient ∂u_i/∂x_j; NaN where too few grains lie in the gauge to tell.
+  Tensor<dim> displacement_gradient(const Grains<dim>& grains) const;
+
+private:
+  std::vector<std::uint32_t> members;
+  std::vector<Vector<dim>> start; ///< undeformed positions [m]
+  Vector<dim> mean_start = Vector<dim>::Zero();
+  Tensor<dim> inverse_moment = Tensor<dim>::Zero(); ///< (Σ x ⊗ x)⁻¹ of positions from their mean [1/m²]
+};
+} // namespace feldspar

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+
+/// What the user may choose of contacts, in SI units and radians, tension positive. A default-constructed value is the
+/// default.
+namespace feldspar
+{
+enum class StrengthDraw
+{
+  per_segment,
+  per_contact
+};
+
+/// The faces between the grains and their bonds.
+struct FlatJointParameters
+{
+  unsigned int n_segments = 4;   ///< of a face in the plane
+  unsigned int n_rings = 2;      ///< of a face in space
+  unsigned int n_sectors = 4;    ///< of each ring
+  double modulus = 80e9;         ///< E [Pa]; k_n = E/(R1+R2)
+  double stiffness_ratio = 1.25; ///< κ = k_n/k_s
+  double friction = 0.5;
+  double radius_multiplier = 1.0;                               ///< λ; R̄ = λ min(R1, R2)
+  double bond_tensile_strength = 22e6;                          ///< [Pa]
+  double bond_tensile_strength_deviation = 2.2e6;               ///< [Pa]
+  double bond_cohesion = 400e6;                                 ///< [Pa]
+  double bond_cohesion_deviation = 40e6;                        ///< [Pa]
+  double bond_friction_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
+  StrengthDraw strength_draw = StrengthDraw::per_segment;
+  std::optional<double> installation_gap_ratio; ///< largest gap that gets a joint, over the mean radius
+  std::optional<double> coordination_number;    ///< z = 2 joints/grains; the gap follows
+  double gapped_fraction = 0.0;                 ///< share of joints without bonds and with an initial gap
+  double slit_fraction = 0.0;                   ///< share of joints without bonds whose faces touch
+  double initial_gap = 0.0;                     ///< g_0 of the gapped joints [m]
+};
+
+/// Pairs that touch without a face, and grains at walls.
+struct ParticleContactParameters
+{
+  double modulus = 80e9; ///< E_c [Pa]
+  double stiffness_ratio = 1.25;
+  double friction = 0.5;
+};
+} // namespace feldspar

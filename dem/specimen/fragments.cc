@@ -1,0 +1,45 @@
+#include "dem/specimen/fragments.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace feldspar
+{
+template <int dim>
+std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
+{
+  std::vector<std::uint32_t> parent(n_grains);
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t i) {
+    while (parent[i] != i)
+      i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints.holds(j))
+      {
+        const std::uint32_t one = root(joints.grain_1[j]);
+        const std::uint32_t two = root(joints.grain_2[j]);
+        parent[std::max(one, two)] = std::min(one, two);
+      }
+
+  std::vector<std::uint32_t> n_members(n_grains, 0);
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    ++n_members[root(i)];
+  std::vector<std::uint32_t> by_size(n_grains);
+  std::iota(by_size.begin(), by_size.end(), 0u);
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](const auto a, const auto b) { return n_members[a] > n_members[b]; });
+  std::vector<std::uint32_t> rank(n_grains);
+  for (std::uint32_t k = 0; k < n_grains; ++k)
+    rank[by_size[k]] = k;
+
+  std::vector<std::uint32_t> number(n_grains);
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    number[i] = rank[root(i)];
+  return number;
+}
+
+template std::vector<std::uint32_t> fragments<2>(const Joints<2>&, std::size_t);
+template std::vector<std::uint32_t> fragments<3>(const Joints<3>&, std::size_t);
+} // namespace feldspar

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "dem/storage/joints.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+/// The number of the fragment each grain belongs to; [n_grains]. Grains hang together by joints with at least one
+/// bonded segment; the largest fragment is 0, equal ones are ordered by their first grain.
+template <int dim>
+std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_grains);
+} // namespace feldspar

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "dem/storage/grains.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+using GrainPair = std::pair<std::uint32_t, std::uint32_t>; ///< first < second
+
+/// Every pair whose gap (centre distance less both radii) is below `largest_gap` [m], in ascending order.
+template <int dim>
+std::vector<GrainPair> pairs_within(const Grains<dim>& grains, double largest_gap);
+
+/// Numbers of the grains along a Z-curve: neighbours in space come near each other in memory.
+template <int dim>
+std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains);
+} // namespace feldspar

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+/// What the user may choose of a specimen, in SI units and radians, tension positive. A default-constructed value is the
+/// default.
+namespace feldspar
+{
+/// The body of grains to be made (or read).
+struct SpecimenParameters
+{
+  unsigned int dimension = 2;
+  std::string shape = "box";
+  double width = 0.050;           ///< [m]
+  double height = 0.100;          ///< along the axis of the test [m]
+  double minimum_radius = 6.2e-4; ///< [m]
+  double radius_ratio = 1.66;     ///< largest over smallest radius
+  double porosity = 0.16;
+  double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
+  double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
+  std::string packing_file;           ///< lines `x y [z] radius` in metres; empty: make a packing
+  std::string specimen_file;          ///< a finished specimen.h5; empty: make one
+};
+} // namespace feldspar

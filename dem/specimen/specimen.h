@@ -1,0 +1,59 @@
+#pragma once
+
+#include "dem/laws/parameters.h"
+#include "dem/specimen/parameters.h"
+#include "dem/specimen/periodic_images.h"
+#include "dem/specimen/specimen_report.h"
+#include "dem/storage/grains.h"
+#include "dem/storage/joints.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace feldspar
+{
+/// Grains and the joints between them, stress free and at rest, in the box [0, size].
+template <int dim>
+struct Specimen
+{
+  Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
+  bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
+  bool round = false;                     ///< a cylinder about the last axis, in space; the box is around it
+  double thickness = 1.0;                 ///< of the plane [m]
+  double bulk_density = 0.0;              ///< [kg/m³]
+  std::uint64_t seed = 0;
+  ParticleContactParameters particle_contact;
+  Grains<dim> grains;
+  Joints<dim> joints;
+  SpecimenReport report;
+
+  /// The edges of the box as columns [m].
+  Tensor<dim> cell() const { return size.asDiagonal(); }
+
+  /// The grain, or image of a grain, that a joint leads to.
+  PeriodicImage<dim> second_of(std::size_t joint) const;
+
+  double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0) * (round ? 0.25 * std::numbers::pi : 1.0); }
+
+  /// Distance of a point from the axis of the tests through the middle [m].
+  double distance_from_axis(const Vector<dim>& point) const
+  {
+    return (point - 0.5 * size).template head<dim - 1>().norm();
+  }
+};
+
+template <int dim>
+PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const
+{
+  // At rest the joint itself tells: its branch vector differs from that between its grains by whole edges.
+  const Vector<dim> branch = (joints.rest_distance[joint] + joints.opening[joint]) * at<dim>(joints.normal, joint);
+  const Vector<dim> between =
+    at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
+  PeriodicImage<dim> image{joints.grain_2[joint], {}};
+  if (periodic)
+    for (int c = 0; c < dim; ++c)
+      image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
+  return image;
+}
+} // namespace feldspar

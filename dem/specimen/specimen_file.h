@@ -1,0 +1,21 @@
+#pragma once
+
+#include "dem/specimen/specimen.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace feldspar
+{
+class Hdf5Writer;
+
+/// Writes specimen.h5 whole or not at all (by way of a temporary file). `more` may add to it what read_specimen() does
+/// not look at.
+template <int dim>
+void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file,
+                    const std::function<void(Hdf5Writer&)>& more = {});
+
+/// Reads what write_specimen wrote. Throws InputError where the file is missing, foreign, cut short or inconsistent.
+template <int dim>
+Specimen<dim> read_specimen(const std::filesystem::path& file);
+} // namespace feldspar

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+namespace feldspar
+{
+/// How the specimen came out.
+struct SpecimenReport
+{
+  std::uint64_t n_grains = 0;
+  std::uint64_t n_joints = 0;
+  double coordination_number = 0.0;
+  double coordination_number_core = 0.0; ///< of grains more than three mean diameters from the walls; NaN if none
+  double installation_gap_ratio = 0.0;   ///< over the mean radius
+  double porosity = 0.0;
+  double mean_overlap_ratio = 0.0; ///< of overlapping pairs, over the mean radius
+  double largest_overlap_ratio = 0.0;
+  double resolution = 0.0;        ///< width over mean diameter
+  double radius_multiplier = 1.0; ///< by which genesis scaled the drawn radii
+  double packing_stress = 0.0;    ///< reached by genesis, compression positive [Pa]
+  double mean_radius = 0.0;       ///< [m]
+};
+} // namespace feldspar

@@ -1,0 +1,213 @@
+#pragma once
+
+#include "dem/laws/face_elements.h"
+#include "dem/storage/grains.h"
+#include "dem/storage/packed_rows.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+/// The numbers of joints and of their segments, in tables that a sweep walks through pack by pack.
+template <int dim>
+struct JointTables
+{
+  static constexpr int n_shear = dim - 1;
+  static constexpr int n_tangents = dim == 3 ? 3 : 0;
+
+  JointTables() = default;
+  // Copies of the tables; the rows below name their own.
+  JointTables(const JointTables& other)
+    : state(other.state)
+    , answer(other.answer)
+    , segment_state(other.segment_state)
+    , strength(other.strength)
+  {
+  }
+  JointTables(JointTables&& other) noexcept
+    : state(std::move(other.state))
+    , answer(std::move(other.answer))
+    , segment_state(std::move(other.segment_state))
+    , strength(std::move(other.strength))
+  {
+  }
+  JointTables& operator=(JointTables other) noexcept
+  {
+    std::swap(state, other.state);
+    std::swap(answer, other.answer);
+    std::swap(segment_state, other.segment_state);
+    std::swap(strength, other.strength);
+    return *this;
+  }
+  ~JointTables() = default;
+
+  PackedRows state;         ///< what a joint is and remembers
+  PackedTable<1> answer;    ///< its force and couples, those of a joint together: grains gather them
+  PackedRows segment_state; ///< what its segments remember; all rows of a segment, then all of the next
+  PackedRows strength;      ///< of the segments' bonds
+
+  static constexpr std::size_t first_normal = 5;
+  static constexpr std::size_t first_tangent = first_normal + dim;
+  static constexpr std::size_t first_rotation = first_tangent + n_tangents + 1;
+  static constexpr std::size_t first_slip = first_rotation + n_rotations<dim>;
+  static constexpr std::size_t n_state_rows = first_slip + n_shear + 1;
+
+  PackedRow normal_stiffness{state, 0};       ///< k_n [Pa/m]
+  PackedRow shear_stiffness{state, 1};        ///< k_s [Pa/m]
+  PackedRow half_length{state, 2};            ///< R̄ [m]
+  PackedRow half_radius_difference{state, 3}; ///< ½(R1 - R2) [m]
+  PackedRow rest_distance{state, 4};          ///< centre distance at which the gap is zero [m]
+
+  /// From grain 1 to grain 2.
+  PackedComponents<dim> normal = packed_components<dim>(state, first_normal);
+  /// t_1 in space, carried with the contact plane; t_2 = n × t_1.
+  PackedComponents<n_tangents> tangent = packed_components<n_tangents>(state, first_tangent);
+  PackedRow opening{state, first_rotation - 1}; ///< g_0 + U_n [m]
+  /// θ of grain 2 against grain 1, about k, or n, t_1 and t_2 [rad].
+  PackedComponents<n_rotations<dim>> rotation = packed_components<n_rotations<dim>>(state, first_rotation);
+  /// Relative shear since installation [m].
+  PackedComponents<n_shear> slip = packed_components<n_shear>(state, first_slip);
+  PackedRow slip_energy{state, n_state_rows - 1}; ///< dissipated by friction since installation [J]
+
+  static constexpr std::size_t n_segment_rows = n_shear + 1;
+  static constexpr std::size_t n_strength_rows = 2;
+
+  /// τ of each segment [Pa].
+  PackedComponents<n_shear> shear_stress = packed_components<n_shear>(segment_state, 0, n_segment_rows);
+  PackedRow bonded{segment_state, n_shear, n_segment_rows}; ///< 1 bonded, 0 not (a double: it is a mask in the sweep)
+  PackedRow tensile_strength{strength, 0, n_strength_rows}; ///< σ_b of each segment [Pa]
+  PackedRow cohesion{strength, 1, n_strength_rows};         ///< c_b of each segment [Pa]
+
+  static constexpr std::size_t n_answer_rows = dim + 2 * n_rotations<dim>;
+
+  static constexpr std::size_t first_force = n_rotations<dim>;
+  static constexpr std::size_t first_couple_2 = first_force + dim;
+
+  /// On grain 1 [N m].
+  PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(answer, 0);
+  /// On grain 2 [N].
+  PackedComponents<dim, 1> force = packed_components<dim>(answer, first_force);
+  /// On grain 2 [N m].
+  PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(answer, first_couple_2);
+};
+
+/// The flat joints of a specimen, ordered in space. Per segment (in space: element of the disk): [segment * size() +
+/// joint].
+template <int dim>
+struct Joints : JointTables<dim>
+{
+  using JointTables<dim>::n_shear;
+
+  FaceDivision<dim> division{};           ///< set by divide()
+  unsigned int n_segments = 0;            ///< of every face
+  std::vector<FaceElement<dim>> elements; ///< the same of every face; [n_segments]
+  double thickness = 1.0;                 ///< of the plane [m]
+  double friction = 0.0;                  ///< μ of broken segments
+  double friction_slope = 0.0;            ///< tan φ_b
+
+  std::vector<std::uint32_t> grain_1, grain_2;
+  std::vector<std::uint32_t> number; ///< given at installation, for good
+
+  std::size_t size() const { return grain_1.size(); }
+  std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
+
+  void divide(const FaceDivision<dim>& into)
+  {
+    division = into;
+    elements = face_elements<dim>(into);
+    n_segments = unsigned(elements.size());
+  }
+
+  double face_area(const std::size_t joint) const
+  {
+    return feldspar::face_area<dim>(this->half_length[joint], thickness);
+  }
+  /// Second moment of the face about an axis in it [m⁴].
+  double face_second_moment(const std::size_t joint) const
+  {
+    return feldspar::face_second_moment<dim>(this->half_length[joint], thickness);
+  }
+  /// Second moment of the face about its normal [m⁴]; 0 in the plane.
+  double face_polar_moment(const std::size_t joint) const
+  {
+    return feldspar::face_polar_moment<dim>(this->half_length[joint]);
+  }
+
+  bool holds(const std::size_t joint) const
+  {
+    for (unsigned int i = 0; i < n_segments; ++i)
+      if (this->bonded[segment(i, joint)] > 0.0)
+        return true;
+    return false;
+  }
+
+  /// What each joint is and remembers, but for its grains, its number and its answer; for whoever stores or permutes.
+  template <typename Visitor>
+  void visit_per_joint(Visitor&& visit)
+  {
+    visit("normal_stiffness", this->normal_stiffness);
+    visit("shear_stiffness", this->shear_stiffness);
+    visit("half_length", this->half_length);
+    visit("half_radius_difference", this->half_radius_difference);
+    visit("rest_distance", this->rest_distance);
+    for (int c = 0; c < dim; ++c)
+      visit(std::string("normal_") + "xyz"[c], this->normal[c]);
+    for (std::size_t c = 0; c < this->tangent.size(); ++c)
+      visit(std::string("tangent_") + "xyz"[c], this->tangent[c]);
+    visit("opening", this->opening);
+    if constexpr (dim == 2)
+      {
+        visit("slope", this->rotation[0]);
+        visit("slip", this->slip[0]);
+      }
+    else
+      {
+        visit("twist", this->rotation[0]);
+        visit("bend_1", this->rotation[1]);
+        visit("bend_2", this->rotation[2]);
+        visit("slip_1", this->slip[0]);
+        visit("slip_2", this->slip[1]);
+      }
+    visit("slip_energy", this->slip_energy);
+  }
+
+  template <typename Visitor>
+  void visit_per_segment(Visitor&& visit)
+  {
+    for (int c = 0; c < n_shear; ++c)
+      visit("shear_stress_" + std::to_string(c + 1), this->shear_stress[c]);
+    visit("bonded", this->bonded);
+    visit("tensile_strength", this->tensile_strength);
+    visit("cohesion", this->cohesion);
+  }
+
+  /// All at rest, nothing bonded.
+  void resize_all(const std::size_t n)
+  {
+    grain_1.resize(n);
+    grain_2.resize(n);
+    number.resize(n);
+    this->state.resize(this->n_state_rows, n);
+    this->answer.resize(this->n_answer_rows, n);
+    this->segment_state.resize(n_segments * this->n_segment_rows, n);
+    this->strength.resize(n_segments * this->n_strength_rows, n);
+  }
+
+  /// Drops every joint that is not among `kept` (ascending).
+  void keep(const std::vector<std::size_t>& kept)
+  {
+    for (auto* table : {&this->state, &this->segment_state, &this->strength})
+      table->keep(kept);
+    this->answer.keep(kept);
+    for (auto* values : {&grain_1, &grain_2, &number})
+      {
+        for (std::size_t to = 0; to < kept.size(); ++to)
+          (*values)[to] = (*values)[kept[to]];
+        values->resize(kept.size());
+      }
+  }
+};
+} // namespace feldspar

@@ -1,0 +1,248 @@
+#include "fem/mesh/sample_mesh.h"
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+namespace feldspar::fem
+{
+using namespace dealii;
+
+namespace
+{
+template <int dim>
+std::unique_ptr<parallel::distributed::Triangulation<dim>> empty_triangulation(const MPI_Comm communicator)
+{
+  return std::make_unique<parallel::distributed::Triangulation<dim>>(communicator);
+}
+
+void expect_positive(const double width, const double height, const std::array<unsigned int, 2> divisions)
+{
+  if (!(width > 0.0 && height > 0.0) || divisions[0] == 0 || divisions[1] == 0)
+    throw MeshError(fmt::format("a sample of {:g} m by {:g} m in {} by {} cells: all must be positive", width, height,
+                                divisions[0], divisions[1]));
+}
+
+SampleMesh<2> rectangle(const MPI_Comm communicator, const double width, const double height,
+                        const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  expect_positive(width, height, divisions);
+  SampleMesh<2> mesh{empty_triangulation<2>(communicator), {}};
+  GridGenerator::subdivided_hyper_rectangle(*mesh.triangulation, {divisions[0], divisions[1]}, Point<2>(),
+                                            Point<2>(width, height), true);
+  mesh.triangulation->refine_global(n_refinements);
+  return mesh;
+}
+} // namespace
+
+template <int dim>
+types::boundary_id SampleMesh<dim>::boundary(const std::string& name) const
+{
+  const auto found = boundaries.find(name);
+  if (found != boundaries.end())
+    return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, id] : boundaries)
+    names.push_back(known);
+  throw MeshError(fmt::format("no boundary is named {}; the mesh has {}", name,
+                              names.empty() ? "none with a name" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+SampleMesh<2> plane_sample(const MPI_Comm communicator, const double width, const double height,
+                           const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  SampleMesh<2> mesh = rectangle(communicator, width, height, divisions, n_refinements);
+  mesh.boundaries = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}}; // the order of GridGenerator
+  return mesh;
+}
+
+SampleMesh<2> axisymmetric_sample(const MPI_Comm communicator, const double radius, const double height,
+                                  const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  SampleMesh<2> mesh = rectangle(communicator, radius, height, divisions, n_refinements);
+  mesh.boundaries = {{"axis", 0}, {"side", 1}, {"bottom", 2}, {"top", 3}};
+  return mesh;
+}
+
+namespace
+{
+/// A disc about the origin in n_across cells from side to side. A square of k by k cells with rings of 4k cells about
+/// it, as many as make up n_across; k is about half of it.
+///
+/// The nodes of a ring are numbered against the clock from the corner at the lower left, ring 0 on the square.
+void make_disc(Triangulation<2>& disc, const double radius, const unsigned int n_across)
+{
+  unsigned int k = n_across / 2;
+  if ((n_across - k) % 2 == 1)
+    --k;
+  const unsigned int n_rings = (n_across - k) / 2;
+  const unsigned int n_around = 4 * k;
+  const double half_width = radius * k / n_across;
+
+  std::vector<Point<2>> nodes;
+  for (unsigned int j = 0; j <= k; ++j)
+    for (unsigned int i = 0; i <= k; ++i)
+      nodes.emplace_back(half_width * (2.0 * i / k - 1.0), half_width * (2.0 * j / k - 1.0));
+  const auto in_square = [&](const unsigned int i, const unsigned int j) { return j * (k + 1) + i; };
+  const auto on_square = [&](const unsigned int around) {
+    const unsigned int along = around % k;
+    switch (around % n_around / k)
+      {
+      case 0:
+        return in_square(along, 0);
+      case 1:
+        return in_square(k, along);
+      case 2:
+        return in_square(k - along, k);
+      default:
+        return in_square(0, k - along);
+      }
+  };
+  for (unsigned int ring = 1; ring <= n_rings; ++ring)
+    for (unsigned int around = 0; around < n_around; ++around)
+      {
+        const double angle = std::numbers::pi * (-0.75 + 2.0 * around / n_around);
+        const Point<2> on_circle(radius * std::cos(angle), radius * std::sin(angle));
+        const Point<2> from = nodes[on_square(around)];
+        nodes.push_back(from + double(ring) / n_rings * (on_circle - from));
+      }
+  const auto in_ring = [&](const unsigned int around, const unsigned int ring) {
+    return ring == 0 ? on_square(around) : (k + 1) * (k + 1) + (ring - 1) * n_around + around % n_around;
+  };
+
+  std::vector<CellData<2>> cells;
+  const auto add = [&](const std::array<unsigned int, 4>& corners) {
+    CellData<2> cell;
+    cell.vertices.assign(corners.begin(), corners.end());
+    cells.push_back(cell);
+  };
+  for (unsigned int j = 0; j < k; ++j)
+    for (unsigned int i = 0; i < k; ++i)
+      add({in_square(i, j), in_square(i + 1, j), in_square(i, j + 1), in_square(i + 1, j + 1)});
+  for (unsigned int ring = 0; ring < n_rings; ++ring)
+    for (unsigned int around = 0; around < n_around; ++around)
+      add({in_ring(around, ring), in_ring(around, ring + 1), in_ring(around + 1, ring), in_ring(around + 1, ring + 1)});
+  GridTools::consistently_order_cells(cells);
+  disc.create_triangulation(nodes, cells, SubCellData());
+}
+} // namespace
+
+SampleMesh<3> cylinder_sample(const MPI_Comm communicator, const double radius, const double height,
+                              const std::array<unsigned int, 2> divisions, const unsigned int n_refinements)
+{
+  expect_positive(radius, height, divisions);
+  if (divisions[0] < 3)
+    throw MeshError(fmt::format("a cylinder of {} cells across: there must be at least 3", divisions[0]));
+  Triangulation<2> disc;
+  make_disc(disc, radius, divisions[0]);
+  SampleMesh<3> mesh{empty_triangulation<3>(communicator), {{"side", 0}, {"bottom", 1}, {"top", 2}}}; // as extruded
+  GridGenerator::extrude_triangulation(disc, divisions[1] + 1, height, *mesh.triangulation);
+  constexpr types::manifold_id round = 1;
+  // Face by face: set_all_manifold_ids_on_boundary() would also take the lines within the ends for some of the side.
+  for (const auto& cell : mesh.triangulation->active_cell_iterators())
+    for (const auto& face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == mesh.boundary("side"))
+        face->set_all_manifold_ids(round);
+  mesh.triangulation->set_manifold(round, CylindricalManifold<3>(2));
+  mesh.triangulation->refine_global(n_refinements);
+  return mesh;
+}
+
+namespace
+{
+/// Names of the physical groups of one dimension, from the section $PhysicalNames.
+std::map<std::string, types::boundary_id> physical_names(std::istream& file, const int dimension,
+                                                         const std::string& file_name)
+{
+  std::map<std::string, types::boundary_id> names;
+  std::string line;
+  while (std::getline(file, line))
+    if (line.starts_with("$PhysicalNames"))
+      break;
+  std::size_t n = 0;
+  file >> n;
+  for (std::size_t i = 0; i < n; ++i)
+    {
+      int its_dimension = 0;
+      types::boundary_id id = 0;
+      file >> its_dimension >> id;
+      std::getline(file, line);
+      const std::size_t first = line.find('"');
+      const std::size_t last = line.rfind('"');
+      if (!file || first == last)
+        throw MeshError(fmt::format("{}: its section $PhysicalNames cannot be read", file_name));
+      if (its_dimension == dimension)
+        names[line.substr(first + 1, last - first - 1)] = id;
+    }
+  return names;
+}
+} // namespace
+
+template <int dim>
+SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
+                          const unsigned int n_refinements)
+{
+  const std::string name = file.string();
+  std::ifstream stream(file);
+  if (!stream)
+    throw MeshError(fmt::format("{}: cannot be opened", name));
+  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), physical_names(stream, dim - 1, name)};
+
+  // Into a serial triangulation first, which also takes what the distributed one does not.
+  stream.clear();
+  stream.seekg(0);
+  Triangulation<dim> coarse;
+  GridIn<dim> reader(coarse);
+  try
+    {
+      reader.read_msh(stream);
+    }
+  catch (const typename Triangulation<dim>::DistortedCellList& list)
+    {
+      throw MeshError(fmt::format("{}: {} of its cells are inverted or flat", name, list.distorted_cells.size()));
+    }
+  catch (const std::exception&)
+    {
+      // deal.II's own text runs over many lines with a stack trace.
+      throw MeshError(fmt::format("{}: is not a Gmsh text mesh of {} whose cells all have positive {}", name,
+                                  dim == 2 ? "quadrilaterals" : "hexahedra", dim == 2 ? "area" : "volume"));
+    }
+  if (!coarse.all_reference_cells_are_hyper_cube())
+    throw MeshError(fmt::format("{}: has cells that are not {}; in Gmsh recombine the mesh", name,
+                                dim == 2 ? "quadrilaterals" : "hexahedra"));
+  for (const auto& cell : coarse.active_cell_iterators())
+    {
+      // The Jacobian at each corner; a corner that turns the wrong way inverts part of the cell.
+      Point<dim> corners[GeometryInfo<dim>::vertices_per_cell];
+      Tensor<0, dim> jacobians[GeometryInfo<dim>::vertices_per_cell];
+      for (const unsigned int v : cell->vertex_indices())
+        corners[v] = cell->vertex(v);
+      GeometryInfo<dim>::alternating_form_at_vertices(corners, jacobians);
+      for (const unsigned int v : cell->vertex_indices())
+        if (!(jacobians[v] > 0.0))
+          throw MeshError(
+            fmt::format("{}: the cell at ({:g}{}) m is inverted or flat at a corner", name, cell->center()[0],
+                        dim == 2 ? fmt::format(", {:g}", cell->center()[1])
+                                 : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
+    }
+  mesh.triangulation->copy_triangulation(coarse);
+  mesh.triangulation->refine_global(n_refinements);
+  return mesh;
+}
+
+template struct SampleMesh<2>;
+template struct SampleMesh<3>;
+template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int);
+template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int);
+} // namespace feldspar::fem

@@ -1,0 +1,188 @@
+#include "report/page/page.h"
+
+#include "base/whole_file.h"
+#include "results/folder/result_folder.h"
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <fmt/format.h>
+#include <kainjow/mustache.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+namespace feldspar
+{
+extern const std::string_view page_template; // report/page/page.html
+
+namespace
+{
+using kainjow::mustache::data;
+
+constexpr std::size_t most_picture_bytes = 9'000'000; // of a page of 10 MB, the rest is text
+constexpr int wide_picture = 900;                     // from here on a picture takes the width of the page [px]
+
+std::string base64(const std::string& bytes)
+{
+  using namespace boost::archive::iterators;
+  using Encoder = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
+}
+
+data list(const std::vector<std::string>& texts)
+{
+  data result = data::type::list;
+  for (const auto& text : texts)
+    result << data(text);
+  return result;
+}
+
+void set_unless_empty(data& object, const std::string& name, const std::string& text)
+{
+  object.set(name, text.empty() ? data(data::type::bool_false) : data(text));
+}
+
+data describe(const Table& table)
+{
+  data rows = data::type::list;
+  for (const auto& row : table.rows)
+    {
+      data cells = data::type::list;
+      for (std::size_t c = 1; c < row.size(); ++c)
+        {
+          data cell = data::type::object;
+          cell.set("text", row[c]);
+          set_unless_empty(cell, "class", row[c].starts_with("✗") ? "bad" : row[c].starts_with("✓") ? "good" : "");
+          cells << cell;
+        }
+      data one = data::type::object;
+      one.set("heading", row.front());
+      one.set("cells", cells);
+      rows << one;
+    }
+  data result = data::type::object;
+  result.set("id", "table_" + table.name);
+  result.set("caption", table.caption);
+  result.set("file", fmt::format("{}/{}.csv", result_file::tables, table.name));
+  result.set("header", list(table.header));
+  result.set("rows", rows);
+  return result;
+}
+
+/// Keeps the page within its size.
+class PictureShelf
+{
+public:
+  explicit PictureShelf(const std::filesystem::path& figures)
+    : folder(figures)
+  {
+  }
+
+  data describe(const PagePicture& shown)
+  {
+    const Picture& picture = shown.picture;
+    std::string problem = shown.problem;
+    std::string source;
+    if (problem.empty())
+      {
+        std::ifstream in(folder / picture.shown_file(), std::ios::binary);
+        const std::string bytes(std::istreambuf_iterator<char>(in), {});
+        const std::size_t encoded = (bytes.size() + 2) / 3 * 4;
+        if (bytes.empty())
+          problem = picture.shown_file() + " cannot be read";
+        else if (n_bytes + encoded > most_picture_bytes)
+          problem = "Left out to keep this page small: see " + file_of(picture.shown_file());
+        else
+          {
+            n_bytes += encoded;
+            source = fmt::format("data:image/{};base64,{}", picture.raster ? "png" : "svg+xml", base64(bytes));
+          }
+      }
+    data files = data::type::list;
+    for (const auto& [ending, is_there] :
+         {std::pair("PNG", picture.raster), {"SVG", picture.vector}, {"PDF", picture.vector}})
+      if (is_there && shown.problem.empty())
+        {
+          std::string small = ending;
+          for (char& c : small)
+            c = char(c - 'A' + 'a');
+          data file = data::type::object;
+          file.set("file", file_of(picture.name + "." + small));
+          file.set("ending", std::string(ending));
+          files << file;
+        }
+    data result = data::type::object;
+    set_unless_empty(result, "source", source);
+    set_unless_empty(result, "absent", problem);
+    result.set("alternative", picture.alternative);
+    result.set("caption", picture.caption);
+    result.set("width", std::to_string(picture.width));
+    result.set("height", std::to_string(picture.height));
+    result.set("wide", data(picture.width >= wide_picture));
+    result.set("files", files);
+    return result;
+  }
+
+private:
+  std::string file_of(const std::string& name) const { return folder.filename().string() + "/" + name; }
+
+  std::filesystem::path folder;
+  std::size_t n_bytes = 0;
+};
+
+data describe(const PageBlock& block, PictureShelf& shelf)
+{
+  data tables = data::type::list;
+  for (const auto& table : block.tables)
+    tables << describe(table);
+  data figures = data::type::list;
+  for (const auto& picture : block.pictures)
+    figures << shelf.describe(picture);
+  data result = data::type::object;
+  set_unless_empty(result, "folded", block.folded);
+  set_unless_empty(result, "subheading", block.subheading);
+  set_unless_empty(result, "chip", block.chip);
+  set_unless_empty(result, "headline", block.headline);
+  result.set("paragraphs", list(block.paragraphs));
+  result.set("has_points", data(!block.points.empty()));
+  result.set("points", list(block.points));
+  result.set("has_warnings", data(!block.warnings.empty()));
+  result.set("warnings", list(block.warnings));
+  result.set("tables", tables);
+  result.set("has_figures", data(!block.pictures.empty()));
+  result.set("figures", figures);
+  return result;
+}
+} // namespace
+
+void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures)
+{
+  PictureShelf shelf(figures);
+  data sections = data::type::list;
+  for (const auto& section : page.sections)
+    {
+      data blocks = data::type::list;
+      for (const auto& block : section.blocks)
+        blocks << describe(block, shelf);
+      data one = data::type::object;
+      one.set("id", section.id);
+      one.set("short_title", section.short_title);
+      one.set("heading", section.heading);
+      one.set("blocks", blocks);
+      sections << one;
+    }
+  data whole = data::type::object;
+  whole.set("title", page.title);
+  whole.set("subtitle", page.subtitle);
+  whole.set("sections", sections);
+
+  kainjow::mustache::mustache filled{std::string(page_template)};
+  if (!filled.is_valid())
+    throw std::logic_error("report/page/page.html: " + filled.error_message());
+  write_whole_file(file, filled.render(whole));
+}
+} // namespace feldspar

@@ -1,0 +1,355 @@
+#include "report/pictures/envelope_pictures.h"
+
+#include "report/pictures/plot_style.h"
+#include "results/statistics.h"
+#include "results/test_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace feldspar
+{
+namespace
+{
+using namespace plot;
+
+/// A strength of a series with its scatter; a tension test lies at (-sigma_t, 0) and scatters along sigma_3.
+struct StrengthPoint
+{
+  double sigma_3;
+  double sigma_1;
+  double deviation;
+  bool tension;
+};
+
+std::vector<StrengthPoint> strength_points(const Series& series)
+{
+  std::vector<StrengthPoint> points;
+  for (const auto& group : groups_of(series))
+    if (const auto strength = statistics(values(group, &TestResults::peak_stress)))
+      {
+        const double deviation = strength->standard_deviation.value_or(0.0);
+        if (group.kind == TestKind::direct_tension || group.kind == TestKind::brazilian)
+          points.push_back({-strength->mean, 0.0, deviation, true});
+        else
+          points.push_back({group.confining_pressure, strength->mean, deviation, false});
+      }
+  return points;
+}
+
+/// What is drawn, and how far it goes.
+class EnvelopePlot
+{
+public:
+  void take_in(const double sigma_3, const double sigma_1)
+  {
+    lowest_3 = std::min(lowest_3, sigma_3);
+    highest_3 = std::max(highest_3, sigma_3);
+    highest_1 = std::max(highest_1, sigma_1);
+  }
+
+  void add_points(const Series& series, const std::size_t n)
+  {
+    const auto points = strength_points(series);
+    if (points.empty())
+      return;
+    for (const bool tension : {false, true})
+      {
+        std::string rows;
+        for (const auto& point : points)
+          if (point.tension == tension)
+            {
+              fmt::format_to(std::back_inserter(rows), "{} {} {}\n", point.sigma_3 / mega, point.sigma_1 / mega,
+                             point.deviation / mega);
+              take_in(point.sigma_3 - (tension ? point.deviation : 0.0),
+                      point.sigma_1 + (tension ? 0.0 : point.deviation));
+            }
+        if (rows.empty())
+          continue;
+        const std::string block = add_data(rows);
+        const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", point_type(series), colour(series, n));
+        later.push_back(fmt::format("{} using 1:2:3 with {} {} {}", block, tension ? "xerrorbars" : "yerrorbars", looks,
+                                    title(tension && points.size() > 1 ? "" : series.label + ": mean ± s.d.")));
+      }
+  }
+
+  /// From `begin` to the end of the plot, which must be known.
+  void add_curve(const std::function<double(double)>& sigma_1, const double begin, const std::string& looks,
+                 const std::string& label)
+  {
+    std::string rows;
+    constexpr int n = 300;
+    for (int k = 0; k <= n; ++k)
+      {
+        // Closer where the curve bends: near its beginning.
+        const double share = std::pow(double(k) / n, 4.0);
+        const double inside = begin + 1e-12 * std::abs(begin); // at its beginning the bracket is 0, or just below it
+        const double sigma_3 = inside + (highest_3 * 1.03 - inside) * share;
+        if (const double value = sigma_1(sigma_3); std::isfinite(value))
+          fmt::format_to(std::back_inserter(rows), "{} {}\n", sigma_3 / mega, value / mega);
+      }
+    first.push_back(fmt::format("{} using 1:2 with lines {} {}", add_data(rows), looks, title(label)));
+  }
+
+  void add_reference(const Reference& reference)
+  {
+    const auto draw_range = [&](const std::string& key, const bool tension) {
+      const auto value = reference.experiment.find(key);
+      if (!value)
+        return;
+      const double low = value->low.value_or(value->mean);
+      const double high = value->high.value_or(value->mean);
+      const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -value->mean, -high, -low)
+                                                 : fmt::format("0 {} {} {}\n", value->mean, low, high));
+      later.push_back(fmt::format("{} using 1:2:3:4 with {} pt 8 ps 1.1 lw 2.2 lc rgb '{}' {}", block,
+                                  tension ? "xerrorbars" : "yerrorbars", black,
+                                  title(tension ? "" : reference.experiment.label + ": mean, range")));
+      take_in(tension ? -high * mega : 0.0, tension ? 0.0 : high * mega);
+    };
+    draw_range("uniaxial_compressive_strength_MPa", false);
+    draw_range("tensile_strength_MPa", true);
+    draw_strengths(reference.experiment, "pt 8 ps 1.1 lw 1.6 lc rgb '" + std::string(black) + "'");
+    draw_strengths(reference.model, "pt 4 ps 0.9 lw 1.2 lc rgb '" + std::string(grey) + "'");
+  }
+
+  void add_printed(const Reference& reference)
+  {
+    if (reference.model.envelope)
+      {
+        const PrintedEnvelope& printed = *reference.model.envelope;
+        add_curve([&](const double x) { return printed.sigma_1(x); }, -printed.s * printed.sigma_ci / printed.m,
+                  fmt::format("lw 1.4 dt 3 lc rgb '{}'", grey), reference.model.label + ", printed");
+      }
+  }
+
+  void add_cut_off(const double sigma_3)
+  {
+    const std::string block = add_data(fmt::format("{} 0\n{} {}\n", sigma_3 / mega, sigma_3 / mega, highest_1 / mega));
+    first.push_back(fmt::format("{} using 1:2 with lines lw 1 dt 2 lc rgb '{}' {}", block, grey,
+                                title("tensile cut-off of the intact form")));
+  }
+
+  /// The part up to these stresses, or all of it [Pa].
+  std::string script(const std::optional<EnvelopePoint>& upper = std::nullopt) const
+  {
+    std::string text = data + frame("confinement σ₃ [MPa], compression positive", "strength σ₁ [MPa]");
+    fmt::format_to(std::back_inserter(text), "set xrange [{}:{}]; set yrange [0:{}]\n",
+                   (lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
+                   (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega,
+                   (upper ? upper->sigma_1 : 1.08 * highest_1) / mega);
+    text +=
+      "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\nset key vertical maxrows 5 font ',12'\nplot ";
+    const auto add = [&](const std::vector<std::string>& entries) {
+      for (const auto& entry : entries)
+        text += entry + ", \\\n";
+    };
+    add(first);
+    add(later);
+    text.resize(text.size() - 4); // the last comma
+    return text + "\n";
+  }
+
+  bool empty() const { return first.empty() && later.empty(); }
+
+  double lowest_3 = 0.0;
+  double highest_3 = 0.0;
+  double highest_1 = 0.0;
+
+private:
+  void draw_strengths(const ReferenceSource& source, const std::string& looks)
+  {
+    std::string rows;
+    for (const auto& point : source.strengths())
+      {
+        fmt::format_to(std::back_inserter(rows), "{} {}\n", point.sigma_3 / mega, point.sigma_1 / mega);
+        take_in(point.sigma_3, point.sigma_1);
+      }
+    if (!rows.empty())
+      later.push_back(fmt::format("{} using 1:2 with points {} {}", add_data(rows), looks, title(source.label)));
+  }
+
+  std::string add_data(const std::string& rows)
+  {
+    const std::string block = fmt::format("$data{}", n_blocks++);
+    data += fmt::format("{} << EOD\n{}EOD\n", block, rows);
+    return block;
+  }
+
+  std::string data;
+  std::vector<std::string> first; ///< curves
+  std::vector<std::string> later; ///< points, drawn over them
+  int n_blocks = 0;
+};
+
+void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
+{
+  for (const auto& pair : envelopes.hoek_brown)
+    {
+      // One curve in two parametrisations (docs/theory.md §8.1): drawn once.
+      if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
+        continue;
+      const bool is_intact = pair.form == HoekBrownForm::intact;
+      const std::string name = is_intact                              ? "H–B intact"
+                               : pair.form == HoekBrownForm::as_paper ? "H–B as the paper = general"
+                                                                      : "H–B general";
+      for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+        if (answer->fit)
+          {
+            const HoekBrownFit& fit = *answer->fit;
+            plotted.add_curve(
+              [&](const double x) { return fit.sigma_1(x); }, fit.tensile_cut_off.value,
+              fmt::format("lw 2 dt {} lc rgb '{}'", fit.with_tension_point ? 1 : 2, is_intact ? green : vermillion),
+              name + (fit.with_tension_point ? ", with σ_t" : ", without σ_t"));
+            if (is_intact && fit.with_tension_point)
+              plotted.add_cut_off(fit.tensile_cut_off.value);
+          }
+    }
+  if (const auto& fit = envelopes.mohr_coulomb.fit)
+    plotted.add_curve([&](const double x) { return fit->sigma_1(x); }, 0.0,
+                      fmt::format("lw 1.8 dt 4 lc rgb '{}'", purple), "Mohr–Coulomb");
+}
+} // namespace
+
+std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std::size_t which,
+                                       const StrengthEnvelopes& envelopes, const std::optional<Reference>& reference)
+{
+  EnvelopePlot plotted;
+  plotted.add_points(all[which], which);
+  if (reference)
+    plotted.add_reference(*reference);
+  if (plotted.empty())
+    return {};
+  add_fits(plotted, envelopes);
+  if (reference)
+    plotted.add_printed(*reference);
+  const std::string of_series = all.size() > 1 ? fmt::format("_{}", file_name(all[which].label)) : "";
+  std::vector<Picture> pictures;
+  pictures.push_back(
+    {.name = "envelope" + of_series,
+     .caption = "Strength envelope" + (all.size() > 1 ? " of " + all[which].label : std::string()),
+     .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
+                    "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
+     .width = 660,
+     .height = 640,
+     .script = plotted.script()});
+  // Near the uniaxial test, where the forms differ.
+  if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
+    {
+      const double sigma_3 = 0.2 * plotted.highest_3;
+      pictures.push_back(
+        {.name = "envelope_near_uniaxial" + of_series,
+         .caption = "The same near the uniaxial and the tension test",
+         .alternative = "The strength envelope between tension and low confinement, enlarged.",
+         .width = 660,
+         .height = 640,
+         .script = plotted.script(EnvelopePoint{sigma_3, 2.2 * *envelopes.data.uniaxial_compressive_strength})});
+    }
+  return pictures;
+}
+
+std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
+                                               const std::vector<StrengthEnvelopes>& envelopes,
+                                               const std::optional<Reference>& reference)
+{
+  if (all.size() < 2)
+    return {};
+  EnvelopePlot plotted;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    plotted.add_points(all[n], n);
+  if (reference)
+    plotted.add_reference(*reference);
+  if (!(plotted.highest_1 > 0.0)) // tension alone
+    return {};
+  for (std::size_t n = 0; n < all.size(); ++n)
+    for (const auto& pair : envelopes[n].hoek_brown)
+      if (pair.form == HoekBrownForm::intact && pair.with_tension_point.fit)
+        {
+          const HoekBrownFit& fit = *pair.with_tension_point.fit;
+          plotted.add_curve([&](const double x) { return fit.sigma_1(x); }, fit.tensile_cut_off.value,
+                            fmt::format("lw 2 dt {} lc rgb '{}'", dashes(n), colour(all[n], n)),
+                            all[n].label + ": H–B intact, with σ_t");
+        }
+  return {{.name = "envelopes",
+           .caption = "Strength of all series",
+           .alternative = "Strength against confinement of all series, each with the intact Hoek–Brown envelope.",
+           .width = 660,
+           .height = 640,
+           .script = plotted.script()}};
+}
+
+std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelopes& envelopes)
+{
+  std::string data;
+  std::string plots;
+  int n = 0;
+  const auto add = [&](const FitQuality& quality, const std::string& label, const std::string& looks) {
+    fmt::format_to(std::back_inserter(data), "$fit{} << EOD\n", n);
+    for (const auto& [point, residual] : quality.residuals)
+      fmt::format_to(std::back_inserter(data), "{} {}\n", point.sigma_3 / mega, residual / mega);
+    data += "EOD\n";
+    plots += fmt::format("{}$fit{} using 1:2 with linespoints {} {}", n ? ", \\\n" : "", n, looks, title(label));
+    ++n;
+  };
+  for (const auto& pair : envelopes.hoek_brown)
+    {
+      if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
+        continue;
+      const bool is_intact = pair.form == HoekBrownForm::intact;
+      for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+        if (answer->fit)
+          add(answer->fit->quality,
+              fmt::format("{}, {} σ_t", is_intact ? "intact" : "as the paper = general",
+                          answer->fit->with_tension_point ? "with" : "without"),
+              fmt::format("lw 1.6 dt {} pt {} ps 0.7 lc rgb '{}'", answer->fit->with_tension_point ? 1 : 2,
+                          is_intact ? 7 : 5, is_intact ? green : vermillion));
+    }
+  if (const auto& fit = envelopes.mohr_coulomb.fit)
+    add(fit->quality, "Mohr–Coulomb", fmt::format("lw 1.6 dt 4 pt 9 ps 0.7 lc rgb '{}'", purple));
+  if (n == 0)
+    return {};
+  return {
+    {.name = "residuals_" + file_name(series.label),
+     .caption = "Residuals: strength of each point less that of the envelope",
+     .alternative = "Residual of each point for each fitted envelope; the figures are in the table below.",
+     .width = 660,
+     .height = 460,
+     .script =
+       data + frame("confinement σ₃ [MPa], compression positive", "residual in σ₁ [MPa]") +
+       "set xzeroaxis lw 1 lc rgb '#808080'\nset key vertical maxrows 3 font ',12'\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nplot " +
+       plots + "\n"}};
+}
+
+std::vector<Picture> shear_share_picture(const std::vector<Series>& all)
+{
+  std::string data;
+  std::string plots;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    {
+      std::string rows;
+      for (const auto& group : groups_of(all[n]))
+        if (group.kind == TestKind::uniaxial_compression || group.kind == TestKind::triaxial_compression)
+          if (const auto share = statistics(values(group, &TestResults::shear_share_at_peak)))
+            fmt::format_to(std::back_inserter(rows), "{} {} {}\n", group.confining_pressure / mega,
+                           share->mean / percent, share->standard_deviation.value_or(0.0) / percent);
+      if (rows.empty())
+        continue;
+      fmt::format_to(std::back_inserter(data), "$share{} << EOD\n{}EOD\n", n, rows);
+      fmt::format_to(std::back_inserter(plots),
+                     "{}$share{} using 1:2:3 with yerrorlines pt 7 ps 0.7 lw 1.6 dt {} lc rgb '{}' {}",
+                     plots.empty() ? "" : ", ", n, dashes(n), colour(all[n], n), title(all[n].label + ": mean ± s.d."));
+    }
+  if (plots.empty())
+    return {};
+  return {{.name = "shear_share",
+           .caption = "Share of shear cracks at the peak against confinement",
+           .alternative = "Share of shear cracks among all cracks at the peak, against confinement.",
+           .width = 640,
+           .height = 420,
+           .script = data + frame("confinement σ₃ [MPa]", "shear cracks at the peak [%]") +
+                     "set offsets 0, graph 0.03, graph 0.03, 0\nset yrange [0:*]\nplot " + plots + "\n"}};
+}
+} // namespace feldspar

@@ -1,0 +1,97 @@
+#include "report/pictures/gnuplot.h"
+
+#include "base/whole_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+#include <utility>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace feldspar
+{
+namespace
+{
+/// Runs a program on a script; false if there is no such program or it failed.
+bool run(std::string program, const std::filesystem::path& script)
+{
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+  std::string file = script.string();
+  char* const arguments[] = {program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  const bool started = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ) == 0;
+  posix_spawn_file_actions_destroy(&actions);
+  int status = -1;
+  return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// File endings with the terminals that make them. 1 px is 1/40 cm on paper: 640 px are a page's width.
+std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
+{
+  const std::string size = fmt::format("{},{}", picture.width, picture.height);
+  std::vector<std::pair<std::string, std::string>> result;
+  if (picture.raster)
+    result.emplace_back(".png", fmt::format("pngcairo size {} font 'DejaVu Sans,11'", size));
+  if (picture.vector)
+    {
+      result.emplace_back(".svg", fmt::format("svg size {} font 'sans-serif,14' background 'white'", size));
+      result.emplace_back(".pdf", fmt::format("pdfcairo size {:.2f}cm,{:.2f}cm font 'DejaVu Sans,8'",
+                                              picture.width / 40.0, picture.height / 40.0));
+    }
+  return result;
+}
+
+/// The script as a file of its own that leaves its pictures in the folder.
+std::string whole_script(const Picture& picture, const std::filesystem::path& folder)
+{
+  if (picture.drawn_by == DrawnBy::vtk)
+    return fmt::format("output = {}\nsize = ({}, {})\n{}",
+                       nlohmann::json((folder / (picture.name + ".png")).string()).dump(), picture.width,
+                       picture.height, picture.script);
+  std::string script = "set encoding utf8\n";
+  for (const auto& [ending, terminal] : outputs(picture))
+    script += fmt::format("set terminal {}\nset output {}\n{}unset output\nreset\n", terminal,
+                          quoted((folder / (picture.name + ending)).string()), picture.script);
+  return script;
+}
+
+std::string draw_one(const Picture& picture, const std::filesystem::path& folder)
+{
+  const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
+  const std::filesystem::path file = folder / (picture.name + (by_vtk ? ".py" : ".gp"));
+  write_whole_file(file, whole_script(picture, folder));
+  // Debian's Python: another that comes first in the path lacks Debian's modules.
+  const bool done = by_vtk ? run("/usr/bin/python3", file) : run("gnuplot", file);
+  for (const auto& [ending, terminal] : outputs(picture))
+    if (!done || !std::filesystem::exists(folder / (picture.name + ending)))
+      return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
+                         by_vtk ? "are VTK and Xvfb (packages python3-vtk9 and xvfb)"
+                                : "is gnuplot (package gnuplot-nox)");
+  return "";
+}
+} // namespace
+
+std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder)
+{
+  std::vector<std::string> problems(pictures.size());
+  tbb::parallel_for(std::size_t(0), pictures.size(),
+                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder); });
+  return problems;
+}
+
+std::string quoted(const std::string& text)
+{
+  std::string result = "'";
+  for (const char c : text)
+    result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+} // namespace feldspar

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+enum class DrawnBy
+{
+  gnuplot,
+  vtk ///< bodies in space: a Python script, by report/pictures/space_scene.py; PNG only
+};
+
+/// A picture to be drawn.
+struct Picture
+{
+  std::string name;        ///< of its files, without ending
+  std::string caption;     ///< what it shows
+  std::string alternative; ///< the same in words, for who cannot see it
+  int width = 0;           ///< [px]
+  int height = 0;
+  bool raster = false; ///< thousands of shapes: shown as PNG; else as SVG
+  bool vector = true;  ///< drawn as SVG and PDF
+  DrawnBy drawn_by = DrawnBy::gnuplot;
+  std::string script; ///< data and what draws it
+
+  /// The file that is shown.
+  std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
+};
+
+/// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
+/// it drawn otherwise. Returns for each why it could not be drawn, or nothing.
+std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder);
+
+/// Text as gnuplot's single-quoted string.
+std::string quoted(const std::string& text);
+} // namespace feldspar

@@ -1,0 +1,182 @@
+#include "report/pictures/lab_pictures.h"
+
+#include "report/pictures/crack_pictures.h"
+#include "report/pictures/plane_view.h"
+#include "report/pictures/plot_style.h"
+#include "results/test_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+using namespace plot;
+
+std::string title_of(const FinishedTest& test)
+{
+  return TestGroup{test.record.kind, test.record.confining_pressure, {}}.title();
+}
+
+/// A name for the data of a test that gnuplot accepts.
+std::string block(const char* what, const FinishedTest& test)
+{
+  std::string name = fmt::format("${}_{}", what, test.name);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+std::string curve_data(const FinishedTest& test)
+{
+  const double sign = laboratory_sign(test.record.kind);
+  std::string text = fmt::format("{} << EOD\n", block("curve", test));
+  for (const auto& row : test.record.curve)
+    fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", sign * row.axial_strain * 100.0,
+                   sign * row.axial_stress / mega, row.n_tension_cracks, row.n_shear_cracks);
+  return text + "EOD\n";
+}
+
+/// Grains of the largest fragment and the others; cracks as the faces that broke.
+std::string map_data(const FinishedTest& test)
+{
+  std::string text;
+  for (const bool loose : {false, true})
+    {
+      text += fmt::format("{} << EOD\n", block(loose ? "loose" : "grains", test));
+      for (const auto& grain : test.record.grains_at_end)
+        if ((grain.fragment > 0) == loose)
+          fmt::format_to(std::back_inserter(text), "{} {} {}\n", grain.position[0] / milli, grain.position[1] / milli,
+                         grain.radius / milli);
+      text += "EOD\n";
+    }
+  for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
+    {
+      text += fmt::format("{} << EOD\n", block(kind == CrackKind::tension ? "tension" : "shear", test));
+      for (const auto& crack : test.record.cracks)
+        if (crack.kind == kind)
+          {
+            const double dx = -crack.normal[1] * crack.size;
+            const double dy = crack.normal[0] * crack.size;
+            fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", (crack.centroid[0] - 0.5 * dx) / milli,
+                           (crack.centroid[1] - 0.5 * dy) / milli, dx / milli, dy / milli);
+          }
+      text += "EOD\n";
+    }
+  return text;
+}
+
+std::string curve_plot(const FinishedTest& test)
+{
+  const auto& last = test.record.curve.back();
+  std::string text = fmt::format("set title '{}, seed {}' noenhanced\n"
+                                 "set size noratio\n"
+                                 "set xlabel 'axial strain [%]'\n"
+                                 "set ylabel 'axial stress [MPa]'\n"
+                                 "set y2label 'broken segments'\n"
+                                 "set xtics autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
+                                 "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
+                                 "set border 11; set lmargin 10; set rmargin 10\n"
+                                 "set bmargin 6\n"
+                                 "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
+                                 title_of(test), test.record.seed);
+  const std::string data = block("curve", test);
+  text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
+                      "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",
+                      data, tension_colour);
+  if (last.n_shear_cracks > 0)
+    text +=
+      fmt::format(", {} using 1:4 axes x1y2 with lines lw 2 dt 4 lc rgb '{}' title 'shear cracks'", data, shear_colour);
+  return text + "\nunset y2tics; unset y2label\n";
+}
+
+/// upwards: the name of the axis.
+std::string map_plot(const FinishedTest& test, const char upwards)
+{
+  const auto& size = test.record.size;
+  std::string text =
+    fmt::format("set title '{}, seed {}: cracks at the end' noenhanced\n"
+                "set size ratio -1\n"
+                "set xlabel 'x [mm]'; set ylabel '{} [mm]'\n"
+                "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
+                "set xrange [{}:{}]; set yrange [{}:{}]\n"
+                "set bmargin 7\n"
+                "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
+                title_of(test), test.record.seed, upwards, -0.08 * size[0] / milli, 1.08 * size[0] / milli,
+                -0.02 * size[1] / milli, 1.02 * size[1] / milli);
+  const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
+                                     [](const GrainPicture& grain) { return grain.fragment > 0; });
+  text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'main body'", block("grains", test),
+                      light_grey);
+  if (n_loose > 0)
+    text += fmt::format(", {} with circles fill solid noborder lc rgb '{}' title 'fragments'", block("loose", test),
+                        single_grain_colour);
+  const auto cracks = [&](const char* what, const char* colour, const std::uint64_t n) {
+    if (n > 0)
+      text +=
+        fmt::format(", {} with vectors nohead lw 2 lc rgb '{}' title '{}: {}'", block(what, test), colour, what, n);
+  };
+  const auto n_drawn = [&](const CrackKind kind) {
+    return std::uint64_t(std::count_if(test.record.cracks.begin(), test.record.cracks.end(),
+                                       [kind](const Crack& crack) { return crack.kind == kind; }));
+  };
+  cracks("tension", tension_colour, n_drawn(CrackKind::tension));
+  cracks("shear", shear_colour, n_drawn(CrackKind::shear));
+  return text + "\n";
+}
+
+} // namespace
+
+std::vector<Picture> single_test_pictures(const Series& series)
+{
+  std::vector<Picture> pictures;
+  for (const auto& test : series.tests)
+    {
+      if (test.record.curve.empty())
+        continue; // it could not be made, or its curve is missing
+      const std::string title = title_of(test);
+      pictures.push_back({.name = test.name + "_stress_strain",
+                          .caption = title,
+                          .alternative = "Stress against axial strain and count of cracks, " + title + ".",
+                          .width = 900,
+                          .height = 650,
+                          .raster = true,
+                          .script = curve_data(test) + curve_plot(test)});
+      for (auto& map : crack_map(test, title))
+        pictures.push_back(std::move(map));
+    }
+  return pictures;
+}
+
+std::vector<Picture> overview_picture(const Series& series)
+{
+  std::string data;
+  std::string curves;
+  std::string maps;
+  int n_columns = 0;
+  for (const auto& group : shown(groups_of(series)))
+    if (FinishedTest test = *group.tests.front();
+        !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
+      {
+        const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
+        test.record = plane_view(std::move(test.record));
+        data += curve_data(test) + map_data(test);
+        curves += curve_plot(test);
+        maps += map_plot(test, upwards);
+        ++n_columns;
+      }
+  if (n_columns == 0)
+    return {};
+  return {{.name = "overview",
+           .caption = "Curves and crack maps of the first specimen",
+           .alternative = "Stress-strain curves above, crack maps below.",
+           .width = 620 * n_columns,
+           .height = 1250,
+           .raster = true,
+           .vector = false,
+           .script = data + fmt::format("set multiplot layout 2,{}\n{}{}unset multiplot\n", n_columns, curves, maps)}};
+}
+} // namespace feldspar

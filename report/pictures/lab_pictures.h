@@ -1,0 +1,15 @@
+#pragma once
+
+#include "report/pictures/gnuplot.h"
+#include "results/series.h"
+
+#include <vector>
+
+namespace feldspar
+{
+/// Of every test its stress–strain curve and its crack maps.
+std::vector<Picture> single_test_pictures(const Series& series);
+
+/// Curves above, crack maps below, of the first specimen; of the confinements the lowest and the highest.
+std::vector<Picture> overview_picture(const Series& series);
+} // namespace feldspar

@@ -1,0 +1,34 @@
+#include "report/pictures/plane_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+TestRecord plane_view(TestRecord record)
+{
+  if (record.dimension() == 2)
+    return record;
+  const double depth = record.size[1];
+  const auto outside_slice = [depth](const std::array<double, 3>& point) {
+    return std::abs(point[1] - 0.5 * depth) > 0.125 * depth;
+  };
+  std::erase_if(record.grains_at_end, [&](const GrainPicture& grain) { return outside_slice(grain.position); });
+  std::erase_if(record.cracks, [&](const Crack& crack) { return outside_slice(crack.centroid); });
+  // The ones in front are drawn last.
+  std::sort(record.grains_at_end.begin(), record.grains_at_end.end(),
+            [](const GrainPicture& a, const GrainPicture& b) { return a.position[1] > b.position[1]; });
+  for (auto& grain : record.grains_at_end)
+    grain.position = {grain.position[0], grain.position[2], 0.0};
+  for (auto& crack : record.cracks)
+    {
+      // A small plate seen from the front: the line along which its plane cuts the picture's.
+      const double across = std::hypot(crack.normal[0], crack.normal[2]);
+      crack.centroid = {crack.centroid[0], crack.centroid[2], 0.0};
+      crack.normal = across > 0.0 ? std::array<double, 3>{crack.normal[0] / across, crack.normal[2] / across, 0.0}
+                                  : std::array<double, 3>{1.0, 0.0, 0.0};
+    }
+  record.size = {record.size[0], record.size[2], 0.0};
+  return record;
+}
+} // namespace feldspar

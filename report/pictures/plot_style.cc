@@ -1,0 +1,67 @@
+#include "report/pictures/plot_style.h"
+
+#include "report/pictures/gnuplot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace feldspar::plot
+{
+std::string colour(const Series& series, const std::size_t n)
+{
+  static constexpr std::array colours{blue, vermillion, green, purple, orange, sky};
+  return series.kind == SeriesKind::laboratory_curve ? black : colours[n % colours.size()];
+}
+
+int point_type(const Series& series)
+{
+  constexpr int disc = 7;
+  constexpr int square = 5;
+  constexpr int diamond = 13;
+  return series.kind == SeriesKind::laboratory_curve ? diamond : series.kind == SeriesKind::specimens ? disc : square;
+}
+
+int dashes(const std::size_t n) { return 1 + int(n / 6); }
+
+std::string frame(const std::string& x_label, const std::string& y_label)
+{
+  return fmt::format("set xlabel {} noenhanced offset 0,0.4\nset ylabel {} noenhanced\n"
+                     "set border 3 lw 0.8; set tics nomirror out; set grid lw 0.5 lc rgb '#e4e4e4'\n"
+                     "set key below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8 noenhanced\n",
+                     quoted(x_label), quoted(y_label));
+}
+
+std::string title(const std::string& text)
+{
+  return text.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(text));
+}
+
+void add_cracks(std::string& data, std::string& plots, const std::size_t n, const CrackKind kind,
+                const std::string& rows, const double line_width)
+{
+  const auto n_cracks = std::count(rows.begin(), rows.end(), '\n');
+  if (n_cracks == 0)
+    return;
+  const bool in_tension = kind == CrackKind::tension;
+  const char* const name = in_tension ? "tension" : "shear";
+  data += fmt::format("${}{} << EOD\n{}EOD\n", name, n, rows);
+  plots += fmt::format(", ${}{} with vectors nohead lw {} lc rgb '{}' title '{}: {}'", name, n, line_width,
+                       in_tension ? tension_colour : shear_colour, name, n_cracks);
+}
+
+std::string file_name(const std::string& label)
+{
+  std::string name;
+  for (const char c : label)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.')
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  while (!name.empty() && name.back() == '_')
+    name.pop_back();
+  return name;
+}
+} // namespace feldspar::plot

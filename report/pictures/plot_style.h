@@ -1,0 +1,50 @@
+#pragma once
+
+#include "results/evaluation.h"
+#include "results/series.h"
+
+#include <string>
+
+/// What all pictures share: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
+namespace feldspar::plot
+{
+inline constexpr double mega = 1e6;
+inline constexpr double milli = 1e-3;
+inline constexpr double percent = 1e-2;
+
+inline constexpr const char* black = "#000000";
+inline constexpr const char* grey = "#8c8c8c";
+inline constexpr const char* light_grey = "#d8d8d8";
+inline constexpr const char* blue = "#0072B2";
+inline constexpr const char* vermillion = "#D55E00";
+inline constexpr const char* green = "#009E73";
+inline constexpr const char* purple = "#CC79A7";
+inline constexpr const char* sky = "#56B4E9";
+inline constexpr const char* orange = "#E69F00";
+
+inline constexpr const char* tension_colour = vermillion;
+inline constexpr const char* shear_colour = blue;
+inline constexpr const char* single_grain_colour = "#f0e0b8";
+
+/// Of the n-th series; a measured curve is black.
+std::string colour(const Series& series, std::size_t n);
+
+/// gnuplot's number of the mark for points of a series: by what its tests were made on.
+int point_type(const Series& series);
+
+/// Dashes tell series apart where colours repeat.
+int dashes(std::size_t n);
+
+/// Axis labels, grid, and the key under the plot, where it hides nothing.
+std::string frame(const std::string& x_label, const std::string& y_label);
+
+/// `title` for the key of a plot, or none.
+std::string title(const std::string& text);
+
+/// Adds the cracks of one kind to the n-th of several plots, their rows `x y dx dy` to its data; none, nothing.
+void add_cracks(std::string& data, std::string& plots, std::size_t n, CrackKind kind, const std::string& rows,
+                double line_width);
+
+/// A name for files out of a label.
+std::string file_name(const std::string& label);
+} // namespace feldspar::plot

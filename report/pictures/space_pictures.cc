@@ -1,0 +1,223 @@
+#include "report/pictures/space_pictures.h"
+
+#include "report/pictures/plot_style.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <string_view>
+
+namespace feldspar
+{
+extern const std::string_view space_scene; // report/pictures/space_scene.py
+
+namespace
+{
+using namespace plot;
+using Json = nlohmann::ordered_json; // JSON is Python, as far as it goes here
+
+constexpr std::array fragment_colours{orange, sky, green, purple, vermillion, blue};
+
+/// Around the grains as they stood at the start [m].
+struct Box
+{
+  std::array<double, 3> low, high;
+
+  /// A cube about the origin.
+  explicit Box(const double half_width)
+  {
+    low.fill(-half_width);
+    high.fill(half_width);
+  }
+
+  explicit Box(const std::vector<GrainPicture>& grains)
+  {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const auto& grain : grains)
+      for (std::size_t c = 0; c < 3; ++c)
+        {
+          low[c] = std::min(low[c], grain.start[c] - grain.radius);
+          high[c] = std::max(high[c], grain.start[c] + grain.radius);
+        }
+  }
+
+  /// With room for what bulges, not for what flew away.
+  bool shows(const std::array<double, 3>& point) const
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const double room = 0.15 * (high[c] - low[c]); point[c] < low[c] - room || point[c] > high[c] + room)
+        return false;
+    return true;
+  }
+
+  Json millimetres() const
+  {
+    Json corners = {Json::array(), Json::array()};
+    for (std::size_t c = 0; c < 3; ++c)
+      {
+        corners[0].push_back(low[c] / milli);
+        corners[1].push_back(high[c] / milli);
+      }
+    return corners;
+  }
+};
+
+/// Discs of cracks up to a step, and how many there are of either kind.
+struct Discs
+{
+  std::string rows;
+  Json legend;
+};
+
+Discs discs_of(const std::vector<Crack>& cracks, const Box& box, const std::uint64_t last_step)
+{
+  std::string rows;
+  std::array<std::size_t, 2> n{};
+  for (const auto& crack : cracks)
+    {
+      if (crack.step > last_step)
+        continue;
+      const bool is_shear = crack.kind == CrackKind::shear;
+      ++n[is_shear];
+      if (!box.shows(crack.centroid))
+        continue;
+      for (const double x : crack.centroid)
+        fmt::format_to(std::back_inserter(rows), "{:.5g} ", x / milli);
+      for (const double component : crack.normal)
+        fmt::format_to(std::back_inserter(rows), "{:.4g} ", component);
+      // The disc of the element's area.
+      fmt::format_to(std::back_inserter(rows), "{:.4g} {}\n", crack.size / std::sqrt(std::numbers::pi) / milli,
+                     is_shear ? shear_colour : tension_colour);
+    }
+  return {rows, {{fmt::format("tension: {}", n[0]), tension_colour}, {fmt::format("shear: {}", n[1]), shear_colour}}};
+}
+
+Json crack_panel(const TestRecord& record, const Box& box, const std::string& title, const std::uint64_t last_step)
+{
+  const Discs discs = discs_of(record.cracks, box, last_step);
+  return {{"title", title},
+          {"box", box.millimetres()},
+          {"spheres", ""},
+          {"discs", discs.rows},
+          {"legend", discs.legend}};
+}
+
+/// Of each fragment.
+std::map<std::uint32_t, std::size_t> numbers_of_grains(const std::vector<GrainPicture>& grains)
+{
+  std::map<std::uint32_t, std::size_t> n_grains;
+  for (const auto& grain : grains)
+    ++n_grains[grain.fragment];
+  return n_grains;
+}
+
+/// The grains behind the mid-plane.
+std::string spheres_behind(const std::vector<GrainPicture>& grains, const Box& box)
+{
+  std::map<std::uint32_t, std::size_t> n_grains = numbers_of_grains(grains);
+  const double cut = 0.5 * (box.low[1] + box.high[1]);
+  std::string rows;
+  for (const auto& grain : grains)
+    if (grain.start[1] >= cut && box.shows(grain.position))
+      {
+        for (const double x : grain.position)
+          fmt::format_to(std::back_inserter(rows), "{:.5g} ", x / milli);
+        fmt::format_to(std::back_inserter(rows), "{:.4g} {}\n", grain.radius / milli,
+                       grain.fragment == 0             ? light_grey
+                       : n_grains[grain.fragment] == 1 ? single_grain_colour
+                                                       : fragment_colours[grain.fragment % fragment_colours.size()]);
+      }
+  return rows;
+}
+
+Json fragment_panel(const TestRecord& record, const Box& box)
+{
+  const auto n_grains = numbers_of_grains(record.grains_at_end);
+  const auto n_single = std::count_if(n_grains.begin(), n_grains.end(),
+                                      [](const auto& entry) { return entry.first > 0 && entry.second == 1; });
+  return {{"title", "grains at the end, cut open"},
+          {"box", box.millimetres()},
+          {"spheres", spheres_behind(record.grains_at_end, box)},
+          {"discs", ""},
+          {"legend",
+           {{"grey: largest piece", black},
+            {fmt::format("pale: {} single grains; coloured: {} fragments", n_single,
+                         std::ptrdiff_t(n_grains.size()) - 1 - n_single),
+             black}}}};
+}
+} // namespace
+
+std::vector<Picture> space_picture(const FinishedTest& test, const std::string& title)
+{
+  const TestRecord& record = test.record;
+  if (record.dimension() == 2 || record.grains_at_end.empty())
+    return {};
+  const Box box(record.grains_at_end);
+  Json panels = Json::array();
+  if (const auto peak = peak_row(record))
+    panels.push_back(crack_panel(record, box, "cracks at the peak", record.curve[*peak].step));
+  panels.push_back(crack_panel(record, box, "cracks at the end", std::numeric_limits<std::uint64_t>::max()));
+  panels.push_back(fragment_panel(record, box));
+  return {
+    {.name = test.name + "_space",
+     .caption = fmt::format("{}, seed {}: every broken element as a disc, at the peak and at the end; the grains "
+                            "behind the mid-plane at the end, coloured by fragment. Seen from the front, a little "
+                            "from the right and from above",
+                            title, record.seed),
+     .alternative =
+       fmt::format("Cracks and fragments of {} (seed {}) in space: {} tension and {} shear cracks at the end.", title,
+                   record.seed, test.results.n_tension_cracks, test.results.n_shear_cracks),
+     .width = 450 * int(panels.size()),
+     .height = 900,
+     .raster = true,
+     .vector = false,
+     .drawn_by = DrawnBy::vtk,
+     .script = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
+}
+
+Picture space_picture_of_volumes(const std::vector<PointVolume>& volumes, const std::vector<std::string>& headings)
+{
+  double reach = 0.0; // from a volume's point
+  for (const PointVolume& volume : volumes)
+    for (const auto& grain : volume.grains)
+      for (std::size_t c = 0; c < 3; ++c)
+        reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+  const Box box(reach);
+  Json panels = Json::array();
+  for (std::size_t k = 0; k < volumes.size(); ++k)
+    {
+      PointVolume volume = volumes[k];
+      for (std::size_t c = 0; c < 3; ++c)
+        {
+          for (auto& grain : volume.grains)
+            for (auto* place : {&grain.start, &grain.position})
+              (*place)[c] -= volume.position[c];
+          for (auto& crack : volume.cracks)
+            crack.centroid[c] -= volume.position[c];
+        }
+      const Discs discs = discs_of(volume.cracks, box, std::numeric_limits<std::uint64_t>::max());
+      panels.push_back({{"title", headings[k]},
+                        {"box", box.millimetres()},
+                        {"spheres", spheres_behind(volume.grains, box)},
+                        {"discs", discs.rows},
+                        {"opacity", 0.7},
+                        {"legend", discs.legend}});
+    }
+  Picture picture;
+  picture.width = 450 * int(panels.size());
+  picture.height = 560;
+  picture.raster = true;
+  picture.vector = false;
+  picture.drawn_by = DrawnBy::vtk;
+  picture.script = fmt::format("panels = {}\n{}", panels.dump(), space_scene);
+  return picture;
+}
+} // namespace feldspar

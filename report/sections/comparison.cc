@@ -1,0 +1,152 @@
+#include "report/sections/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace feldspar
+{
+namespace
+{
+/// One value a seed, from the figure of one kind of test.
+std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, const TestKind kind,
+                                        Figure TestResults::*figure)
+{
+  std::map<std::uint64_t, double> values;
+  for (const auto& test : tests)
+    if (test.record.kind == kind && (test.results.*figure).value)
+      values[test.record.seed] = *(test.results.*figure).value;
+  return values;
+}
+} // namespace
+
+std::optional<double> ComparisonRow::deviation() const
+{
+  if (!ours || !experiment || experiment->mean == 0.0)
+    return std::nullopt;
+  return ours->mean / experiment->mean - 1.0;
+}
+
+std::optional<bool> ComparisonRow::in_range() const
+{
+  if (!ours || !experiment || !experiment->low || !experiment->high)
+    return std::nullopt;
+  return ours->mean >= *experiment->low && ours->mean <= *experiment->high;
+}
+
+std::optional<bool> ComparisonRow::surely_in_range() const
+{
+  if (!in_range() || !ours->confidence_95)
+    return std::nullopt;
+  return ours->mean - *ours->confidence_95 >= *experiment->low &&
+         ours->mean + *ours->confidence_95 <= *experiment->high;
+}
+
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
+{
+  constexpr auto pulled = TestKind::direct_tension;
+  constexpr auto crushed = TestKind::uniaxial_compression;
+  std::vector<ComparisonRow> rows;
+  const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
+                       const std::map<std::uint64_t, double>& values, const std::string& key,
+                       const double reference_scale = 1.0) {
+    std::vector<double> scaled;
+    for (const auto& [seed, value] : values)
+      scaled.push_back(value / scale);
+    ComparisonRow row{property, unit, decimals, statistics(scaled), std::nullopt, std::nullopt};
+    if (reference)
+      {
+        row.model = reference->model.find(key, reference_scale);
+        row.experiment = reference->experiment.find(key, reference_scale);
+      }
+    rows.push_back(row);
+  };
+
+  const auto strength = by_seed(tests, crushed, &TestResults::peak_stress);
+  const auto tensile = by_seed(tests, pulled, &TestResults::peak_stress);
+  std::map<std::uint64_t, double> ratio;
+  for (const auto& [seed, value] : tensile)
+    if (strength.contains(seed))
+      ratio[seed] = value / strength.at(seed);
+
+  add("tensile strength", "MPa", 2, 1e6, tensile, "tensile_strength_MPa");
+  add("strain at tensile peak", "1e-4", 2, 1e-4, by_seed(tests, pulled, &TestResults::strain_at_peak),
+      "strain_at_tensile_peak", 1e-4);
+  add("uniaxial compressive strength", "MPa", 1, 1e6, strength, "uniaxial_compressive_strength_MPa");
+  add("tensile over compressive strength", "", 3, 1.0, ratio, "tension_to_compression");
+  add("strain at peak, compression", "1e-3", 2, 1e-3, by_seed(tests, crushed, &TestResults::strain_at_peak),
+      "strain_at_compressive_peak", 1e-3);
+  add("Young's modulus, tangent 40-60 % of peak", "GPa", 1, 1e9,
+      by_seed(tests, crushed, &TestResults::youngs_modulus_tangent), "youngs_modulus_GPa");
+  add("Young's modulus, initial", "GPa", 1, 1e9, by_seed(tests, crushed, &TestResults::youngs_modulus_initial), "");
+  add("Poisson's ratio, secant at 50 % of peak", "", 3, 1.0,
+      by_seed(tests, crushed, &TestResults::poissons_ratio_secant), "poissons_ratio");
+  add("Poisson's ratio, initial", "", 3, 1.0, by_seed(tests, crushed, &TestResults::poissons_ratio_initial), "");
+  add("crack initiation stress, compression", "MPa", 1, 1e6,
+      by_seed(tests, crushed, &TestResults::crack_initiation_stress), "crack_initiation_stress_MPa");
+  add("crack initiation stress, lateral strain", "MPa", 1, 1e6,
+      by_seed(tests, crushed, &TestResults::crack_initiation_stress_lateral), "crack_initiation_stress_lateral_MPa");
+  add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
+      "crack_damage_stress_MPa");
+  std::map<double, std::map<std::uint64_t, double>> confined;
+  for (const auto& test : tests)
+    if (test.record.kind == TestKind::triaxial_compression && test.results.peak_stress.value)
+      confined[std::round(test.record.confining_pressure)][test.record.seed] = *test.results.peak_stress.value;
+  for (const auto& [pressure, strengths] : confined)
+    {
+      const std::string megapascals = fmt::format("{:g}", pressure / 1e6);
+      add(fmt::format("strength at {} MPa confinement", megapascals), "MPa", 1, 1e6, strengths,
+          "strength_at_" + megapascals + "_MPa");
+    }
+  if (const auto disc = by_seed(tests, TestKind::brazilian, &TestResults::peak_stress); !disc.empty())
+    add("Brazilian tensile strength", "MPa", 2, 1e6, disc, "brazilian_strength_MPa");
+  return rows;
+}
+
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value)
+{
+  const auto number = [&](const double x) { return fmt::format("{:.{}f}", x, row.decimals); };
+  if (!value)
+    return "-";
+  std::string text = number(value->mean);
+  if (value->low && value->high)
+    text += fmt::format(" ({} to {})", number(*value->low), number(*value->high));
+  return text;
+}
+
+std::string as_text(const std::vector<ComparisonRow>& rows)
+{
+  std::vector<std::array<std::string, 4>> cells;
+  cells.push_back({"", "this run", "paper's model", "experiment"});
+  for (const auto& row : rows)
+    {
+      const auto value = [&](const double number) { return fmt::format("{:.{}f}", number, row.decimals); };
+      std::string ours = row.ours ? value(row.ours->mean) : "-";
+      if (row.ours && row.ours->standard_deviation)
+        ours += fmt::format(" ± {}", value(*row.ours->standard_deviation));
+      cells.push_back({row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit), ours,
+                       as_text(row, row.model), as_text(row, row.experiment)});
+    }
+
+  // Width on the screen: bytes that continue a UTF-8 character take no place.
+  const auto width = [](const std::string& text) {
+    return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::array<std::size_t, 4> widest{};
+  for (const auto& line : cells)
+    for (std::size_t c = 0; c < line.size(); ++c)
+      widest[c] = std::max(widest[c], width(line[c]));
+  std::string text;
+  for (const auto& line : cells)
+    {
+      text += line[0] + std::string(widest[0] - width(line[0]), ' ');
+      for (std::size_t c = 1; c < line.size(); ++c)
+        text += "   " + std::string(widest[c] - width(line[c]), ' ') + line[c];
+      text += '\n';
+    }
+  return text;
+}
+} // namespace feldspar

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "results/folder/reference.h"
+#include "results/run.h"
+#include "results/statistics.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// One property of the rock: ours beside the references, all in `unit`.
+struct ComparisonRow
+{
+  std::string property;
+  std::string unit;
+  int decimals;
+  std::optional<Statistics> ours;      ///< over the seeds
+  std::optional<ReferenceValue> model; ///< of the paper
+  std::optional<ReferenceValue> experiment;
+
+  /// Of our mean from that of the experiment, over the latter; none without either.
+  std::optional<double> deviation() const;
+  /// Whether our mean lies in the range of the experiment; none without either.
+  std::optional<bool> in_range() const;
+  /// Whether all of the 95 % interval of our mean lies in that range; none without either.
+  std::optional<bool> surely_in_range() const;
+};
+
+/// Sets the results of one rock beside a reference; without one its columns stay empty.
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference);
+
+/// A figure of a reference as the row writes numbers: mean (low to high), or a dash.
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value);
+
+/// For a terminal.
+std::string as_text(const std::vector<ComparisonRow>& rows);
+} // namespace feldspar

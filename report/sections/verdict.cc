@@ -1,0 +1,63 @@
+#include "report/sections/verdict.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+/// 167.6 MPa (experiment 161.5 (160.0 to 170.0) MPa, +3.8 %)
+std::string beside_experiment(const ComparisonRow& row)
+{
+  const std::string unit = row.unit.empty() ? "" : " " + row.unit;
+  std::string text = fmt::format("{} {:.{}f}{}; experiment {}{}", row.property, row.ours->mean, row.decimals, unit,
+                                 as_text(row, row.experiment), unit);
+  if (const auto deviation = row.deviation())
+    text += fmt::format("; {}{:.1f} %", *deviation < 0.0 ? "−" : "+", 100.0 * std::abs(*deviation));
+  if (row.in_range() == true && row.surely_in_range() == false)
+    text += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches out of the range",
+                        row.ours->mean - *row.ours->confidence_95, row.decimals,
+                        row.ours->mean + *row.ours->confidence_95, row.decimals);
+  return text;
+}
+} // namespace
+
+Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reason_for_no_reference)
+{
+  std::vector<std::string> in;
+  std::vector<std::string> out;
+  std::vector<std::string> open;
+  for (const auto& row : rows)
+    if (row.ours && row.experiment)
+      (!row.in_range() ? open : *row.in_range() ? in : out).push_back(beside_experiment(row));
+
+  Verdict result;
+  if (in.empty() && out.empty() && open.empty())
+    {
+      result.headline =
+        "Nothing to compare with: " +
+        (reason_for_no_reference.empty() ? std::string("no property was both tested here and given for the rock")
+                                         : reason_for_no_reference) +
+        ".";
+      return result;
+    }
+  const std::size_t n = in.size() + out.size();
+  result.headline =
+    n == 0 ? "The experiments give means without ranges; the deviations are below."
+    : out.empty()
+      ? fmt::format("Yes, by the {} {} for which experiments give a range.", n, n == 1 ? "property" : "properties")
+      : fmt::format("Not in every respect: {} of {} properties for which experiments give a range lie "
+                    "outside it.",
+                    out.size(), n);
+  const auto add = [&](const char* what, const std::vector<std::string>& entries) {
+    for (const auto& entry : entries)
+      result.points.push_back(fmt::format("{}: {}.", what, entry));
+  };
+  add("✗ Out of range", out);
+  add("✓ In range", in);
+  add("No range given", open);
+  return result;
+}
+} // namespace feldspar

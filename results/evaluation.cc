@@ -1,0 +1,362 @@
+#include "results/evaluation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+/// Slope of y over x by least squares.
+double slope(const std::vector<double>& x, const std::vector<double>& y)
+{
+  const auto n = double(x.size());
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    {
+      mean_x += x[k] / n;
+      mean_y += y[k] / n;
+    }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    {
+      xx += (x[k] - mean_x) * (x[k] - mean_x);
+      xy += (x[k] - mean_x) * (y[k] - mean_y);
+    }
+  return xy / xx;
+}
+
+Figure known(const double value)
+{
+  if (std::isfinite(value))
+    return {value, ""};
+  return {std::nullopt, "too few grains lie in the strain gauge"};
+}
+
+Figure unknown(std::string reason) { return {std::nullopt, std::move(reason)}; }
+
+/// What only a test that went past its peak can tell.
+constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
+                                                      &TestResults::strain_at_peak,
+                                                      &TestResults::youngs_modulus_initial,
+                                                      &TestResults::youngs_modulus_tangent,
+                                                      &TestResults::youngs_modulus_secant,
+                                                      &TestResults::poissons_ratio_initial,
+                                                      &TestResults::poissons_ratio_secant,
+                                                      &TestResults::crack_initiation_stress,
+                                                      &TestResults::crack_initiation_stress_lateral,
+                                                      &TestResults::crack_damage_stress,
+                                                      &TestResults::post_peak_drop,
+                                                      &TestResults::residual_deviator_ratio,
+                                                      &TestResults::n_tension_cracks_at_peak,
+                                                      &TestResults::n_shear_cracks_at_peak,
+                                                      &TestResults::shear_share_at_peak,
+                                                      &TestResults::kinetic_to_strain_energy,
+                                                      &TestResults::end_stress_difference,
+                                                      &TestResults::unbalanced_force_ratio,
+                                                      &TestResults::p_wave_transits_to_peak,
+                                                      &TestResults::servo_error,
+                                                      &TestResults::servo_error_largest};
+
+/// The rising branch of a curve, positive in the sense of the test.
+class RisingBranch
+{
+public:
+  RisingBranch(const TestRecord& record, const std::size_t peak)
+    : sign(laboratory_sign(record.kind))
+    , pressure(record.confining_pressure)
+    , rows(record.curve.data(), peak + 1)
+    , peak_deviator(deviator(rows.back()))
+  {
+  }
+
+  double stress(const CurveSample& row) const { return sign * row.axial_stress; }
+  double deviator(const CurveSample& row) const { return stress(row) - pressure; }
+
+  /// First row whose deviator reaches this share of the peak's.
+  std::size_t row_at(const double share) const
+  {
+    std::size_t k = 0;
+    while (deviator(rows[k]) < share * peak_deviator)
+      ++k;
+    return k;
+  }
+
+  /// Slope of y over x between two shares of the peak.
+  template <typename X, typename Y>
+  Figure slope_between(const double low, const double high, X&& x_of, Y&& y_of) const
+  {
+    const std::size_t begin = row_at(low);
+    const std::size_t end = row_at(high);
+    if (end < begin + 2)
+      return unknown("fewer than three rows of the curve between these stresses: choose a smaller sampling strain");
+    std::vector<double> x, y;
+    for (std::size_t k = begin; k <= end; ++k)
+      {
+        x.push_back(x_of(rows[k]));
+        y.push_back(y_of(rows[k]));
+      }
+    return known(slope(x, y));
+  }
+
+  /// A value at a share of the peak, linear between the rows.
+  template <typename Value>
+  double at_share(const double share, Value&& value_of) const
+  {
+    const std::size_t k = row_at(share);
+    if (k == 0)
+      return value_of(rows[0]);
+    const double s0 = deviator(rows[k - 1]);
+    const double s1 = deviator(rows[k]);
+    const double weight = (share * peak_deviator - s0) / (s1 - s0);
+    return (1.0 - weight) * value_of(rows[k - 1]) + weight * value_of(rows[k]);
+  }
+
+  /// Calls visit(row) from 5 % of the peak to the peak, where shares of the stress mean something.
+  template <typename Visitor>
+  void loaded_rows(Visitor&& visit) const
+  {
+    for (std::size_t k = row_at(0.05); k < rows.size(); ++k)
+      visit(rows[k]);
+  }
+
+  double sign;
+  double pressure;
+  std::span<const CurveSample> rows;
+  double peak_deviator;
+};
+
+std::uint64_t n_cracks(const CurveSample& row) { return row.n_tension_cracks + row.n_shear_cracks; }
+
+Figure crack_initiation(const TestRecord& record, const RisingBranch& branch)
+{
+  const auto row = crack_initiation_row(record, branch.rows.size() - 1);
+  return row ? known(branch.stress(branch.rows[*row])) : unknown("no crack before the peak");
+}
+
+/// Where the volume is smallest, if it grows again before the peak.
+std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
+{
+  const auto row =
+    std::min_element(branch.rows.begin(), branch.rows.end(), [](const CurveSample& a, const CurveSample& b) {
+      return a.gauge_volumetric_strain < b.gauge_volumetric_strain;
+    });
+  if (row == branch.rows.begin() || row + 1 == branch.rows.end())
+    return std::nullopt;
+  return std::size_t(row - branch.rows.begin());
+}
+
+/// Where volumetric strain, contracting at first, turns round.
+Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
+{
+  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+    return unknown("of uniaxial and triaxial compression only");
+  if (const auto row = most_contracted_row(branch))
+    return known(branch.stress(branch.rows[*row]));
+  return unknown(branch.rows.back().gauge_volumetric_strain < 0.0
+                   ? "volumetric strain did not turn round before the peak"
+                   : "the volume never contracted");
+}
+
+/// Lateral strain response: the stress at which the lateral expansion lies furthest below the straight line from the
+/// start to crack damage, for there it begins to grow faster. Needs no crack to be counted.
+Figure crack_initiation_by_lateral_strain(const TestRecord& record, const RisingBranch& branch)
+{
+  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+    return unknown("of uniaxial and triaxial compression only");
+  const auto damage = most_contracted_row(branch);
+  if (!damage)
+    return unknown("needs the crack damage stress");
+  const auto expansion = [](const CurveSample& row) { return row.gauge_lateral_strain; };
+  const CurveSample& first = branch.rows.front();
+  const CurveSample& last = branch.rows[*damage];
+  if (!(branch.stress(last) > branch.stress(first)))
+    return unknown("no load before the crack damage stress");
+  const double slope = (expansion(last) - expansion(first)) / (branch.stress(last) - branch.stress(first));
+  double furthest = 0.0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k <= *damage; ++k)
+    {
+      const double on_line = expansion(first) + slope * (branch.stress(branch.rows[k]) - branch.stress(first));
+      if (const double distance = on_line - expansion(branch.rows[k]); distance > furthest)
+        {
+          furthest = distance;
+          at = k;
+        }
+    }
+  if (at == 0)
+    return unknown("lateral strain never lags behind a straight line");
+  return known(branch.stress(branch.rows[at]));
+}
+
+constexpr const char* without_time = "equilibrium is sought without time";
+
+/// Moduli and Poisson's ratios, of tests whose stress is uniform.
+void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
+  if (record.kind == TestKind::brazilian)
+    {
+      const Figure none = unknown("the stress in a Brazilian disc is not uniform");
+      results.youngs_modulus_initial = results.youngs_modulus_tangent = results.youngs_modulus_secant = none;
+      results.poissons_ratio_initial = results.poissons_ratio_secant = results.p_wave_transits_to_peak = none;
+      return;
+    }
+  const double sign = branch.sign;
+  const auto stress = [&](const CurveSample& row) { return branch.stress(row); };
+  const auto strain = [sign](const CurveSample& row) { return sign * row.axial_strain; };
+  const auto gauge_axial = [sign](const CurveSample& row) { return sign * row.gauge_axial_strain; };
+  const auto expansion = [sign](const CurveSample& row) { return -sign * row.gauge_lateral_strain; };
+  results.youngs_modulus_initial = branch.slope_between(0.05, 0.20, gauge_axial, stress);
+  results.youngs_modulus_tangent = branch.slope_between(0.40, 0.60, strain, stress);
+  results.youngs_modulus_secant = known(0.5 * branch.peak_deviator / branch.at_share(0.5, strain));
+  results.poissons_ratio_initial = branch.slope_between(0.05, 0.20, gauge_axial, expansion);
+  results.poissons_ratio_secant = known(branch.at_share(0.5, expansion) / branch.at_share(0.5, gauge_axial));
+
+  results.p_wave_transits_to_peak =
+    unknown(record.body == TestBody::finite_elements ? without_time
+                                                     : "the wave speed needs the initial modulus and Poisson's ratio");
+  if (record.body == TestBody::grains && results.youngs_modulus_initial.value && results.poissons_ratio_initial.value)
+    {
+      const double nu = *results.poissons_ratio_initial.value;
+      const double modulus = *results.youngs_modulus_initial.value;
+      // Of a thin plate in the plane, of the bulk in space.
+      const double stiffness =
+        record.dimension() == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+      const double wave_speed = std::sqrt(stiffness / record.bulk_density);
+      results.p_wave_transits_to_peak =
+        known(branch.rows.back().time * wave_speed / record.size[std::size_t(record.dimension()) - 1]);
+    }
+}
+
+/// How near the test was to being quasi-static, and how well the confinement was held.
+void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
+  double kinetic = 0.0;
+  double difference = 0.0;
+  double unbalanced = 0.0;
+  double n_rows = 0.0;
+  branch.loaded_rows([&](const CurveSample& row) {
+    kinetic = std::max(kinetic, row.energies.kinetic / row.energies.strain);
+    difference = std::max(difference, std::abs(row.end_stress_difference) / branch.peak_deviator);
+    unbalanced += row.unbalanced_force_ratio;
+    ++n_rows;
+  });
+  results.kinetic_to_strain_energy = record.body == TestBody::grains ? known(kinetic) : unknown(without_time);
+  results.end_stress_difference = known(difference);
+  results.unbalanced_force_ratio = record.body == TestBody::grains
+                                     ? known(unbalanced / n_rows)
+                                     : unknown("Newton's method holds it at Sample/Newton tolerance");
+
+  results.servo_error = results.servo_error_largest = unknown("the test has no servo");
+  if (record.has_servo)
+    {
+      double sum = 0.0;
+      double largest = 0.0;
+      for (const auto& row : branch.rows)
+        {
+          const double error = std::abs(-row.lateral_stress / record.confining_pressure - 1.0);
+          sum += error;
+          largest = std::max(largest, error);
+        }
+      results.servo_error = known(sum / double(branch.rows.size()));
+      results.servo_error_largest = known(largest);
+    }
+}
+
+void evaluate_fragments(const TestRecord& record, TestResults& results)
+{
+  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and volume
+  double all = 0.0;
+  for (const auto& grain : record.grains_at_end)
+    {
+      auto& [n_grains, size] = fragments[grain.fragment];
+      ++n_grains;
+      const double volume = std::pow(grain.radius, record.dimension());
+      size += volume;
+      all += volume;
+    }
+  results.n_fragments = results.largest_fragment_share = unknown("there are no grains to be counted");
+  if (fragments.empty())
+    return;
+  const auto n = std::count_if(fragments.begin(), fragments.end(), [](const auto& f) { return f.second.first > 1; });
+  results.n_fragments = known(double(n));
+  results.largest_fragment_share = known(fragments.begin()->second.second / all);
+}
+} // namespace
+
+std::optional<std::size_t> peak_row(const TestRecord& record)
+{
+  PeakWatch watch(record.kind);
+  std::size_t peak = 0;
+  for (std::size_t k = 0; k < record.curve.size(); ++k)
+    if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
+      peak = k;
+  if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart))
+    return std::nullopt;
+  return peak;
+}
+
+std::optional<std::size_t> crack_initiation_row(const TestRecord& record, const std::size_t peak)
+{
+  const std::uint64_t at_peak = n_cracks(record.curve[peak]);
+  if (at_peak == 0)
+    return std::nullopt;
+  std::size_t row = 0;
+  while (double(n_cracks(record.curve[row])) < 0.01 * double(at_peak))
+    ++row;
+  return row;
+}
+
+TestResults evaluate(const TestRecord& record)
+{
+  TestResults results;
+  const auto& curve = record.curve;
+  if (!curve.empty())
+    {
+      results.n_tension_cracks = curve.back().n_tension_cracks;
+      results.n_shear_cracks = curve.back().n_shear_cracks;
+      results.energy_imbalance = curve.back().energies.imbalance();
+      results.energy_imbalance_over_work = curve.back().energies.imbalance_over_work();
+    }
+  evaluate_fragments(record, results);
+
+  // What looks like a peak before the stop rule was met may not be one.
+  const auto peak = curve.empty() || record.interrupted ? std::nullopt : peak_row(record);
+  if (!peak)
+    {
+      const Figure none = unknown(!record.failure.empty()      ? record.failure
+                                  : record.interrupted         ? "interrupted before its end"
+                                  : record.ended_early.empty() ? "the stress never peaked"
+                                                               : "the stress never peaked: " + record.ended_early);
+      for (const auto member : figures_of_a_peak)
+        results.*member = none;
+      return results;
+    }
+
+  const RisingBranch branch(record, *peak);
+  const double sign = branch.sign;
+  const CurveSample& at_peak = curve[*peak];
+  results.peak_stress = known(branch.stress(at_peak));
+  results.strain_at_peak = known(sign * at_peak.axial_strain);
+  results.crack_initiation_stress = crack_initiation(record, branch);
+  results.crack_initiation_stress_lateral = crack_initiation_by_lateral_strain(record, branch);
+  results.crack_damage_stress = crack_damage(record, branch);
+  results.post_peak_drop = known(1.0 - branch.stress(curve.back()) / branch.stress(at_peak));
+  results.residual_deviator_ratio = known(branch.deviator(curve.back()) / branch.peak_deviator);
+  results.n_tension_cracks_at_peak = known(double(at_peak.n_tension_cracks));
+  results.n_shear_cracks_at_peak = known(double(at_peak.n_shear_cracks));
+  results.shear_share_at_peak = n_cracks(at_peak) > 0
+                                  ? known(double(at_peak.n_shear_cracks) / double(n_cracks(at_peak)))
+                                  : unknown("no crack before the peak");
+  evaluate_elasticity(record, branch, results);
+  evaluate_trust(record, branch, results);
+  return results;
+}
+} // namespace feldspar

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "results/record.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace feldspar
+{
+/// A figure, or the reason why it could not be had.
+struct Figure
+{
+  std::optional<double> value;
+  std::string reason;
+};
+
+/// The results of a test; stresses and strains positive in the sense of the test.
+struct TestResults
+{
+  Figure peak_stress;
+  Figure strain_at_peak;
+  Figure youngs_modulus_initial; ///< by the gauge, 5–20 % of the peak
+  Figure youngs_modulus_tangent; ///< 40–60 % of the peak
+  Figure youngs_modulus_secant;  ///< to 50 % of the peak
+  Figure poissons_ratio_initial;
+  Figure poissons_ratio_secant;
+  Figure crack_initiation_stress;         ///< by the count of cracks
+  Figure crack_initiation_stress_lateral; ///< by the lateral strain, as curves of the laboratory are read
+  Figure crack_damage_stress;
+  Figure post_peak_drop;          ///< peak minus last stress, over peak
+  Figure residual_deviator_ratio; ///< deviator at the end over that at the peak
+  std::uint64_t n_tension_cracks = 0;
+  std::uint64_t n_shear_cracks = 0;
+  Figure n_tension_cracks_at_peak;
+  Figure n_shear_cracks_at_peak;
+  Figure shear_share_at_peak; ///< of all cracks
+  double energy_imbalance = 0.0;
+  double energy_imbalance_over_work = 0.0;
+  Figure kinetic_to_strain_energy; ///< largest from 5 % of the peak to the peak
+  Figure end_stress_difference;    ///< largest share of the peak deviator, from 5 % of the peak to the peak
+  Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
+  Figure p_wave_transits_to_peak;
+  Figure servo_error;            ///< mean |lateral stress / pressure - 1| from seating to the peak
+  Figure servo_error_largest;    ///< largest of the same
+  Figure n_fragments;            ///< of two grains or more, at the end
+  Figure largest_fragment_share; ///< of the grains' volume
+};
+
+/// The row of the curve where the stress was highest; none if it was rising to the end. Of a Brazilian test the first
+/// maximum that was followed by a fall: the halves of a split disc may carry more than the whole one did.
+std::optional<std::size_t> peak_row(const TestRecord& record);
+
+/// The first row with 1 % of the cracks at the peak; none if there is no crack up to there.
+std::optional<std::size_t> crack_initiation_row(const TestRecord& record, std::size_t peak);
+
+/// Reads the results off the curve (docs/theory.md §5).
+TestResults evaluate(const TestRecord& record);
+} // namespace feldspar

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "results/fits/fit.h"
+#include "results/run.h"
+
+#include <vector>
+
+namespace feldspar
+{
+/// The strengths of a programme as envelopes are fitted to them: means over the seeds of its uniaxial and triaxial
+/// tests, and of direct tension (of Brazilian tests where there is none).
+StrengthData strength_data(const std::vector<FinishedTest>& tests);
+} // namespace feldspar

@@ -1,0 +1,217 @@
+#include "results/fits/strength_envelopes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <tuple>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double degree = std::numbers::pi / 180.0;
+
+void add(std::vector<FitEntry>& entries, const std::string& quantity, const std::string& unit, const Estimate& estimate)
+{
+  entries.push_back({quantity + unit, {estimate.value, ""}});
+  entries.push_back({quantity + "_confidence_95" + unit, estimate.half_width});
+}
+
+void add(std::vector<FitEntry>& entries, const FitQuality& quality)
+{
+  entries.push_back({"r_squared", quality.r_squared});
+  entries.push_back({"root_mean_square_Pa", {quality.root_mean_square, ""}});
+}
+
+void add_measured(std::vector<FitEntry>& entries, const StrengthData& data)
+{
+  const auto figure = [](const std::optional<double>& value) { return Figure{value, value ? "" : "not measured"}; };
+  entries.push_back({"measured_uniaxial_compressive_strength_Pa", figure(data.uniaxial_compressive_strength)});
+  entries.push_back({"measured_tensile_strength_Pa", figure(data.tensile_strength)});
+}
+
+FitRecord record(const HoekBrownForm form, const std::string& variant, const FitOrReason<HoekBrownFit>& answer,
+                 const StrengthData& data)
+{
+  FitRecord result{name(form), variant, answer.reason, {}, {}};
+  if (!answer.fit)
+    return result;
+  const auto& fit = *answer.fit;
+  add(result.entries, "sigma_ci", "_Pa", fit.sigma_ci);
+  add(result.entries, "m", "", fit.m);
+  add(result.entries, "s", "", fit.s);
+  add(result.entries, "a", "", fit.a);
+  add(result.entries, "uniaxial_compressive_strength", "_Pa", fit.uniaxial_compressive_strength);
+  add(result.entries, "tensile_cut_off", "_Pa", fit.tensile_cut_off);
+  add(result.entries, fit.quality);
+  add_measured(result.entries, data);
+  result.residuals = fit.quality.residuals;
+  return result;
+}
+
+FitRecord record(const FitOrReason<MohrCoulombFit>& answer, const StrengthData& data)
+{
+  FitRecord result{"mohr_coulomb", "", answer.reason, {}, {}};
+  if (!answer.fit)
+    return result;
+  const auto& fit = *answer.fit;
+  add(result.entries, "friction_angle", "_rad", fit.friction_angle);
+  add(result.entries, "cohesion", "_Pa", fit.cohesion);
+  add(result.entries, "slope", "", fit.slope);
+  add(result.entries, "uniaxial_compressive_strength", "_Pa", fit.uniaxial_strength);
+  add(result.entries, fit.quality);
+  add_measured(result.entries, data);
+  result.residuals = fit.quality.residuals;
+  return result;
+}
+
+/// "value ± half-width", without the latter where there is none.
+std::string text(const Estimate& estimate, const int decimals, const double unit = 1.0)
+{
+  std::string result = fmt::format("{:.{}f}", estimate.value / unit, decimals);
+  if (estimate.half_width.value)
+    result += fmt::format(" ± {:.{}f}", *estimate.half_width.value / unit, decimals);
+  return result;
+}
+
+std::string text(const Figure& figure, const int decimals, const double unit = 1.0)
+{
+  return figure.value ? fmt::format("{:.{}f}", *figure.value / unit, decimals) : "-";
+}
+
+std::string words(const bool with_tension_point) { return with_tension_point ? "with" : "without"; }
+
+using Row = std::array<std::string, 9>;
+
+/// All columns but the first to the right; fmt counts characters, not bytes.
+std::string table(const std::vector<Row>& rows)
+{
+  std::array<std::size_t, std::tuple_size_v<Row>> width{};
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c)
+      {
+        const auto continues = [](const char byte) { return (byte & 0xC0) == 0x80; }; // a UTF-8 character
+        width[c] =
+          std::max(width[c], row[c].size() - std::size_t(std::count_if(row[c].begin(), row[c].end(), continues)));
+      }
+  std::string result;
+  for (const auto& row : rows)
+    {
+      std::string line = fmt::format("{:<{}}", row[0], width[0]);
+      for (std::size_t c = 1; c < row.size(); ++c)
+        line += fmt::format("  {:>{}}", row[c], width[c]);
+      result += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+    }
+  return result;
+}
+
+/// The points rise more steeply after the uniaxial test than before it, which no envelope with a <= 1 can follow.
+bool rises_more_steeply_under_confinement(const StrengthData& data)
+{
+  const EnvelopePoint* first = nullptr;
+  for (const auto& point : data.points)
+    if (point.sigma_3 > 0.0 && (!first || point.sigma_3 < first->sigma_3))
+      first = &point;
+  return first && data.tensile_strength && data.uniaxial_compressive_strength &&
+         (first->sigma_1 - *data.uniaxial_compressive_strength) / first->sigma_3 >
+           *data.uniaxial_compressive_strength / *data.tensile_strength;
+}
+} // namespace
+
+StrengthEnvelopes fit_strength_envelopes(const StrengthData& data)
+{
+  StrengthEnvelopes result{data, {}, fit_mohr_coulomb(data)};
+  for (const auto form : {HoekBrownForm::as_paper, HoekBrownForm::intact, HoekBrownForm::general})
+    result.hoek_brown.push_back({form, fit_hoek_brown(data, form, true), fit_hoek_brown(data, form, false)});
+  return result;
+}
+
+std::vector<FitRecord> records(const StrengthEnvelopes& envelopes)
+{
+  std::vector<FitRecord> result;
+  for (const auto& pair : envelopes.hoek_brown)
+    {
+      result.push_back(record(pair.form, "with_tension_point", pair.with_tension_point, envelopes.data));
+      result.push_back(record(pair.form, "without_tension_point", pair.without_tension_point, envelopes.data));
+    }
+  result.push_back(record(envelopes.mohr_coulomb, envelopes.data));
+  return result;
+}
+
+std::string as_text(const StrengthEnvelopes& envelopes)
+{
+  std::vector<Row> rows;
+  std::vector<std::string> notes;
+  rows.push_back({"Hoek-Brown", "sigma_ci", "m", "s", "a", "R²", "RMS", "UCS", "sigma_t"});
+  for (const auto& pair : envelopes.hoek_brown)
+    for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+      {
+        const std::string title =
+          fmt::format("{}, {} tension point", name(pair.form), words(answer == &pair.with_tension_point));
+        if (!answer->fit)
+          {
+            notes.push_back(fmt::format("{}: no fit: {}", title, answer->reason));
+            continue;
+          }
+        const auto& fit = *answer->fit;
+        rows.push_back({title, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3),
+                        text(fit.quality.r_squared, 4), fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
+                        text(fit.uniaxial_compressive_strength, 1, 1e6),
+                        text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
+        // What the form itself fixes is no news.
+        const bool fixes_s = pair.form != HoekBrownForm::as_paper;
+        if (!fit.m.half_width.value)
+          notes.push_back(fmt::format("{}: m has no interval: {}", title, fit.m.half_width.reason));
+        if (fixes_s && !fit.sigma_ci.half_width.value)
+          notes.push_back(fmt::format("{}: sigma_ci has no interval: {}", title, fit.sigma_ci.half_width.reason));
+        if (!fixes_s && !fit.s.half_width.value)
+          notes.push_back(fmt::format("{}: s has no interval: {}", title, fit.s.half_width.reason));
+        if (pair.form != HoekBrownForm::intact && !fit.a.half_width.value)
+          notes.push_back(fmt::format("{}: a has no interval: {}", title, fit.a.half_width.reason));
+      }
+  const auto measured = [](const std::optional<double>& value, const int decimals) {
+    return value ? fmt::format("{:.{}f}", *value / 1e6, decimals) : std::string("-");
+  };
+  rows.push_back({"measured", "", "", "", "", "", "", measured(envelopes.data.uniaxial_compressive_strength, 1),
+                  measured(envelopes.data.tensile_strength, 2)});
+
+  std::string result = "Strength envelopes: compression positive, MPa, ± 95 % confidence\n" + table(rows);
+  if (const auto& fit = envelopes.mohr_coulomb.fit)
+    result +=
+      fmt::format("Mohr-Coulomb: friction angle {} deg, cohesion {} MPa, R² {}, RMS {:.1f} MPa, UCS {} MPa\n",
+                  text(fit->friction_angle, 1, degree), text(fit->cohesion, 1, 1e6), text(fit->quality.r_squared, 4),
+                  fit->quality.root_mean_square / 1e6, text(fit->uniaxial_strength, 1, 1e6));
+  else
+    notes.push_back(fmt::format("mohr_coulomb: no fit: {}", envelopes.mohr_coulomb.reason));
+  for (const auto& note : notes)
+    result += note + '\n';
+  return result + remark(envelopes) + '\n';
+}
+
+std::string remark(const StrengthEnvelopes& envelopes)
+{
+  std::string result = "Admissible is s <= 1, for with s > 1 the rock would be stronger than intact";
+  const auto paper = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
+                                  [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
+  const auto& measured = envelopes.data.uniaxial_compressive_strength;
+  if (paper == envelopes.hoek_brown.end() || !paper->with_tension_point.fit || !measured)
+    return result + ".";
+  const auto& with = *paper->with_tension_point.fit;
+  result += fmt::format("; the paper's form with the tension point has s = {:.2f}", with.s.value);
+  if (with.s.value <= 1.0)
+    return result + ".";
+  result += fmt::format(" and says {:.0f} MPa at sigma_3 = 0, where {:.0f} MPa were measured, ",
+                        with.uniaxial_compressive_strength.value / 1e6, *measured / 1e6);
+  result += rises_more_steeply_under_confinement(envelopes.data)
+              ? "because the points rise more steeply from the uniaxial test to the first confinement than from "
+                "tension to the uniaxial test, and an envelope that flattens all the way and must begin at sigma_t can "
+                "only pass above the uniaxial strength"
+              : "because an envelope that must begin at sigma_t and meet the points at high confinement passes above "
+                "the uniaxial strength";
+  if (const auto& without = paper->without_tension_point.fit)
+    result += fmt::format(": without the tension point s = {:.2f}", without->s.value);
+  return result + ".";
+}
+} // namespace feldspar

@@ -1,0 +1,303 @@
+#include "results/folder/csv_tables.h"
+
+#include "base/input_error.h"
+#include "base/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace feldspar
+{
+namespace
+{
+/// A column by its name, with where its number is in a row. `laboratory`: changes sign to be positive in the sense of
+/// the test; `added`: tables of before it was added do without, and it is 0.
+template <typename Row>
+struct Column
+{
+  std::string_view name;
+  std::function<double(const Row&)> get;
+  std::function<void(Row&, double)> set;
+  bool laboratory = false;
+  bool added = false;
+};
+
+/// `part` gives the number's place in a row.
+template <typename Row, typename Part>
+Column<Row> column(const std::string_view name, const Part& part, const bool laboratory = false)
+{
+  return {name, [=](const Row& row) { return double(part(row)); },
+          [=](Row& row, const double value) {
+            auto& place = part(row);
+            place = std::remove_reference_t<decltype(place)>(value);
+          },
+          laboratory, false};
+}
+
+template <typename Row, typename T>
+Column<Row> column(const std::string_view name, T Row::*member, const bool laboratory = false)
+{
+  return column<Row>(
+    name, [member](auto& row) -> auto& { return row.*member; }, laboratory);
+}
+
+Column<CurveSample> energy(const std::string_view name, double Energies::*member)
+{
+  return column<CurveSample>(
+    name, [member](auto& row) -> auto& { return row.energies.*member; });
+}
+
+template <typename Row, std::size_t n>
+Column<Row> coordinate(const std::string_view name, std::array<double, n> Row::*member, const std::size_t c)
+{
+  return column<Row>(
+    name, [=](auto& row) -> auto& { return (row.*member)[c]; });
+}
+
+Column<CurveSample> added(Column<CurveSample> column)
+{
+  column.added = true;
+  return column;
+}
+
+const std::vector<Column<CurveSample>>& curve_columns()
+{
+  static const std::vector<Column<CurveSample>> columns{
+    column<CurveSample>("step", &CurveSample::step),
+    column<CurveSample>("time_s", &CurveSample::time),
+    column<CurveSample>("axial_strain", &CurveSample::axial_strain, true),
+    column<CurveSample>("axial_stress_Pa", &CurveSample::axial_stress, true),
+    column<CurveSample>("end_stress_difference_Pa", &CurveSample::end_stress_difference, true),
+    column<CurveSample>("lateral_stress_Pa", &CurveSample::lateral_stress, true),
+    column<CurveSample>("mid_stress_Pa", &CurveSample::mid_stress, true),
+    column<CurveSample>("gauge_axial_strain", &CurveSample::gauge_axial_strain, true),
+    column<CurveSample>("gauge_lateral_strain", &CurveSample::gauge_lateral_strain, true),
+    column<CurveSample>("gauge_volumetric_strain", &CurveSample::gauge_volumetric_strain, true),
+    column<CurveSample>("n_tension_cracks", &CurveSample::n_tension_cracks),
+    column<CurveSample>("n_shear_cracks", &CurveSample::n_shear_cracks),
+    column<CurveSample>("unbalanced_force_ratio", &CurveSample::unbalanced_force_ratio),
+    energy("boundary_work_J", &Energies::boundary_work),
+    energy("kinetic_energy_J", &Energies::kinetic),
+    energy("strain_energy_J", &Energies::strain),
+    energy("slip_energy_J", &Energies::slip),
+    energy("released_energy_J", &Energies::released),
+    energy("damping_energy_J", &Energies::damping),
+    added(energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start))};
+  return columns;
+}
+
+/// All but the name of the test and the kind.
+const std::vector<Column<Crack>>& crack_columns()
+{
+  static const std::vector<Column<Crack>> columns{
+    column<Crack>("joint", &Crack::joint),     column<Crack>("segment", &Crack::segment),
+    column<Crack>("step", &Crack::step),       column<Crack>("axial_strain", &Crack::axial_strain, true),
+    coordinate("x_m", &Crack::centroid, 0),    coordinate("y_m", &Crack::centroid, 1),
+    coordinate("z_m", &Crack::centroid, 2),    coordinate("normal_x", &Crack::normal, 0),
+    coordinate("normal_y", &Crack::normal, 1), coordinate("normal_z", &Crack::normal, 2),
+    column<Crack>("size_m", &Crack::size),     column<Crack>("released_energy_J", &Crack::released_energy)};
+  return columns;
+}
+
+const std::vector<Column<GrainPicture>>& grain_columns()
+{
+  static const std::vector<Column<GrainPicture>> columns{
+    coordinate("start_x_m", &GrainPicture::start, 0),        coordinate("start_y_m", &GrainPicture::start, 1),
+    coordinate("start_z_m", &GrainPicture::start, 2),        coordinate("x_m", &GrainPicture::position, 0),
+    coordinate("y_m", &GrainPicture::position, 1),           coordinate("z_m", &GrainPicture::position, 2),
+    column<GrainPicture>("radius_m", &GrainPicture::radius), column<GrainPicture>("fragment", &GrainPicture::fragment)};
+  return columns;
+}
+
+const char* kind_name(const CrackKind kind) { return kind == CrackKind::tension ? "tension" : "shear"; }
+
+template <typename Row>
+void append_names(std::string& text, const std::vector<Column<Row>>& columns)
+{
+  for (const auto& one : columns)
+    fmt::format_to(std::back_inserter(text), "{}{}", &one == columns.data() ? "" : ",", one.name);
+  text += '\n';
+}
+
+template <typename Row>
+void append_row(std::string& text, const std::vector<Column<Row>>& columns, const Row& row, const double sign)
+{
+  for (const auto& one : columns)
+    fmt::format_to(std::back_inserter(text), "{}{}", &one == columns.data() ? "" : ",",
+                   one.laboratory ? sign * one.get(row) : one.get(row));
+  text += '\n';
+}
+
+/// A table row by row, its cells by the names of their columns.
+class TableReader
+{
+public:
+  explicit TableReader(const std::filesystem::path& table)
+    : file(table)
+    , stream(table)
+  {
+    std::string header;
+    if (!stream || !std::getline(stream, header))
+      throw InputError(fmt::format("{}: missing or empty", file.string()));
+    std::size_t k = 0;
+    for (const auto name : cells_of(header))
+      places[std::string(name)] = k++;
+  }
+
+  std::size_t place(const std::string_view name) const
+  {
+    const auto found = places.find(std::string(name));
+    if (found == places.end())
+      throw InputError(fmt::format("{}:1: there is no column {}", file.string(), name));
+    return found->second;
+  }
+
+  bool has(const std::string_view name) const { return places.contains(std::string(name)); }
+
+  bool next()
+  {
+    if (!std::getline(stream, line))
+      return false;
+    ++number;
+    cells = cells_of(line);
+    if (cells.size() != places.size())
+      throw InputError(
+        fmt::format("{}:{}: there must be {} cells; found {}", file.string(), number, places.size(), cells.size()));
+    return true;
+  }
+
+  std::string_view text(const std::size_t k) const { return cells[k]; }
+
+  double value(const std::size_t k) const
+  {
+    double result = 0.0;
+    const auto [end, error] = std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), result);
+    if (error != std::errc() || end != cells[k].data() + cells[k].size())
+      throw InputError(fmt::format("{}:{}: \"{}\" is no number", file.string(), number, cells[k]));
+    return result;
+  }
+
+private:
+  static std::vector<std::string_view> cells_of(const std::string_view line)
+  {
+    std::vector<std::string_view> found;
+    for (std::size_t begin = 0; begin <= line.size();)
+      {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        found.push_back(line.substr(begin, end - begin));
+        begin = end + 1;
+      }
+    return found;
+  }
+
+  std::filesystem::path file;
+  std::ifstream stream;
+  std::map<std::string, std::size_t> places;
+  std::size_t number = 1;
+  std::string line;
+  std::vector<std::string_view> cells;
+};
+
+/// Where the columns stand in this table.
+template <typename Row>
+std::vector<std::optional<std::size_t>> places_of(const TableReader& table, const std::vector<Column<Row>>& columns)
+{
+  std::vector<std::optional<std::size_t>> places;
+  for (const auto& one : columns)
+    places.push_back(one.added && !table.has(one.name) ? std::nullopt : std::optional(table.place(one.name)));
+  return places;
+}
+
+template <typename Row>
+Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
+           const std::vector<std::optional<std::size_t>>& places, const double sign)
+{
+  Row row{};
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (places[k])
+      columns[k].set(row, columns[k].laboratory ? sign * table.value(*places[k]) : table.value(*places[k]));
+  return row;
+}
+} // namespace
+
+void write_curve(const FinishedTest& test, const std::filesystem::path& file)
+{
+  std::string text;
+  append_names(text, curve_columns());
+  for (const auto& row : test.record.curve)
+    append_row(text, curve_columns(), row, laboratory_sign(test.record.kind));
+  write_whole_file(file, text);
+}
+
+std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind kind)
+{
+  TableReader table(file);
+  const auto places = places_of(table, curve_columns());
+  std::vector<CurveSample> curve;
+  while (table.next())
+    curve.push_back(row_of(table, curve_columns(), places, laboratory_sign(kind)));
+  return curve;
+}
+
+void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  std::string text = "test,kind,";
+  append_names(text, crack_columns());
+  for (const auto& test : tests)
+    for (const auto& crack : test.record.cracks)
+      {
+        fmt::format_to(std::back_inserter(text), "{},{},", test.name, kind_name(crack.kind));
+        append_row(text, crack_columns(), crack, laboratory_sign(test.record.kind));
+      }
+  write_whole_file(file, text);
+}
+
+void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
+{
+  TableReader table(file);
+  const std::size_t name = table.place("test");
+  const std::size_t kind = table.place("kind");
+  const auto places = places_of(table, crack_columns());
+  std::map<std::string_view, FinishedTest*> by_name;
+  for (auto& test : tests)
+    by_name[test.name] = &test;
+  while (table.next())
+    if (const auto found = by_name.find(table.text(name)); found != by_name.end())
+      {
+        TestRecord& record = found->second->record;
+        Crack crack = row_of(table, crack_columns(), places, laboratory_sign(record.kind));
+        crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
+        record.cracks.push_back(crack);
+      }
+}
+
+void write_grains(const FinishedTest& test, const std::filesystem::path& file)
+{
+  std::string text;
+  append_names(text, grain_columns());
+  for (const auto& grain : test.record.grains_at_end)
+    append_row(text, grain_columns(), grain, 1.0);
+  write_whole_file(file, text);
+}
+
+std::vector<GrainPicture> read_grains(const std::filesystem::path& file)
+{
+  TableReader table(file);
+  const auto places = places_of(table, grain_columns());
+  std::vector<GrainPicture> grains;
+  while (table.next())
+    grains.push_back(row_of(table, grain_columns(), places, 1.0));
+  return grains;
+}
+} // namespace feldspar

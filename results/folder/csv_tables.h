@@ -1,0 +1,25 @@
+#pragma once
+
+#include "results/run.h"
+
+#include <filesystem>
+#include <vector>
+
+/// The tables of a result folder: written after a run, read when a report is made of it. Readers know columns by their
+/// names, so more columns or another order do not matter, and throw InputError, one line, for what they cannot read.
+namespace feldspar
+{
+/// The curve of a test, a row per sample. Stress and strain are positive in the sense of the test: tension in a tension
+/// test, compression in a compression test.
+void write_curve(const FinishedTest& test, const std::filesystem::path& file);
+std::vector<CurveSample> read_curve(const std::filesystem::path& file, TestKind kind);
+
+/// The cracks of all tests, in the order in which they came.
+void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
+/// Puts each crack into the test of its name; those of other names are left out.
+void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
+
+/// The grains of a test, where they were and where they came to.
+void write_grains(const FinishedTest& test, const std::filesystem::path& file);
+std::vector<GrainPicture> read_grains(const std::filesystem::path& file);
+} // namespace feldspar

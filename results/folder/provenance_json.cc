@@ -1,0 +1,47 @@
+#include "results/folder/provenance_json.h"
+
+namespace feldspar
+{
+nlohmann::ordered_json as_json(const Provenance& provenance)
+{
+  nlohmann::ordered_json json;
+  json["schema_version"] = summary_schema_version;
+  json["feldspar_version"] = provenance.version;
+  json["commit"] = provenance.commit;
+  json["input"]["file"] = provenance.input_file;
+  for (const auto& entry : provenance.input)
+    json["input"]["parameters"][entry.section][entry.entry] = entry.value;
+  json["host"]["processor"] = provenance.processor;
+  json["host"]["threads"] = provenance.n_threads;
+  return json;
+}
+
+Provenance read_provenance(const nlohmann::ordered_json& summary)
+{
+  Provenance made_by;
+  made_by.version = text_of(summary, "feldspar_version");
+  made_by.commit = text_of(summary, "commit");
+  if (const auto input = summary.find("input"); input != summary.end() && input->is_object())
+    {
+      made_by.input_file = text_of(*input, "file");
+      if (const auto parameters = input->find("parameters"); parameters != input->end() && parameters->is_object())
+        for (const auto& [section, entries] : parameters->items())
+          if (entries.is_object())
+            for (const auto& [entry, value] : entries.items())
+              made_by.input.push_back({section, entry, value.is_string() ? value.get<std::string>() : value.dump()});
+    }
+  if (const auto host = summary.find("host"); host != summary.end() && host->is_object())
+    {
+      made_by.processor = text_of(*host, "processor");
+      if (const auto threads = host->find("threads"); threads != host->end() && threads->is_number_unsigned())
+        made_by.n_threads = threads->get<unsigned int>();
+    }
+  return made_by;
+}
+
+std::string text_of(const nlohmann::ordered_json& json, const std::string_view key)
+{
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+} // namespace feldspar

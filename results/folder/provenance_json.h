@@ -1,0 +1,23 @@
+#pragma once
+
+#include "results/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace feldspar
+{
+/// The layout of summary.json.
+inline constexpr int summary_schema_version = 1;
+
+/// How every summary.json begins: layout, program, input and machine.
+nlohmann::ordered_json as_json(const Provenance& provenance);
+
+/// As far as it is there.
+Provenance read_provenance(const nlohmann::ordered_json& summary);
+
+/// A text by its key; empty if there is none.
+std::string text_of(const nlohmann::ordered_json& json, std::string_view key);
+} // namespace feldspar

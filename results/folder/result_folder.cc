@@ -1,0 +1,218 @@
+#include "results/folder/result_folder.h"
+
+#include "base/input_error.h"
+#include "results/folder/csv_tables.h"
+#include "results/folder/provenance_json.h"
+#include "results/folder/summary.h"
+#include "results/result_table.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+std::optional<TestKind> kind_named(const std::string_view wanted)
+{
+  for (const TestKind kind :
+       {TestKind::direct_tension, TestKind::uniaxial_compression, TestKind::triaxial_compression, TestKind::brazilian})
+    if (name(kind) == wanted)
+      return kind;
+  return std::nullopt;
+}
+
+Json read_summary(const std::filesystem::path& folder)
+{
+  const std::filesystem::path file = folder / result_file::summary;
+  std::ifstream in(file);
+  if (!in)
+    throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
+  Json json = Json::parse(in, nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    throw InputError(fmt::format("{}: not JSON, or cut short", file.string()));
+  if (!json.contains("tests") || !json["tests"].is_array())
+    throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
+  return json;
+}
+
+FinishedTest test_of(const Json& json, const TestKind kind)
+{
+  FinishedTest test;
+  test.record.kind = kind;
+  test.name = text_of(json, "name");
+  test.variant = text_of(json, "variant");
+  test.record.failure = text_of(json, "failure");
+  test.record.ended_early = text_of(json, "ended_early");
+  test.record.came_apart = json.contains("came_apart") && json["came_apart"] == true;
+  if (text_of(json, "body") == name(TestBody::finite_elements)) // layouts from before bodies were written have grains
+    test.record.body = TestBody::finite_elements;
+  test.record.interrupted = json.contains("interrupted") && json["interrupted"] == true;
+  if (const auto seed = json.find("seed"); seed != json.end() && seed->is_number_unsigned())
+    test.record.seed = seed->get<std::uint64_t>();
+  if (const auto size = json.find("size_m"); size != json.end() && size->is_array())
+    for (std::size_t c = 0; c < std::min<std::size_t>(size->size(), 3); ++c)
+      if ((*size)[c].is_number())
+        test.record.size[c] = (*size)[c].get<double>();
+  for (const auto& entry : result_table())
+    {
+      const std::string key(entry.name);
+      Figure figure{std::nullopt, "not in this result folder"};
+      if (const auto found = json.find(key); found != json.end() && found->is_number())
+        figure = {found->get<double>(), ""};
+      else if (const std::string reason = text_of(json, key + "_reason"); !reason.empty())
+        figure.reason = reason;
+      entry.set(test, figure);
+    }
+  test.group = text_of(json, "group");
+  if (test.group.empty()) // a layout from before groups were written
+    test.group = test.name.substr(0, test.name.rfind("_seed_"));
+  return test;
+}
+
+/// Files of the volume at a point of a sample, without ending.
+std::string name_of(const PointVolume& volume, const std::string& test)
+{
+  return fmt::format("{}_cell_{}_point_{}", test, volume.cell, volume.point);
+}
+
+/// By the tables that tests have.
+void write_volume(const PointVolume& volume, const FinishedTest& of, const std::filesystem::path& folder)
+{
+  FinishedTest alone;
+  alone.name = name_of(volume, of.name);
+  alone.record.kind = of.record.kind;
+  alone.record.grains_at_end = volume.grains;
+  alone.record.cracks = volume.cracks;
+  write_grains(alone, folder / (alone.name + "_grains.csv"));
+  write_cracks({alone}, folder / (alone.name + "_cracks.csv"));
+}
+
+PointVolume read_volume(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
+{
+  PointVolume volume;
+  try
+    {
+      volume.which = json.at("which").get<std::string>();
+      volume.cell = json.at("cell").get<unsigned int>();
+      volume.point = json.at("point").get<unsigned int>();
+      volume.position = json.at("position_m").get<std::array<double, 3>>();
+      volume.n_segments = json.at("n_segments").get<std::uint64_t>();
+    }
+  catch (const Json::exception&)
+    {
+      throw InputError(fmt::format("{}: a volume of {} is not described as this program does it",
+                                   (folder.parent_path() / result_file::summary).string(), of.name));
+    }
+  std::vector<FinishedTest> alone(1);
+  alone.front().name = name_of(volume, of.name);
+  alone.front().record.kind = of.record.kind;
+  volume.grains = read_grains(folder / (alone.front().name + "_grains.csv"));
+  read_cracks(folder / (alone.front().name + "_cracks.csv"), alone);
+  volume.cracks = std::move(alone.front().record.cracks);
+  return volume;
+}
+
+/// Runs a reader; what it objects to becomes a problem.
+template <typename Read>
+void try_to(std::vector<std::string>& problems, Read&& read)
+{
+  try
+    {
+      read();
+    }
+  catch (const InputError& error)
+    {
+      problems.push_back(error.what());
+    }
+}
+} // namespace
+
+void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
+                         const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder / result_file::curves);
+  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
+    std::filesystem::create_directories(folder / result_file::grains);
+  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.volumes.empty(); }))
+    std::filesystem::create_directories(folder / result_file::points);
+  for (const auto& test : tests)
+    {
+      write_curve(test, folder / result_file::curves / (test.name + ".csv"));
+      if (test.record.body == TestBody::grains)
+        write_grains(test, folder / result_file::grains / (test.name + ".csv"));
+      for (const auto& volume : test.volumes)
+        write_volume(volume, test, folder / result_file::points);
+    }
+  write_cracks(tests, folder / result_file::cracks);
+  write_summary(made_by, tests, folder / result_file::summary);
+}
+
+std::vector<Series> read_result_folder(const std::filesystem::path& folder)
+{
+  const Json json = read_summary(folder);
+  std::vector<std::string> problems;
+  const auto version = json.find("schema_version");
+  if (version == json.end() || *version != summary_schema_version)
+    problems.push_back(fmt::format("{} has layout {}; this program writes layout {}, so figures may be missing here",
+                                   (folder / result_file::summary).string(),
+                                   version == json.end() ? "unknown" : version->dump(), summary_schema_version));
+
+  std::vector<FinishedTest> tests;
+  for (const auto& entry : json["tests"])
+    if (const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind")) : std::nullopt)
+      tests.push_back(test_of(entry, *kind));
+    else
+      problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out",
+                                     (folder / result_file::summary).string()));
+  if (tests.empty())
+    throw InputError(fmt::format("{}: there is no test in it", (folder / result_file::summary).string()));
+
+  for (auto& test : tests)
+    {
+      if (!test.record.failure.empty())
+        continue; // it has none of them
+      const std::string table = test.name + ".csv";
+      try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      if (test.record.body == TestBody::grains)
+        try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
+      else if (std::filesystem::exists(folder / result_file::fields /
+                                       (test.name + ".xdmf"))) // large: may be thrown away
+        try_to(problems, [&] { test.fields = read_sample_fields(folder / result_file::fields, test.name); });
+    }
+  for (const auto& entry : json["tests"])
+    if (entry.is_object() && entry.contains("volumes") && entry["volumes"].is_array())
+      for (auto& test : tests)
+        if (test.name == text_of(entry, "name"))
+          for (const auto& volume : entry["volumes"])
+            try_to(problems, [&] { test.volumes.push_back(read_volume(volume, test, folder / result_file::points)); });
+  try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
+
+  const std::filesystem::path whole = std::filesystem::absolute(folder);
+  const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  std::vector<Series> all;
+  for (auto& test : tests)
+    {
+      const std::string name_of_series = test.variant.empty() ? label : test.variant;
+      auto series =
+        std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
+      if (series == all.end())
+        series = all.insert(all.end(),
+                            {name_of_series,
+                             test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
+                             read_provenance(json),
+                             {},
+                             {}});
+      series->tests.push_back(std::move(test));
+    }
+  all.front().problems = problems;
+  return all;
+}
+} // namespace feldspar

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "results/series.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// Files of a result folder that more than one place names.
+namespace result_file
+{
+inline constexpr const char* summary = "summary.json";
+inline constexpr const char* curves = "curves";
+inline constexpr const char* cracks = "cracks.csv";
+inline constexpr const char* grains = "grains";
+inline constexpr const char* fields = "fields";
+inline constexpr const char* points = "points";
+inline constexpr const char* reference = "reference.json";
+inline constexpr const char* figures = "figures";
+inline constexpr const char* tables = "tables";
+inline constexpr const char* page = "report.html";
+} // namespace result_file
+
+/// Writes what a later report needs: summary.json, curves/, cracks.csv, grains/, points/. The fields of finite
+/// elements, fields/, are there already.
+void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
+                         const std::filesystem::path& folder);
+
+/// Reads it back: one series, or one for each variant. A table that is missing or cannot be read leaves its place empty
+/// and becomes a problem of the series, as does a summary of another layout, as far as it can be read. Throws InputError
+/// where there is no summary.json at all or where nothing in it is a test.
+std::vector<Series> read_result_folder(const std::filesystem::path& folder);
+} // namespace feldspar

@@ -1,0 +1,145 @@
+#include "results/folder/summary.h"
+
+#include "base/whole_file.h"
+#include "results/fits/strength_data.h"
+#include "results/fits/strength_envelopes.h"
+#include "results/folder/provenance_json.h"
+#include "results/result_table.h"
+#include "results/statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// Whole numbers are written as such.
+Json number(const double value)
+{
+  if (std::abs(value) < 0x1p53 && value == std::floor(value) && std::abs(value) < 1e15)
+    return std::int64_t(value);
+  return value;
+}
+
+/// A number, or null with the reason in a field beside it.
+void write_figure(Json& json, const std::string& key, const Figure& figure)
+{
+  if (figure.value)
+    json[key] = number(*figure.value);
+  else
+    {
+      json[key] = nullptr;
+      json[key + "_reason"] = figure.reason;
+    }
+}
+
+Json describe(const FinishedTest& test)
+{
+  Json json;
+  json["kind"] = name(test.record.kind);
+  json["name"] = test.name;
+  json["group"] = test.group;
+  json["body"] = name(test.record.body);
+  json["seed"] = test.record.seed;
+  if (!test.variant.empty())
+    json["variant"] = test.variant;
+  json["interrupted"] = test.record.interrupted;
+  if (!test.record.failure.empty())
+    json["failure"] = test.record.failure;
+  if (!test.record.ended_early.empty())
+    json["ended_early"] = test.record.ended_early;
+  if (test.record.came_apart)
+    json["came_apart"] = true;
+  if (test.record.solver_work)
+    json["solver_work"] = {{"solves", test.record.solver_work->n_solves},
+                           {"iterations", test.record.solver_work->n_iterations},
+                           {"cascades", test.record.solver_work->n_cascades},
+                           {"seconds_in_points", test.record.solver_work->seconds_in_points}};
+  json["size_m"] = test.record.size;
+  if (const RankBalance& ranks = test.record.ranks; ranks.mean > 0.0)
+    json["ranks"] = {{"mean_s", ranks.mean},
+                     {"longest_s", ranks.longest},
+                     {"longest_unmoved_s", ranks.longest_unmoved},
+                     {"moves", ranks.n_moves}};
+  for (const auto& entry : result_table())
+    {
+      write_figure(json, std::string(entry.name), entry.value(test));
+    }
+  for (const auto& volume : test.volumes)
+    json["volumes"].push_back({{"which", volume.which},
+                               {"cell", volume.cell},
+                               {"point", volume.point},
+                               {"position_m", volume.position},
+                               {"n_segments", volume.n_segments},
+                               {"n_broken_segments", volume.cracks.size()}});
+  return json;
+}
+
+/// Means over the seeds of each group of tests.
+Json ensemble(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::string, std::map<std::string_view, std::vector<double>>> values;
+  for (const auto& test : tests)
+    for (const auto& entry : result_table())
+      if (const Figure figure = entry.value(test); figure.value)
+        values[test.group][entry.name].push_back(*figure.value);
+
+  Json json = Json::object();
+  for (const auto& [group, figures] : values)
+    for (const auto& entry : result_table())
+      if (const auto found = figures.find(entry.name); found != figures.end())
+        {
+          const auto over_seeds = statistics(found->second);
+          Json& out = json[group][std::string(entry.name)];
+          out["n"] = over_seeds->n;
+          out["mean"] = over_seeds->mean;
+          if (over_seeds->standard_deviation)
+            {
+              out["standard_deviation"] = *over_seeds->standard_deviation;
+              out["standard_error"] = *over_seeds->standard_error;
+              out["mean_confidence_95"] = *over_seeds->confidence_95;
+            }
+        }
+  return json;
+}
+/// Every strength envelope of one programme; variants of it are different rocks and are not fitted together.
+Json fits(const std::vector<FinishedTest>& tests)
+{
+  Json json;
+  const bool varied = !tests.empty() && !tests.front().variant.empty();
+  for (const auto& record : records(fit_strength_envelopes(varied ? StrengthData{} : strength_data(tests))))
+    {
+      Json& form = json[record.form];
+      Json& out = record.variant.empty() ? form : form[record.variant];
+      if (!record.reason.empty())
+        {
+          out["reason"] = varied ? "variants are not fitted together" : record.reason;
+          continue;
+        }
+      for (const auto& [entry_name, figure] : record.entries)
+        write_figure(out, entry_name, figure);
+      for (const auto& [point, residual] : record.residuals)
+        out["residuals"].push_back(
+          {{"sigma_3_Pa", point.sigma_3}, {"sigma_1_Pa", point.sigma_1}, {"residual_Pa", residual}});
+    }
+  return json;
+}
+} // namespace
+
+void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests,
+                   const std::filesystem::path& file)
+{
+  Json json = as_json(provenance);
+  json["tests"] = Json::array();
+  for (const auto& test : tests)
+    json["tests"].push_back(describe(test));
+  json["ensemble"] = ensemble(tests);
+  json["fits"] = fits(tests);
+  write_whole_file(file, json.dump(2) + "\n");
+}
+} // namespace feldspar

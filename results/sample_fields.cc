@@ -1,0 +1,132 @@
+#include "results/sample_fields.h"
+
+#include "base/hdf5_archive.h"
+#include "base/input_error.h"
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+using Xml = boost::property_tree::ptree;
+
+constexpr const char* expected = "a field of `feldspar multiscale`";
+
+/// "FILE:/ARRAY" of a <DataItem>.
+struct Place
+{
+  std::string file;
+  std::string array;
+};
+
+Place place_of(const Xml& parent)
+{
+  std::string text = parent.get<std::string>("DataItem");
+  text.erase(std::remove_if(text.begin(), text.end(), [](const char c) { return c == ' ' || c == '\n' || c == '\t'; }),
+             text.end());
+  const std::size_t colon = text.find(":/");
+  if (colon == std::string::npos)
+    throw InputError("a DataItem names no array of a file");
+  return {text.substr(0, colon), text.substr(colon + 2)};
+}
+
+/// What the index says of the last time.
+struct LastTime
+{
+  double time;
+  Place nodes;
+  Place cells;
+  std::map<std::string, Place> fields;
+};
+
+LastTime last_time(const std::filesystem::path& index)
+{
+  Xml xml;
+  boost::property_tree::read_xml(index.string(), xml);
+  const Xml* last = nullptr;
+  for (const auto& [tag, child] : xml.get_child("Xdmf.Domain.Grid"))
+    if (tag == "Grid")
+      last = &child;
+  if (!last)
+    throw InputError("there is no time in it");
+  LastTime found{last->get<double>("Time.<xmlattr>.Value"),
+                 place_of(last->get_child("Geometry")),
+                 place_of(last->get_child("Topology")),
+                 {}};
+  for (const auto& [tag, child] : *last)
+    if (tag == "Attribute")
+      found.fields[child.get<std::string>("<xmlattr>.Name")] = place_of(child);
+  return found;
+}
+
+/// Rows of `n_columns`, filled up to three.
+std::vector<std::array<double, 3>> points_of(const std::vector<double>& values, const std::size_t n_columns)
+{
+  std::vector<std::array<double, 3>> points(values.size() / n_columns);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    std::copy_n(values.begin() + std::ptrdiff_t(n_columns * i), n_columns, points[i].begin());
+  return points;
+}
+
+SampleFields fields_of(const std::filesystem::path& folder, const LastTime& last)
+{
+  SampleFields fields;
+  fields.n_rows = std::size_t(last.time);
+  std::vector<double> nodes, displacement;
+  std::vector<std::uint32_t> corners;
+  read_hdf5(folder / last.nodes.file, expected, [&](Hdf5Reader& root) {
+    root.array(last.nodes.array, nodes);
+    root.array(last.cells.array, corners);
+  });
+  if (last.fields.empty())
+    throw InputError("there is no field in it");
+  // Of each node, those of cells too; all in one file.
+  std::map<std::string, std::vector<double>> of_nodes;
+  read_hdf5(folder / last.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
+    for (const auto& [name, place] : last.fields)
+      root.array(place.array, of_nodes[name]);
+  });
+
+  // Every field has a value a node, and every node is of one cell.
+  const std::size_t n_nodes = corners.size();
+  fields.dimension = nodes.size() == 2 * n_nodes ? 2 : 3;
+  const std::size_t n_corners = fields.dimension == 2 ? 4 : 8;
+  const bool fits = n_nodes > 0 && nodes.size() == fields.dimension * n_nodes && n_nodes % n_corners == 0 &&
+                    of_nodes["displacement"].size() == 3 * n_nodes &&
+                    std::all_of(corners.begin(), corners.end(), [=](const std::uint32_t i) { return i < n_nodes; });
+  if (!fits)
+    throw InputError("its arrays differ in length");
+  fields.nodes = points_of(nodes, fields.dimension);
+  fields.displacement = points_of(of_nodes["displacement"], 3);
+  for (std::size_t begin = 0; begin < n_nodes; begin += n_corners)
+    fields.cells.emplace_back(corners.begin() + std::ptrdiff_t(begin),
+                              corners.begin() + std::ptrdiff_t(begin + n_corners));
+  for (const auto& [name, values] : of_nodes)
+    if (values.size() == n_nodes)
+      for (const auto& cell : fields.cells)
+        fields.of_each_cell[name].push_back(values[cell.front()]);
+  return fields;
+}
+} // namespace
+
+SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name)
+{
+  const std::filesystem::path index = folder / (name + ".xdmf");
+  if (!std::filesystem::exists(index))
+    throw InputError(fmt::format("{}: missing", index.string()));
+  try
+    {
+      return fields_of(folder, last_time(index));
+    }
+  catch (const boost::property_tree::ptree_error& error)
+    {
+      throw InputError(fmt::format("{}: not XDMF of `feldspar multiscale`, or cut short", index.string()));
+    }
+}
+} // namespace feldspar

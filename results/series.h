@@ -1,0 +1,27 @@
+#pragma once
+
+#include "results/run.h"
+
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What the tests of a series were made on.
+enum class SeriesKind
+{
+  specimens,       ///< of grains: `feldspar lab`
+  finite_elements, ///< with a volume of grains or a law at every point: `feldspar multiscale`
+  laboratory_curve ///< measured on rock: `feldspar report --curve`
+};
+
+/// Tests on one rock that the report shows under one name and in one colour: a result folder, or a variant in it.
+struct Series
+{
+  std::string label;
+  SeriesKind kind = SeriesKind::specimens;
+  Provenance made_by;
+  std::vector<FinishedTest> tests;
+  std::vector<std::string> problems; ///< what of it could not be had and why, each in a sentence
+};
+} // namespace feldspar

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "results/series.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// The tests of one kind and pressure in a series: one a seed.
+struct TestGroup
+{
+  TestKind kind;
+  double confining_pressure; ///< [Pa]
+  std::vector<const FinishedTest*> tests;
+
+  std::string title() const; ///< Triaxial compression, 5 MPa
+  std::string name() const;  ///< for files: triaxial_compression_5_MPa
+};
+
+/// The groups of a series in the order of kinds and pressures. The series must outlive them.
+std::vector<TestGroup> groups_of(const Series& series);
+
+/// Of the confinements only the lowest and the highest: what a page has room for.
+std::vector<TestGroup> shown(const std::vector<TestGroup>& groups);
+
+/// The first test of a group that has a curve with a peak; null if there is none.
+const FinishedTest* typical(const TestGroup& group);
+
+/// A figure over the seeds of a group, where it could be had.
+std::vector<double> values(const TestGroup& group, Figure TestResults::*figure);
+
+/// A quantity along the curves of a group: mean and standard deviation over the tests at the same axial strain, as far
+/// as all curves go. Strain is positive in the sense of the test.
+struct Band
+{
+  std::vector<double> strain;
+  std::vector<double> mean;
+  std::vector<double> deviation; ///< 0 of a single test
+};
+
+/// `quantity` of a row, without the sign of the laboratory; `laboratory` puts it on.
+Band band(const TestGroup& group, const std::function<double(const CurveSample&)>& quantity, bool laboratory);
+} // namespace feldspar
