@@ -206,7 +206,7 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
           n_tension += point.n_tension;
           n_shear += point.n_shear;
         }
-      plots += fmt::format("set title {} noenhanced\n", quoted(all_stages[s].title));
+      plots += fmt::format("set title {} noenhanced\n", gnuplot_text(all_stages[s].title));
       if (rows.empty())
         {
           plots += "plot NaN notitle\n";
@@ -263,7 +263,7 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
       data += fmt::format("$grains{} << EOD\n{}EOD\n", s, grains);
       plots +=
         fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
-                    quoted(all_stages[s].title), s, light_grey);
+                    gnuplot_text(all_stages[s].title), s, light_grey);
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
         add_cracks(data, plots, s, kind, stage_rows(record, kind, all_stages[s]), 1.8);
       plots += "\n";
@@ -383,7 +383,7 @@ std::vector<Picture> rose_picture(const Series& series)
         "set label 1 'ring: {2} %' at graph 0.98,0.03 right tc rgb '#404040' front\n"
         "plot $all{3} using 1:2 with filledcurves closed fs solid 0.8 noborder lc rgb '{4}' title 'tension', "
         "$shear{3} using 1:2 with filledcurves closed fs solid 0.9 noborder lc rgb '{5}' title 'shear'\n",
-        quoted(group.title()), reach, ring, n_panels, tension_colour, shear_colour);
+        gnuplot_text(group.title()), reach, ring, n_panels, tension_colour, shear_colour);
       ++n_panels;
     }
   if (n_panels == 0)

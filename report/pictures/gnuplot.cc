@@ -59,7 +59,7 @@ std::string whole_script(const Picture& picture, const std::filesystem::path& fo
   std::string script = "set encoding utf8\n";
   for (const auto& [ending, terminal] : outputs(picture))
     script += fmt::format("set terminal {}\nset output {}\n{}unset output\nreset\n", terminal,
-                          quoted((folder / (picture.name + ending)).string()), picture.script);
+                          gnuplot_text((folder / (picture.name + ending)).string()), picture.script);
   return script;
 }
 
@@ -87,7 +87,7 @@ std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::f
   return problems;
 }
 
-std::string quoted(const std::string& text)
+std::string gnuplot_text(const std::string& text)
 {
   std::string result = "'";
   for (const char c : text)

@@ -34,5 +34,5 @@ struct Picture
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder);
 
 /// Text as gnuplot's single-quoted string.
-std::string quoted(const std::string& text);
+std::string gnuplot_text(const std::string& text);
 } // namespace feldspar

@@ -31,12 +31,12 @@ std::string frame(const std::string& x_label, const std::string& y_label)
   return fmt::format("set xlabel {} noenhanced offset 0,0.4\nset ylabel {} noenhanced\n"
                      "set border 3 lw 0.8; set tics nomirror out; set grid lw 0.5 lc rgb '#e4e4e4'\n"
                      "set key below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8 noenhanced\n",
-                     quoted(x_label), quoted(y_label));
+                     gnuplot_text(x_label), gnuplot_text(y_label));
 }
 
 std::string title(const std::string& text)
 {
-  return text.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(text));
+  return text.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_text(text));
 }
 
 void add_cracks(std::string& data, std::string& plots, const std::size_t n, const CrackKind kind,

@@ -470,7 +470,7 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
       data += fmt::format("$grains{0} << EOD\n{1}EOD\n", k, body);
       plots +=
         fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
-                    feldspar::quoted(headings[k]), k, light_grey);
+                    gnuplot_text(headings[k]), k, light_grey);
       if (!loose.empty())
         {
           data += fmt::format("$loose{} << EOD\n{}EOD\n", k, loose);

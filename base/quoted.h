@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+/// Text of others (input files, names of folders, results from elsewhere) as messages and pages may show it.
+namespace feldspar
+{
+/// One line of UTF-8: control characters as \n or \x1b, bytes that are not UTF-8 as \xff. Everything else stays.
+std::string printable(std::string_view text);
+
+/// printable(), cut to a number of characters; the last of these is then an ellipsis.
+std::string excerpt(std::string_view text, std::size_t most_characters = 72);
+
+/// An excerpt between double quotation marks, as messages repeat an entry or a cell.
+std::string in_quotes(std::string_view text);
+} // namespace feldspar
