@@ -1,0 +1,27 @@
+#pragma once
+
+#include "coupling/rve/network_history.h"
+#include "coupling/rve/parameters.h"
+
+#include <vector>
+
+/// Which segments break, and when; docs/theory.md §10.3.
+namespace feldspar
+{
+/// A segment beyond its strength.
+struct Overload
+{
+  double ratio; ///< max(σ̂/σ_b, |τ|/τ_c)
+  std::uint32_t segment;
+  bool in_tension;
+};
+
+/// Segments with bonds that are overloaded where the network stands, as many as break at once by the rule.
+template <int dim>
+std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present, BreakRule rule);
+
+/// Of the way since the last event, taken as straight, how much is behind when the first of these is overloaded.
+template <int dim>
+double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history,
+                   const Unknowns& position);
+} // namespace feldspar

@@ -1,0 +1,127 @@
+#include "coupling/rve/network_history.h"
+
+#include <algorithm>
+
+namespace feldspar
+{
+namespace
+{
+// Of the mean link's force nothing is asked below that at this strain: a body that has come apart balances at nothing.
+constexpr double least_strain = 1e-9;
+} // namespace
+
+template <int dim>
+NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state)
+  : of(network)
+  , number(network.links().size(), none)
+  , position_at_event(unknowns_of(network, state))
+{
+  for (const auto& unbonded : state.unbonded)
+    {
+      const std::uint32_t link = network.link_of_segment(unbonded.segment);
+      auto& segment = activate(link).segments[unbonded.segment - network.links()[link].first_segment];
+      segment.bonded = false;
+      segment.shear_stress = unbonded.shear_stress;
+    }
+}
+
+/// All bonded; a pair without a face never is.
+template <int dim>
+ActiveLink<dim> NetworkHistory<dim>::at_event(const std::uint32_t link) const
+{
+  const Link<dim>& as_built = of.links()[link];
+  ActiveLink<dim> result{link, link_motion(as_built, position_at_event), {}};
+  result.segments.resize(as_built.n_segments);
+  result.segments.front().bonded = as_built.has_face;
+  return result;
+}
+
+template <int dim>
+ActiveLink<dim>& NetworkHistory<dim>::activate(const std::uint32_t link)
+{
+  if (number[link] == none)
+    {
+      number[link] = std::uint32_t(active_links.size());
+      active_links.push_back(at_event(link));
+    }
+  return active_links[number[link]];
+}
+
+template <int dim>
+void NetworkHistory<dim>::keep(const Configuration<dim>& present)
+{
+  for (std::size_t a = 0; a < active_links.size(); ++a)
+    {
+      active_links[a].motion = link_motion(of.links()[active_links[a].link], present.position);
+      for (std::size_t i = 0; i < active_links[a].segments.size(); ++i)
+        if (!active_links[a].segments[i].bonded)
+          active_links[a].segments[i].shear_stress = present.balance.active[a].segments[i].shear_stress;
+    }
+  position_at_event = present.position;
+  for (const auto& [link, touch] : present.balance.touches)
+    activate(link).segments.front().shear_stress = touch.segments.front().shear_stress;
+}
+
+template <int dim>
+Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
+{
+  const auto& links = of.links();
+  Balance<dim> result;
+  result.forces = Unknowns::Zero(of.n_unknowns());
+  result.active.resize(active_links.size());
+  double carried = 0.0;
+  std::size_t n_carrying = 0;
+  const auto add = [&](const Link<dim>& link, const Motion<dim>& forces) {
+    add_forces(link, forces, result.forces);
+    const double force = forces.template head<dim>().norm();
+    carried += force;
+    ++n_carrying;
+    result.carried_stress += force * link.branch.norm() / of.volume();
+  };
+  const auto add_answer = [&](const Link<dim>& link, const LinkAnswer<dim>& answer) {
+    add(link, answer.forces);
+    result.stored_energy += answer.stored_energy;
+  };
+  for (std::uint32_t k = 0; k < links.size(); ++k)
+    {
+      const Motion<dim> motion = link_motion(links[k], at);
+      if (number[k] != none)
+        {
+          auto& of_link = result.active[number[k]];
+          of_link = answer(of, active_links[number[k]], motion);
+          add_answer(links[k], of_link);
+        }
+      else if (links[k].has_face)
+        {
+          const Motion<dim> forces = of.bonded_stiffness(k) * motion;
+          add(links[k], forces);
+          result.stored_energy += 0.5 * motion.dot(forces);
+        }
+      else if (links[k].opening + motion[0] < 0.0)
+        {
+          result.touches.emplace_back(k, answer(of, at_event(k), motion));
+          add_answer(links[k], result.touches.back().second);
+        }
+    }
+  result.stress = result.forces.template tail<n_voigt<dim>>() / of.volume();
+
+  double largest = 0.0;
+  for (std::size_t i = 0; i < of.n_grains(); ++i)
+    {
+      const auto force = result.forces.template segment<n_motions<dim>>(n_motions<dim> * Eigen::Index(i));
+      largest = std::max(
+        {largest, force.template head<dim>().norm(), force.template tail<n_rotations<dim>>().norm() / of.radii()[i]});
+    }
+  const double least = least_strain * of.mean_normal_stiffness();
+  const double mean_force = n_carrying > 0 ? carried / double(n_carrying) : 0.0;
+  result.unbalanced_ratio = largest / std::max(mean_force, least);
+  result.carried_stress =
+    std::max(result.carried_stress, least * double(of.n_joints()) * of.mean_branch() / of.volume());
+  // Forces on grains act against the links' own.
+  result.forces.head(of.n_unknowns() - n_voigt<dim>) *= -1.0;
+  return result;
+}
+
+template class NetworkHistory<2>;
+template class NetworkHistory<3>;
+} // namespace feldspar

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "coupling/rve/link_response.h"
+#include "coupling/rve/network_state.h"
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+/// Forces of a network whose grains stand at a position.
+template <int dim>
+struct Balance
+{
+  Unknowns forces; ///< on grains as they act, then volume × stress
+  Voigt<dim> stress;
+  double unbalanced_ratio = 0.0;
+  double carried_stress = 0.0; ///< Σ |f| |l| / V over the links [Pa]
+  double stored_energy = 0.0;
+  std::vector<LinkAnswer<dim>> active;                            ///< of each active link
+  std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
+};
+
+/// Where a network stands, and the forces there.
+template <int dim>
+struct Configuration
+{
+  Unknowns position;
+  Balance<dim> balance;
+};
+
+/// A network as it stood at the last event: where its grains were, and the links that are no longer linear.
+template <int dim>
+class NetworkHistory
+{
+public:
+  NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state);
+
+  const Network<dim>& network() const { return of; }
+  const Unknowns& position() const { return position_at_event; }
+  /// In the order of their first break or touch.
+  const std::vector<ActiveLink<dim>>& active() const { return active_links; }
+  bool is_active(const std::uint32_t link) const { return number[link] != none; }
+  /// Of an active link in active().
+  std::uint32_t active_number(const std::uint32_t link) const { return number[link]; }
+
+  /// Forces with the grains at a position, by the straight way from the last event.
+  Balance<dim> balance(const Unknowns& at) const;
+
+  /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
+  ActiveLink<dim>& activate(std::uint32_t link);
+
+  /// Makes this the last event: positions and shear stresses are kept, pairs that touch become active.
+  void keep(const Configuration<dim>& present);
+
+private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  ActiveLink<dim> at_event(std::uint32_t link) const;
+
+  const Network<dim>& of;
+  std::vector<ActiveLink<dim>> active_links;
+  std::vector<std::uint32_t> number; ///< of each link in `active_links`, or none
+  Unknowns position_at_event;
+};
+} // namespace feldspar

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "coupling/rve/parameters.h"
+#include "coupling/rve/tangent.h"
+
+/// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §10.3.
+namespace feldspar
+{
+/// What is prescribed, per Voigt component: a strain, or a stress.
+template <int dim>
+struct Control
+{
+  std::array<bool, n_voigt<dim>> stress_given{};
+  Voigt<dim> strain = Voigt<dim>::Zero(); ///< where a strain is given; elsewhere where to begin
+  Voigt<dim> stress = Voigt<dim>::Zero(); ///< where a stress is given [Pa]
+};
+
+template <int dim>
+Control<dim> strain_control(const Voigt<dim>& strain)
+{
+  Control<dim> control;
+  control.strain = strain;
+  return control;
+}
+
+/// Where a way to equilibrium ended.
+template <int dim>
+struct Relaxed
+{
+  Configuration<dim> present;
+  bool balanced;
+  unsigned int n_iterations;
+};
+
+/// By Newton's method, from a configuration whose given strains are reached. `solver` keeps what it factorises.
+template <int dim>
+Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
+                             double tolerance, unsigned int most_iterations, TangentSolver<dim>& solver);
+
+/// By damped motion, nearer to equilibrium where Newton's method goes in circles.
+template <int dim>
+Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
+                             double tolerance);
+} // namespace feldspar

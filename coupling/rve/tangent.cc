@@ -1,0 +1,159 @@
+#include "coupling/rve/tangent.h"
+
+#include "base/fingerprint.h"
+#include "coupling/rve/conjugate_gradients.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace feldspar
+{
+template <int dim>
+Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
+                       JointStiffness<dim> LinkAnswer<dim>::*const which)
+{
+  const Network<dim>& network = history.network();
+  const auto& links = network.links();
+  Unknowns result = Unknowns::Zero(network.n_unknowns());
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    {
+      const auto& stiffness =
+        history.is_active(k) ? at.active[history.active_number(k)].*which : network.bonded_stiffness(k);
+      add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
+    }
+  for (std::size_t a = 0; a < history.active().size(); ++a)
+    if (const auto& link = links[history.active()[a].link]; !link.has_face)
+      add_forces(link, at.active[a].*which * link_motion(link, unknowns), result);
+  for (const auto& [k, touch] : at.touches)
+    add_forces(links[k], touch.*which * link_motion(links[k], unknowns), result);
+  return result;
+}
+
+template <int dim>
+std::vector<JointStiffness<dim>> link_tangents(const NetworkHistory<dim>& history, const Balance<dim>& at)
+{
+  const Network<dim>& network = history.network();
+  std::vector<JointStiffness<dim>> tangents(network.links().size(), JointStiffness<dim>::Zero());
+  for (std::uint32_t k = 0; k < tangents.size(); ++k)
+    if (history.is_active(k))
+      tangents[k] = at.active[history.active_number(k)].tangent;
+    else if (k < network.n_joints())
+      tangents[k] = network.bonded_stiffness(k);
+  for (const auto& [k, touch] : at.touches)
+    tangents[k] = touch.tangent;
+  return tangents;
+}
+
+template <int dim>
+Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
+{
+  const Network<dim>& network = history.network();
+  Stiffness<dim> result;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    result.col(k) =
+      apply_tangent(history, at, Unknowns::Unit(network.n_unknowns(), network.n_unknowns() - n_voigt<dim> + k))
+        .template tail<n_voigt<dim>>() /
+      network.volume();
+  return result;
+}
+
+template <int dim>
+std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
+{
+  Fingerprint print;
+  const auto add = [&](const std::uint32_t link, const JointStiffness<dim>& tangent) {
+    print.add(link);
+    constexpr int finer_than_a_thousandth = 52 - 10; // bits
+    for (const double entry : tangent.reshaped())
+      print.add(std::bit_cast<std::uint64_t>(entry) >> finer_than_a_thousandth);
+  };
+  for (std::size_t a = 0; a < history.active().size(); ++a)
+    add(history.active()[a].link, at.active[a].tangent);
+  for (const auto& [k, touch] : at.touches)
+    add(k, touch.tangent);
+  return print.value();
+}
+
+template <int dim>
+Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
+                                   const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
+                                   const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
+                                   const double tolerance)
+{
+  const Network<dim>& network = history.network();
+  const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+    const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
+    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
+                     : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
+  };
+  const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
+  if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
+    return solution.x;
+  std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
+  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+    stiffnesses[k] = &network.bonded_stiffness(k);
+  for (std::size_t a = 0; a < history.active().size(); ++a)
+    stiffnesses[history.active()[a].link] = &at.active[a].tangent;
+  for (const auto& [k, touch] : at.touches)
+    stiffnesses[k] = &touch.tangent;
+  factorised = std::make_shared<const FactorisedNetwork<dim>>(
+    network.factorise([&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness));
+  constexpr unsigned int most_iterations = 400;
+  return solve(*factorised, most_iterations).x;
+}
+
+template <int dim>
+Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
+{
+  const Network<dim>& network = history.network();
+  if (history.active().empty() && at.touches.empty())
+    return network.intact_stiffness();
+  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
+  const auto apply = [&](const Unknowns& x) {
+    Unknowns y = apply_tangent(history, at, x);
+    y.template tail<n_voigt<dim>>().setZero();
+    return y;
+  };
+  std::array<Unknowns, n_voigt<dim>> answers;
+  Stiffness<dim> result;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
+      // against what the affine motion would leave.
+      Unknowns& unit = answers[k];
+      unit = network.intact_unknowns(Voigt<dim>::Unit(k));
+      const auto left_by = [&](const Unknowns& motions) {
+        Unknowns right = -apply_tangent(history, at, motions);
+        right.template tail<n_voigt<dim>>().setZero();
+        return right;
+      };
+      const auto size = [&](const Unknowns& forces) {
+        return std::sqrt(forces.dot(network.factorised_intact().solve(forces, {})));
+      };
+      const Unknowns right = left_by(unit);
+      const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
+      constexpr double error_of_motions = 1e-5; // of energies, that is squared
+      const double tolerance = error_of_motions * size(affine) / std::max(size(right), 1e-300);
+      if (tolerance < 1.0)
+        unit.head(n_own) += solve(history, at, apply, true, right, {}, tolerance).head(n_own);
+      const Unknowns forces = apply_tangent(history, at, unit);
+      for (int j = 0; j <= k; ++j)
+        result(j, k) = result(k, j) = answers[j].dot(forces) / network.volume();
+    }
+  return result;
+}
+
+template class TangentSolver<2>;
+template class TangentSolver<3>;
+template Unknowns apply_tangent(const NetworkHistory<2>&, const Balance<2>&, const Unknowns&,
+                                JointStiffness<2> LinkAnswer<2>::*);
+template Unknowns apply_tangent(const NetworkHistory<3>&, const Balance<3>&, const Unknowns&,
+                                JointStiffness<3> LinkAnswer<3>::*);
+template std::vector<JointStiffness<2>> link_tangents(const NetworkHistory<2>&, const Balance<2>&);
+template std::vector<JointStiffness<3>> link_tangents(const NetworkHistory<3>&, const Balance<3>&);
+template Stiffness<2> affine_tangent(const NetworkHistory<2>&, const Balance<2>&);
+template Stiffness<3> affine_tangent(const NetworkHistory<3>&, const Balance<3>&);
+template std::uint64_t states_of_tangent(const NetworkHistory<2>&, const Balance<2>&);
+template std::uint64_t states_of_tangent(const NetworkHistory<3>&, const Balance<3>&);
+} // namespace feldspar
