@@ -189,7 +189,7 @@ void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
 {
   for (const auto& pair : envelopes.hoek_brown)
     {
-      // One curve in two parametrisations (docs/theory.md §8.1): drawn once.
+      // One curve in two parametrisations (docs/theory.md §6.1): drawn once.
       if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;

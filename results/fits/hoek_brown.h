@@ -37,7 +37,7 @@ struct HoekBrownFit
   double sigma_1(double sigma_3) const;
 };
 
-/// Bounded least squares in sigma_1 with m > 0, s > 0, 0.05 <= a <= 1 (docs/theory.md §8.1). With the tension point the
+/// Bounded least squares in sigma_1 with m > 0, s > 0, 0.05 <= a <= 1 (docs/theory.md §6.1). With the tension point the
 /// measured tensile strength counts as one point more, (-sigma_t, 0), at which the bracket stays >= 0. The same data
 /// give the same bits.
 FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, HoekBrownForm form, bool with_tension_point);

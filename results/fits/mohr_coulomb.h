@@ -16,6 +16,6 @@ struct MohrCoulombFit
   double sigma_1(double sigma_3) const;
 };
 
-/// Linear least squares in sigma_1 over the points with sigma_3 >= 0 (docs/theory.md §8.2).
+/// Linear least squares in sigma_1 over the points with sigma_3 >= 0 (docs/theory.md §6.2).
 FitOrReason<MohrCoulombFit> fit_mohr_coulomb(const StrengthData& data);
 } // namespace feldspar

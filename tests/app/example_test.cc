@@ -323,7 +323,7 @@ TEST(Example, TheVolumesReadmeShowsTheCommittedResults)
                       }))));
   };
   const std::string rule = "Representative volume/Break rule = ";
-  rate_row("from break to break", volume_results("break-rules"), rule + "near worst");
+  rate_row("event by event", volume_results("break-rules"), rule + "near worst");
   rate_row("the same, the worst segment only", volume_results("break-rules"), rule + "only worst");
   for (const auto& [steps, name] :
        {std::pair("1000", "1 000"), {"10000", "10 000"}, {"100000", "100 000"}, {"1000000", "1 000 000"}})
