@@ -587,8 +587,9 @@ std::vector<Parameter> make_parameter_table()
       "strain: the sample widens by Compression step from row to row and the platens follow (class II)"),
     sample.choice<bool>(
       "Softening", &M::scaled_softening, {{"scaled", true}, {"as it is", false}},
-      "of a volume once its stress has begun to fall; scaled: by the size of its element over its own, "
-      "so that the curve after the peak does not depend on the mesh"),
+      "of the representative volume of a point once its stress has begun to fall; scaled: by the size of its element over "
+      "its own, so that the curve after the peak does not depend on the mesh where the fall can be followed (not in an "
+      "avalanche)"),
     sample.integer("Realisations", &M::n_realisations, {'[', 1.0, 1000.0, ']'},
                    "packings of the volume, dealt to the points by the seed"),
     sample.choice<bool>("Orientation", &M::random_orientation, {{"random", true}, {"fixed", false}},

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the user may choose of a representative volume, in SI units. A default-constructed value is the default.
+/// Parameters of a representative volume, in SI units. Default-constructed values are the defaults of the input.
 namespace feldspar
 {
 /// Largest magnitude of a strain that is taken: the kinematics are those of small strains.

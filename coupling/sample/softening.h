@@ -11,8 +11,8 @@
 
 namespace feldspar
 {
-/// A volume of one size as the material of a piece of the sample of another, so that what a band of pieces dissipates per
-/// area does not depend on their size; docs/theory.md §11.
+/// A volume of one size as the material of a piece of the sample of another, so that the energy that a band of
+/// pieces dissipates per area does not depend on their size, except in an avalanche; docs/theory.md §11.
 ///
 /// Until the point localises the strain of the volume is that of the piece. It localises where an event leaves it with
 /// dσ : dε < 0 since the last accepted step. From then on the strain beyond the elastic one is scaled,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the user may choose of the dynamics, in SI units and radians, tension positive. A default-constructed value is the
-/// default.
+/// Parameters of the dynamics, in SI units and radians, tension positive. Default-constructed values are the defaults of
+/// the input.
 namespace feldspar
 {
 struct DynamicsParameters

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-/// What the user may choose of the laboratory tests, in SI units and radians, tension positive. A default-constructed value is the
-/// default.
+/// Parameters of the laboratory tests, in SI units and radians, tension positive. Default-constructed values are the
+/// defaults of the input.
 namespace feldspar
 {
 /// What presses the side of a cylinder in a triaxial test.

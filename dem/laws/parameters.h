@@ -3,8 +3,9 @@
 #include <numbers>
 #include <optional>
 
-/// What the user may choose of contacts, in SI units and radians, tension positive. A default-constructed value is the
-/// default.
+/// Parameters of contacts, in SI units and radians, tension positive. Default-constructed values are the defaults of the
+/// input, except for the number of joints: neither the installation gap ratio nor the coordination number is set, and one
+/// of them must be. An input that gives neither means z = 4.2 in the plane and a gap ratio of 0.05 in space.
 namespace feldspar
 {
 enum class StrengthDraw

@@ -2,8 +2,8 @@
 
 #include <string>
 
-/// What the user may choose of a specimen, in SI units and radians, tension positive. A default-constructed value is the
-/// default.
+/// Parameters of a specimen, in SI units and radians, tension positive. Default-constructed values are the defaults of the
+/// input in the plane; in space an input without a porosity means 0.36.
 namespace feldspar
 {
 /// The body of grains to be made (or read).
