@@ -192,6 +192,26 @@ std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, 
   return all;
 }
 
+template <int dim>
+double joint_energy(const Joints<dim>& joints, const std::size_t j)
+{
+  const Face<double> face{joints.normal_stiffness[j], joints.shear_stiffness[j], joints.half_length[j],
+                          joints.thickness, joints.friction};
+  std::array<double, n_rotations<dim>> rotation;
+  for (int c = 0; c < n_rotations<dim>; ++c)
+    rotation[c] = joints.rotation[c][j];
+  const auto shear_stress_of = [&](const unsigned int i) {
+    std::array<double, dim - 1> tau;
+    for (int c = 0; c < dim - 1; ++c)
+      tau[c] = joints.shear_stress[c][joints.segment(i, j)];
+    return tau;
+  };
+  const auto bonded_of = [&](const unsigned int i) { return joints.bonded[joints.segment(i, j)] > 0.5; };
+  return face_energy(face, joints.elements, joints.opening[j], rotation, shear_stress_of, bonded_of);
+}
+
 template std::vector<Break> sweep_joints<2>(Joints<2>&, const Grains<2>&, double);
 template std::vector<Break> sweep_joints<3>(Joints<3>&, const Grains<3>&, double);
+template double joint_energy<2>(const Joints<2>&, std::size_t);
+template double joint_energy<3>(const Joints<3>&, std::size_t);
 } // namespace feldspar

@@ -21,4 +21,8 @@ struct Break
 /// whatever the number of threads.
 template <int dim>
 std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt);
+
+/// Stored in the segments of a joint [J].
+template <int dim>
+double joint_energy(const Joints<dim>& joints, std::size_t joint);
 } // namespace feldspar

@@ -30,6 +30,15 @@ Eigen::Matrix<double, n_components, 1> at(const std::array<Values, n_components>
   return value;
 }
 
+template <int n_components, typename Values>
+double squared_norm(const std::array<Values, n_components>& components, const std::size_t i)
+{
+  double sum = 0.0;
+  for (int c = 0; c < n_components; ++c)
+    sum += components[c][i] * components[c][i];
+  return sum;
+}
+
 template <int n_components>
 void set(Components<n_components>& components, const std::size_t i, const Eigen::Matrix<double, n_components, 1>& value)
 {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "dem/dynamics/images.h"
+#include "dem/dynamics/touches.h"
+#include "dem/dynamics/walls.h"
+#include "dem/specimen/specimen.h"
+
+/// Mean fields of the contact forces of a body.
+namespace feldspar
+{
+/// -(1/V) Σ f ⊗ l over all contacts and walls [Pa], tension positive.
+template <int dim>
+Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls);
+
+/// Of a periodic body, the same from the contacts across the sides of the cell alone.
+template <int dim>
+Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images);
+
+/// That the grains above a plane across the last axis receive from those below [N], along that axis.
+template <int dim>
+double force_across(const Specimen<dim>& body, const Touches<dim>& touches, double height);
+
+/// Over the joints and the pairs that touch [N]; 0 without any.
+template <int dim>
+double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches);
+} // namespace feldspar

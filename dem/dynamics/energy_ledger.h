@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace feldspar
+{
+/// The energies that only a running sum can tell: works, and whatever left the body with a contact that is no more [J].
+/// What grains and contacts hold now is asked of them; Dynamics::energies() puts both together.
+struct EnergyLedger
+{
+  explicit EnergyLedger(const std::size_t n_grains)
+    : damping_work(n_grains, 0.0)
+  {
+  }
+
+  double boundary_work = 0.0;         ///< by walls, grips, the cell and forces from outside
+  double released = 0.0;              ///< by breaking bonds
+  double slip_of_lost_contacts = 0.0; ///< dissipated by contacts that have gone
+  double strain_at_start = 0.0;       ///< stored where the test began
+  double kinetic_at_start = 0.0;      ///< of the motion that the grains were set off with
+  std::vector<double> damping_work;   ///< dissipated at each grain
+
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    archive.array("damping_work", damping_work);
+    archive.value("boundary_work", boundary_work);
+    archive.value("released_energy", released);
+    archive.value("strain_energy_at_start", strain_at_start);
+    archive.value("kinetic_energy_at_start", kinetic_at_start);
+    archive.value("slip_energy_of_lost_contacts", slip_of_lost_contacts);
+  }
+};
+} // namespace feldspar

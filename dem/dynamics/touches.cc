@@ -1,0 +1,187 @@
+#include "dem/dynamics/touches.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+namespace feldspar
+{
+template <int dim>
+Touch<dim> make_touch(const Specimen<dim>& body, const std::uint32_t grain_1, const std::uint32_t grain_2)
+{
+  const double radius_1 = body.grains.radius[grain_1];
+  const double radius_2 = body.grains.radius[grain_2];
+  const double k_n = touch_stiffness<dim>(body.particle_contact.modulus, radius_1, radius_2, body.thickness);
+  Touch<dim> touch{};
+  touch.grain_1 = grain_1;
+  touch.grain_2 = grain_2;
+  touch.stiffness = {k_n, k_n / body.particle_contact.stiffness_ratio};
+  touch.zero_distance = radius_1 + radius_2;
+  touch.half_radius_difference = 0.5 * (radius_1 - radius_2);
+  return touch;
+}
+
+/// Where a pair stands, or would stand.
+template <int dim>
+auto Touches<dim>::find(const GrainPair& pair) const
+{
+  return std::lower_bound(touches.begin(), touches.end(), pair,
+                          [](const Touch<dim>& touch, const GrainPair& wanted) { return touch.ends() < wanted; });
+}
+
+template <int dim>
+void Touches<dim>::add(const Touch<dim>& touch)
+{
+  touches.insert(find(touch.ends()), touch);
+}
+
+template <int dim>
+void Touches<dim>::number(const Images<dim>& images)
+{
+  contacts_of = feldspar::incidence(
+    images.n_own(), touches.size(), [&](const std::size_t k) { return touches[k].ends(); },
+    [&](const std::uint32_t grain) { return images.owner(grain); });
+  looks.clear();
+  for (const auto& touch : touches)
+    looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, touch.touching});
+}
+
+template <int dim>
+void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of,
+                          const double skin, const ZeroForce zero_force, EnergyLedger& ledger)
+{
+  const auto& grains = body.grains;
+  const auto& joints = body.joints;
+  std::vector<Touch<dim>> found;
+  std::vector<std::uint32_t> jointed_to(grains.size(), std::numeric_limits<std::uint32_t>::max());
+  std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
+  for (const auto& [one, two] : pairs_within(grains, skin))
+    {
+      if (!images.pair_counts(one, two))
+        continue;
+      if (one != marked)
+        {
+          for (auto k = joints_of.first[one]; k < joints_of.first[one + 1]; ++k)
+            {
+              const auto j = joints_of.entries[k] / 2;
+              if (joints.grain_1[j] == one)
+                jointed_to[joints.grain_2[j]] = one;
+            }
+          marked = one;
+        }
+      if (jointed_to[two] == one)
+        continue;
+      const GrainPair pair(one, two);
+      if (const auto known = find(pair); known != touches.end() && known->ends() == pair)
+        found.push_back(*known);
+      else
+        {
+          found.push_back(make_touch(body, one, two));
+          if (zero_force == ZeroForce::as_placed)
+            found.back().zero_distance = std::min(
+              found.back().zero_distance, (at<dim>(grains.position, two) - at<dim>(grains.position, one)).norm());
+        }
+    }
+  std::size_t next = 0;
+  for (const auto& touch : touches)
+    {
+      while (next < found.size() && found[next].ends() < touch.ends())
+        ++next;
+      if (next == found.size() || found[next].ends() != touch.ends())
+        ledger.slip_of_lost_contacts += touch.slip_energy;
+    }
+  touches = std::move(found);
+  number(images);
+}
+
+template <int dim>
+bool Touches<dim>::update(const Grains<dim>& grains, const double friction, const double dt)
+{
+  bool contact_made = false;
+  for_each_block(touches.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      {
+        Look& look = looks[k];
+        std::array<double, dim> centre_1, centre_2;
+        double squared = 0.0;
+        for (int c = 0; c < dim; ++c)
+          {
+            centre_1[c] = grains.position[c][look.grain_1];
+            centre_2[c] = grains.position[c][look.grain_2];
+            squared += (centre_2[c] - centre_1[c]) * (centre_2[c] - centre_1[c]);
+          }
+        const bool was_touching = look.touching;
+        look.touching = squared < look.zero_distance * look.zero_distance;
+        if (!was_touching && !look.touching)
+          continue; // as it was; most of those that are kept in mind never touch
+        Touch<dim>& touch = touches[k];
+        touch.touching = look.touching;
+        if (!look.touching)
+          {
+            // Sliding apart dissipates the shear that was stored.
+            for (const double shear : touch.shear_force)
+              touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
+            touch.normal_force = 0.0;
+            touch.shear_force = {};
+            touch.force = {};
+            touch.couple_1 = {};
+            touch.couple_2 = {};
+            continue;
+          }
+        std::array<double, dim - 1> slip{};
+        if (was_touching && friction > 0.0)
+          {
+            std::array<double, n_rotations<dim>> turn_1, turn_2;
+            for (int c = 0; c < n_rotations<dim>; ++c)
+              {
+                turn_1[c] = dt * grains.spin[c][touch.grain_1];
+                turn_2[c] = dt * grains.spin[c][touch.grain_2];
+              }
+            const auto motion =
+              contact_motion(touch.frame, centre_1, centre_2, touch.half_radius_difference, turn_1, turn_2);
+            touch.frame = motion.frame;
+            slip = motion.slip;
+          }
+        else
+          {
+            touch.frame = contact_frame<dim, double>(centre_1, centre_2);
+            if constexpr (dim == 3)
+              touch.frame.tangent = space::tangent_to(touch.frame.normal);
+          }
+        const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
+                                                          touch.zero_distance - touch.frame.distance, slip);
+        if (!was_touching)
+          std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
+        touch.normal_force = response.normal_force;
+        touch.shear_force = response.shear_force;
+        touch.slip_energy += response.slip_energy;
+        const auto answer = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
+                                          response.shear_force, std::array<double, n_rotations<dim>>{});
+        touch.force = answer.force;
+        touch.couple_1 = answer.couple_1;
+        touch.couple_2 = answer.couple_2;
+      }
+  });
+  return contact_made;
+}
+
+template <int dim>
+Energies Touches<dim>::added_to(Energies sum) const
+{
+  for (const auto& touch : touches)
+    {
+      sum.slip += touch.slip_energy;
+      sum.strain += 0.5 * touch.normal_force * touch.normal_force / touch.stiffness.normal;
+      for (const double shear : touch.shear_force)
+        sum.strain += 0.5 * shear * shear / touch.stiffness.shear;
+    }
+  return sum;
+}
+
+template Touch<2> make_touch<2>(const Specimen<2>&, std::uint32_t, std::uint32_t);
+template Touch<3> make_touch<3>(const Specimen<3>&, std::uint32_t, std::uint32_t);
+template class Touches<2>;
+template class Touches<3>;
+} // namespace feldspar

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "dem/dynamics/energies.h"
+#include "dem/dynamics/energy_ledger.h"
+#include "dem/dynamics/images.h"
+#include "dem/dynamics/incidence.h"
+#include "dem/dynamics/zero_force.h"
+#include "dem/laws/contact_motion.h"
+#include "dem/laws/linear_contact_law.h"
+#include "dem/specimen/neighbours.h"
+#include "dem/specimen/specimen.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+/// Two grains near each other and without a face.
+template <int dim>
+struct Touch
+{
+  std::uint32_t grain_1, grain_2;
+  linear_contact::Stiffness stiffness;
+  double zero_distance;          ///< centre distance below which they press [m]
+  double half_radius_difference; ///< [m]
+  bool touching = false;
+  ContactFrame<dim, double> frame{}; ///< at the last step in which they touched
+  std::array<double, dim - 1> shear_force{};
+  double normal_force = 0.0;
+  double slip_energy = 0.0;
+  std::array<double, dim> force{};                 ///< on grain 2 [N]
+  std::array<double, n_rotations<dim>> couple_1{}; ///< [N m]
+  std::array<double, n_rotations<dim>> couple_2{}; ///< [N m]
+
+  GrainPair ends() const { return {grain_1, grain_2}; }
+};
+
+/// Of two grains of a body that have not touched yet.
+template <int dim>
+Touch<dim> make_touch(const Specimen<dim>& body, std::uint32_t grain_1, std::uint32_t grain_2);
+
+/// All pairs of grains near each other and without a face, by their grains.
+template <int dim>
+class Touches
+{
+public:
+  const std::vector<Touch<dim>>& list() const { return touches; }
+  /// Which of them each grain takes part in.
+  const Incidence& incidence() const { return contacts_of; }
+  /// Of one by its number; does not read the touch itself.
+  bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
+
+  /// Notes the pairs within `skin` [m]; those with a face are told by the joints.
+  void search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of, double skin,
+              ZeroForce zero_force, EnergyLedger& ledger);
+  /// A pair that has lost its face; number() before the next update().
+  void add(const Touch<dim>& touch);
+  void number(const Images<dim>& images);
+  void clear() { touches.clear(); }
+
+  /// Carries all over a step [s]; whether a pair has come to touch.
+  bool update(const Grains<dim>& grains, double friction, double dt);
+
+  /// `sum` with what the touches store and have dissipated.
+  Energies added_to(Energies sum) const;
+
+  /// number() before the next step.
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    archive.bytes("touches", touches);
+  }
+
+private:
+  /// What a step has to know of a pair that does not press, as most do not: kept together and small, while a Touch takes
+  /// lines of the cache.
+  struct Look
+  {
+    std::uint32_t grain_1, grain_2;
+    double zero_distance;
+    bool touching;
+  };
+
+  auto find(const GrainPair& pair) const;
+
+  std::vector<Touch<dim>> touches;
+  std::vector<Look> looks; ///< of each touch
+  Incidence contacts_of;
+};
+} // namespace feldspar

@@ -1,0 +1,222 @@
+#include "dem/dynamics/walls.h"
+
+#include "dem/laws/linear_contact_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+/// The wall is grain 1, without rotation; n points from it to the grain, t = n turned by +90°.
+std::array<double, 1> slip_on_wall(const Grains<2>& grains, const Wall& wall, const std::uint32_t grain,
+                                   const double distance, const double dt)
+{
+  const int along = 1 - wall.axis;
+  const double tangent = wall.axis == 0 ? wall.side : -wall.side; // t = (-n_y, n_x)
+  return {dt * (tangent * grains.velocity[along][grain] - distance * grains.spin[0][grain])};
+}
+
+void add_wall_shear(Grains<2>& grains, const Wall& wall, const std::uint32_t grain, const double distance,
+                    const std::array<double, 1>& shear_force)
+{
+  const int along = 1 - wall.axis;
+  const double tangent = wall.axis == 0 ? wall.side : -wall.side;
+  grains.force[along][grain] += tangent * shear_force[0];
+  grains.couple[0][grain] -= distance * shear_force[0];
+}
+
+/// Planes only. The shear force has components along the two other axes, in cyclic order.
+std::array<double, 2> slip_on_wall(const Grains<3>& grains, const Wall& wall, const std::uint32_t grain,
+                                   const double distance, const double dt)
+{
+  const int one = (wall.axis + 1) % 3;
+  const int two = (wall.axis + 2) % 3;
+  // The contact lies at -d n from the centre, n along `side` of the axis: v + ω × (-d n).
+  const double arm = distance * wall.side;
+  return {dt * (grains.velocity[one][grain] - arm * grains.spin[two][grain]),
+          dt * (grains.velocity[two][grain] + arm * grains.spin[one][grain])};
+}
+
+void add_wall_shear(Grains<3>& grains, const Wall& wall, const std::uint32_t grain, const double distance,
+                    const std::array<double, 2>& shear_force)
+{
+  const int one = (wall.axis + 1) % 3;
+  const int two = (wall.axis + 2) % 3;
+  const double arm = distance * wall.side;
+  grains.force[one][grain] += shear_force[0];
+  grains.force[two][grain] += shear_force[1];
+  grains.couple[one][grain] += arm * shear_force[1];
+  grains.couple[two][grain] -= arm * shear_force[0];
+}
+
+/// Of a grain from a wall, along `side` [m].
+template <int dim>
+double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  return (wall_coordinate(body, wall, grain) - wall.position) * wall.side;
+}
+} // namespace
+
+template <int dim>
+Vector<dim> wall_direction(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  if (!wall.round)
+    return Vector<dim>::Unit(wall.axis);
+  Vector<dim> from_axis = at<dim>(body.grains.position, grain) - 0.5 * body.size;
+  from_axis[dim - 1] = 0.0;
+  return from_axis.normalized();
+}
+
+template <int dim>
+double wall_coordinate(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  if (!wall.round)
+    return body.grains.position[wall.axis][grain];
+  return body.distance_from_axis(at<dim>(body.grains.position, grain));
+}
+
+template <int dim>
+std::size_t Walls<dim>::add(const Wall& wall)
+{
+  walls.push_back(wall);
+  touches.emplace_back();
+  forces.push_back(0.0);
+  position_at_search.push_back(wall.position);
+  return walls.size() - 1;
+}
+
+template <int dim>
+double Walls<dim>::stiffness(const Specimen<dim>& body, const double radius)
+{
+  const double modulus = body.particle_contact.modulus;
+  return dim == 2 ? 2.0 * modulus * body.thickness : std::numbers::pi * modulus * radius;
+}
+
+template <int dim>
+double Walls<dim>::stiffness_in_touch(const Specimen<dim>& body, const std::size_t wall) const
+{
+  double sum = 0.0;
+  for (const auto& touch : touches[wall])
+    if (touch.overlap > 0.0)
+      sum += stiffness(body, body.grains.radius[touch.grain]);
+  return sum;
+}
+
+template <int dim>
+void Walls<dim>::search(const Specimen<dim>& body, const double skin, const ZeroForce zero_force, EnergyLedger& ledger)
+{
+  const auto& radius = body.grains.radius;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    {
+      const auto& before = touches[w]; // ascending, as `near` will be
+      auto known = before.begin();
+      std::vector<WallTouch<dim>> near;
+      for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+        {
+          const double distance = distance_from(body, walls[w], i);
+          if (distance > radius[i] + skin)
+            continue;
+          for (; known != before.end() && known->grain < i; ++known)
+            ledger.slip_of_lost_contacts += known->slip_energy;
+          if (known != before.end() && known->grain == i)
+            near.push_back(*known++);
+          else
+            near.push_back({i, zero_force == ZeroForce::as_placed ? std::min(radius[i], distance) : radius[i]});
+        }
+      for (; known != before.end(); ++known)
+        ledger.slip_of_lost_contacts += known->slip_energy;
+      touches[w] = std::move(near);
+      position_at_search[w] = walls[w].position;
+    }
+}
+
+template <int dim>
+void Walls<dim>::clear()
+{
+  for (auto& list : touches)
+    list.clear();
+}
+
+template <int dim>
+double Walls<dim>::way_since_search(const std::size_t wall) const
+{
+  return std::abs(walls[wall].position - position_at_search[wall]);
+}
+
+template <int dim>
+double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std::size_t wall) const
+{
+  double smallest = std::numeric_limits<double>::max();
+  auto listed = touches[wall].begin(); // in the order of the grains
+  for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+    if (listed != touches[wall].end() && listed->grain == i)
+      ++listed;
+    else
+      smallest = std::min(smallest, distance_from(body, walls[wall], i) - body.grains.radius[i]);
+  return smallest;
+}
+
+template <int dim>
+bool Walls<dim>::press(const double dt, Specimen<dim>& body)
+{
+  auto& grains = body.grains;
+  bool contact_made = false;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    {
+      const Wall& wall = walls[w];
+      double sum = 0.0;
+      for (auto& touch : touches[w])
+        {
+          const std::uint32_t i = touch.grain;
+          const double distance = distance_from(body, wall, i);
+          const double k_n = stiffness(body, grains.radius[i]);
+          const double overlap = touch.zero_distance - distance;
+          if (touch.overlap == 0.0 && overlap > 0.0)
+            contact_made = true;
+          // A grain that begins to touch, or a smooth wall, gathers no shear.
+          std::array<double, dim - 1> slip{};
+          if (wall.friction > 0.0 && touch.overlap > 0.0)
+            slip = slip_on_wall(grains, wall, i, distance, dt);
+          const auto response = linear_contact::update<dim>({k_n, k_n / body.particle_contact.stiffness_ratio},
+                                                            wall.friction, touch.shear_force, overlap, slip);
+          touch.overlap = std::max(0.0, overlap);
+          touch.shear_force = response.shear_force;
+          touch.slip_energy += response.slip_energy;
+          if (wall.round)
+            set<dim>(grains.force, i,
+                     at<dim>(grains.force, i) + wall.side * response.normal_force * wall_direction(body, wall, i));
+          else
+            grains.force[wall.axis][i] += wall.side * response.normal_force;
+          if (wall.friction > 0.0)
+            add_wall_shear(grains, wall, i, distance, response.shear_force);
+          sum += response.normal_force;
+        }
+      forces[w] = sum;
+    }
+  return contact_made;
+}
+
+template <int dim>
+Energies Walls<dim>::added_to(Energies sum, const Specimen<dim>& body) const
+{
+  for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
+    const double k_n = stiffness(body, body.grains.radius[touch.grain]);
+    sum.slip += touch.slip_energy;
+    sum.strain += 0.5 * k_n * touch.overlap * touch.overlap;
+    for (const double shear : touch.shear_force)
+      sum.strain += 0.5 * shear * shear / (k_n / body.particle_contact.stiffness_ratio);
+  });
+  return sum;
+}
+
+template Vector<2> wall_direction<2>(const Specimen<2>&, const Wall&, std::uint32_t);
+template Vector<3> wall_direction<3>(const Specimen<3>&, const Wall&, std::uint32_t);
+template double wall_coordinate<2>(const Specimen<2>&, const Wall&, std::uint32_t);
+template double wall_coordinate<3>(const Specimen<3>&, const Wall&, std::uint32_t);
+template class Walls<2>;
+template class Walls<3>;
+} // namespace feldspar

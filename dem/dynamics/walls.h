@@ -1,0 +1,116 @@
+#pragma once
+
+#include "dem/dynamics/energies.h"
+#include "dem/dynamics/energy_ledger.h"
+#include "dem/dynamics/zero_force.h"
+#include "dem/specimen/specimen.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// A rigid plane across one axis, on which grains lie from one side; or a smooth cylinder about the last axis through
+/// the middle of the specimen, whose coordinate is the distance from that axis.
+struct Wall
+{
+  int axis = 0;
+  double side = 1.0;     ///< +1: grains lie towards larger coordinates, -1: towards smaller ones
+  double position = 0.0; ///< [m]
+  double velocity = 0.0; ///< along its coordinate [m/s]
+  double friction = 0.0;
+  double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
+  bool round = false;          ///< the cylinder
+};
+
+/// The side of a cylinder.
+template <int dim>
+Wall round_wall(const Specimen<dim>& specimen)
+{
+  return {.side = -1.0, .position = 0.5 * specimen.size[0], .round = true};
+}
+
+/// Along which the coordinate of a wall grows.
+template <int dim>
+Vector<dim> wall_direction(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
+/// Of a grain [m].
+template <int dim>
+double wall_coordinate(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
+
+/// A grain near a wall.
+template <int dim>
+struct WallTouch
+{
+  std::uint32_t grain;
+  double zero_distance; ///< distance from the wall below which it presses [m]
+  double overlap = 0.0; ///< [m]
+  std::array<double, dim - 1> shear_force{};
+  double slip_energy = 0.0;
+};
+
+/// The walls about a body, and the grains near each.
+template <int dim>
+class Walls
+{
+public:
+  std::size_t add(const Wall& wall);
+  std::size_t size() const { return walls.size(); }
+  const std::vector<Wall>& list() const { return walls; }
+  Wall& operator[](const std::size_t i) { return walls[i]; }
+  const Wall& operator[](const std::size_t i) const { return walls[i]; }
+
+  /// Sum of the grains' pressure on a wall [N], compression positive.
+  double force(const std::size_t wall) const { return forces[wall]; }
+  /// Normal stiffness of a grain at a wall [N/m].
+  static double stiffness(const Specimen<dim>& body, double radius);
+  /// Sum of the normal stiffnesses of a wall's pressing contacts [N/m].
+  double stiffness_in_touch(const Specimen<dim>& body, std::size_t wall) const;
+
+  /// visit(wall, touch) for each grain near a wall, wall by wall.
+  template <typename Visit>
+  void for_each_touch(Visit&& visit) const
+  {
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      for (const auto& touch : touches[w])
+        visit(walls[w], touch);
+  }
+
+  /// Notes the grains within `skin` [m] of each wall.
+  void search(const Specimen<dim>& body, double skin, ZeroForce zero_force, EnergyLedger& ledger);
+  /// Forgets them.
+  void clear();
+  /// How far a wall has gone since the last search [m].
+  double way_since_search(std::size_t wall) const;
+  /// Of the gaps between a wall and the grains that were not near it at the last search, the smallest [m].
+  double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t wall) const;
+
+  void move(const double dt)
+  {
+    for (Wall& wall : walls)
+      wall.position += dt * wall.velocity;
+  }
+  /// Presses the grains, whose forces and couples it adds to; whether one has come to touch.
+  bool press(double dt, Specimen<dim>& body);
+
+  /// `sum` with what the touches store and have dissipated.
+  Energies added_to(Energies sum, const Specimen<dim>& body) const;
+
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    archive.bytes("walls", walls);
+    archive.array("wall_forces", forces);
+    archive.array("wall_position_at_search", position_at_search);
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      archive.bytes("wall_touches_" + std::to_string(w), touches[w]);
+  }
+
+private:
+  std::vector<Wall> walls;
+  std::vector<std::vector<WallTouch<dim>>> touches; ///< of each wall, by grain
+  std::vector<double> forces;
+  std::vector<double> position_at_search; ///< [m]
+};
+} // namespace feldspar

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace feldspar
+{
+/// Where a contact without a face begins to press.
+enum class ZeroForce
+{
+  at_touch, ///< where the surfaces touch
+  as_placed ///< overlaps that are there at the start count as zero force
+};
+} // namespace feldspar
