@@ -34,7 +34,7 @@ function(feldspar_write_version_header source_dir header version)
 
 namespace feldspar
 {
-/// The project's version, and the commit where it is known: 0.1.0+g1a2b3c4, with .modified for a changed work tree.
+/// The project's version, and the commit where it is known: 0.2.0+g1a2b3c4, with .modified for a changed work tree.
 inline constexpr std::string_view version = \"${full_version}\";
 
 /// The commit alone, seven or more digits; empty where it is not known.

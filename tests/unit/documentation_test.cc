@@ -1,0 +1,137 @@
+// The pages of the documentation point at files, sections and rooms that exist.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+const fs::path root = FELDSPAR_SOURCE_DIR;
+
+/// Folders of the tree that paths in the documentation begin with.
+const std::vector<std::string> top_folders = {"app",      "base", "benchmarks", "coupling", "dem",     "docs",
+                                              "examples", "fem",  "report",     "results",  "scripts", "tests"};
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<fs::path> pages()
+{
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.path().extension() == ".md")
+      found.push_back(entry.path());
+  for (const char* folder : {"docs", "examples", "benchmarks"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".md")
+        found.push_back(entry.path());
+  return found;
+}
+
+/// The anchor that a renderer of Markdown gives a heading: lower case, spaces as hyphens, ASCII punctuation left out.
+std::string anchor(const std::string_view heading)
+{
+  std::string name;
+  for (const char c : heading)
+    if (c == ' ')
+      name += '-';
+    else if (static_cast<unsigned char>(c) >= 0x80 || std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ||
+             c == '_')
+      name += char(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+std::set<std::string> anchors(const fs::path& page)
+{
+  std::set<std::string> found;
+  std::istringstream lines(content(page));
+  bool code = false;
+  for (std::string line; std::getline(lines, line);)
+    {
+      if (line.starts_with("```"))
+        code = !code;
+      const std::size_t text = line.find_first_not_of('#');
+      if (!code && text != std::string::npos && text > 0 && line[text] == ' ')
+        found.insert(anchor(std::string_view(line).substr(text + 1)));
+    }
+  return found;
+}
+
+/// What stands in the first group of every match.
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern)
+{
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+} // namespace
+
+TEST(Documentation, LinksLeadSomewhere)
+{
+  static const std::regex link(R"(\]\(([^)\s]+)\))");
+  std::size_t n_links = 0;
+  for (const fs::path& page : pages())
+    for (const std::string& target : matches(content(page), link))
+      {
+        if (target.starts_with("http"))
+          continue;
+        const std::size_t hash = target.find('#');
+        const std::string file = target.substr(0, hash);
+        const fs::path there = file.empty() ? page : page.parent_path() / file;
+        EXPECT_TRUE(fs::exists(there)) << page << ": " << target;
+        if (hash != std::string::npos && there.extension() == ".md")
+          {
+            EXPECT_TRUE(anchors(there).contains(target.substr(hash + 1))) << page << ": no such section: " << target;
+          }
+        ++n_links;
+      }
+  EXPECT_GT(n_links, 50u);
+}
+
+// `folder/file` in a page names a file, a folder, or, without an ending, a program made of the file.
+TEST(Documentation, FilesNamedInPagesExist)
+{
+  static const std::regex quoted(R"(`([A-Za-z0-9_]+(?:/[A-Za-z0-9_.-]+)+/?)`)");
+  std::size_t n_files = 0;
+  for (const fs::path& page : pages())
+    {
+      if (page.filename() == "CHANGELOG.md")
+        continue; // speaks of earlier trees too
+      for (const std::string& name : matches(content(page), quoted))
+        if (std::find(top_folders.begin(), top_folders.end(), name.substr(0, name.find('/'))) != top_folders.end())
+          {
+            const bool beside = fs::exists(page.parent_path() / name); // results/ of an example
+            EXPECT_TRUE(fs::exists(root / name) || fs::exists(root / (name + ".cc")) || beside) << page << ": " << name;
+            ++n_files;
+          }
+    }
+  EXPECT_GT(n_files, 40u);
+}
+
+TEST(Documentation, EveryRoomStandsOnTheCodeMap)
+{
+  const std::string map = content(root / "docs/code-map.md");
+  for (const char* top : {"app", "base", "coupling", "dem", "fem", "report", "results"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / top))
+      if (entry.path().extension() == ".h")
+        {
+          const std::string room = fs::relative(entry.path().parent_path(), root).string();
+          EXPECT_NE(map.find("`" + room + "`"), std::string::npos) << "docs/code-map.md has no line for " << room;
+        }
+}
