@@ -2,6 +2,7 @@
 #include "app/input/nearest_name.h"
 #include "app/run/specimen_source.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "feldspar_version.h"
 
@@ -173,7 +174,8 @@ private:
 void say(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  std::fputs(fmt::format("feldspar: {}\n", text).c_str(), stderr);
+  constexpr std::size_t most_characters = 2000; // whatever it repeats
+  std::fputs(fmt::format("feldspar: {}\n", excerpt(text, most_characters)).c_str(), stderr);
 }
 } // namespace
 

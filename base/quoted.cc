@@ -23,7 +23,8 @@ std::size_t length_of_character(const std::string_view text)
     {
       const bool overlong = first == 0xe0 && byte(1) < 0xa0;
       const bool surrogate = first == 0xed && byte(1) > 0x9f;
-      return continues(1) && continues(2) && !overlong && !surrogate ? 3 : 0;
+      const bool no_character = first == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe; // U+FFFE, U+FFFF
+      return continues(1) && continues(2) && !overlong && !surrogate && !no_character ? 3 : 0;
     }
   if (first >= 0xf0 && first <= 0xf4)
     {
@@ -93,4 +94,16 @@ std::string excerpt(std::string_view text, const std::size_t most_characters)
 }
 
 std::string in_quotes(const std::string_view text) { return '"' + excerpt(text) + '"'; }
+
+bool is_plain_name(const std::string_view text)
+{
+  constexpr std::size_t most_characters = 235; // of 255 in a file's name, with room for endings
+  const auto is_letter_or_digit = [](const char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  return !text.empty() && text.size() <= most_characters && is_letter_or_digit(text.front()) &&
+         std::all_of(text.begin(), text.end(), [&](const char c) {
+           return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-' || c == '+';
+         });
+}
 } // namespace feldspar

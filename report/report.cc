@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include "base/quoted.h"
 #include "base/whole_file.h"
 #include "report/page/page.h"
 #include "report/pictures/crack_pictures.h"
@@ -118,7 +119,7 @@ std::string against_experiment(const ComparisonRow& row)
     return none;
   const std::string deviation = row.deviation() ? signed_percent(*row.deviation()) : "";
   if (!row.in_range())
-    return deviation + ", no range given";
+    return "no range given" + (deviation.empty() ? "" : ", " + deviation);
   return (*row.in_range() ? "✓ " : "✗ ") + deviation + (*row.in_range() ? ", in range" : ", out of range");
 }
 
@@ -408,6 +409,8 @@ public:
     std::vector<PagePicture> places;
     for (auto& picture : pictures)
       {
+        while (is_taken(picture.name)) // labels that differ in signs alone make the same name
+          picture.name += "_again";
         places.push_back({picture, ""});
         all.push_back(std::move(picture));
       }
@@ -418,7 +421,7 @@ public:
   void keep_as_files(std::vector<Picture> pictures)
   {
     for (auto& picture : pictures)
-      if (std::none_of(all.begin(), all.end(), [&](const Picture& other) { return other.name == picture.name; }))
+      if (!is_taken(picture.name))
         all.push_back(std::move(picture));
   }
 
@@ -439,6 +442,11 @@ public:
 
   std::string missing; ///< why the first picture that is missing is
 private:
+  bool is_taken(const std::string& name) const
+  {
+    return std::any_of(all.begin(), all.end(), [&](const Picture& other) { return other.name == name; });
+  }
+
   std::vector<Picture> all;
 };
 
@@ -773,20 +781,26 @@ PageSection trust_section(const Findings& findings)
   return section;
 }
 
-/// Labels tell series apart; folders of the same name are numbered.
-std::vector<Series> with_unlike_labels(std::vector<Series> all)
+/// Labels are names of folders and files, which may be anything: as they are shown, on one line and not long. They tell
+/// series apart; the same ones are numbered.
+std::vector<Series> with_labels_to_show(std::vector<Series> all)
 {
-  std::map<std::string, int> seen;
+  constexpr std::size_t most_characters = 120; // a variant of two entries
+  std::set<std::string> taken;
   for (auto& series : all)
-    if (const int n = ++seen[series.label]; n > 1)
-      series.label += fmt::format(" ({})", n);
+    {
+      const std::string label = excerpt(series.label, most_characters);
+      series.label = label;
+      for (int n = 2; !taken.insert(series.label).second; ++n)
+        series.label = fmt::format("{} ({})", label, n);
+    }
   return all;
 }
 } // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder)
 {
-  const std::vector<Series> all = with_unlike_labels(input.all);
+  const std::vector<Series> all = with_labels_to_show(input.all);
   Findings findings{all, input.reference, input.reference_problem, input.one_folder, {}, {}};
   for (const auto& series : all)
     {

@@ -4,6 +4,7 @@
 #include "app/run/laboratory_curve.h"
 #include "app/run/output_folder.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "report/report.h"
 #include "results/folder/result_folder.h"
 
@@ -56,7 +57,7 @@ int run_report(const ReportOptions& options)
   const auto missing = report_on(order);
   if (!options.quiet)
     for (const auto& sentence : missing)
-      fmt::print("{}\n", sentence);
+      fmt::print("{}\n", printable(sentence));
   fmt::print("{}\n", (order.output / result_file::page).string());
   return 0;
 }

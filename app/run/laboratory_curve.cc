@@ -3,6 +3,7 @@
 #include "app/input/csv.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
+#include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
 
@@ -104,7 +105,8 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   const auto rows = read_csv(file, header);
 
   FinishedTest test;
-  test.name = test.group = file.stem().string();
+  const std::string name = plot::file_name(file.stem().string());
+  test.name = test.group = name.empty() ? "measured" : name;
   std::vector<double> pressures;
   for (const auto& row : rows)
     {

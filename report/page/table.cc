@@ -1,17 +1,30 @@
 #include "report/page/table.h"
 
+#include <charconv>
+#include <system_error>
+
 namespace feldspar
 {
 namespace
 {
+bool is_number(const std::string& text)
+{
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool would_be_a_formula(const std::string& cell) { return cell.find_first_of("=+-@\t\r\n") == 0 && !is_number(cell); }
+
 std::string as_csv(const std::vector<std::string>& cells)
 {
   std::string line;
-  for (const auto& cell : cells)
+  for (const auto& text : cells)
     {
-      if (&cell != cells.data())
+      if (&text != cells.data())
         line += ',';
-      if (cell.find_first_of(",\"\n") == std::string::npos)
+      const std::string cell = (would_be_a_formula(text) ? "'" : "") + text;
+      if (cell.find_first_of(",\"\n\r") == std::string::npos)
         line += cell;
       else
         {

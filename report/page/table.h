@@ -14,6 +14,7 @@ struct Table
   std::vector<std::vector<std::string>> rows; ///< the first cell of each is its heading
 };
 
-/// Comma-separated, quoted where needed.
+/// Comma-separated, quoted where needed. A text that a spreadsheet would take for a formula begins with an apostrophe
+/// there.
 std::string as_csv(const Table& table);
 } // namespace feldspar

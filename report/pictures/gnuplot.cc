@@ -1,11 +1,12 @@
 #include "report/pictures/gnuplot.h"
 
+#include "base/quoted.h"
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include <fcntl.h>
@@ -17,17 +18,20 @@ namespace feldspar
 {
 namespace
 {
-/// Runs a program on a script; false if there is no such program or it failed.
-bool run(std::string program, const std::filesystem::path& script)
+/// Runs a program in a folder; false if there is no such program or it failed.
+bool run(std::vector<std::string> command, const std::filesystem::path& folder)
 {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-  std::string file = script.string();
-  char* const arguments[] = {program.data(), file.data(), nullptr};
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::vector<char*> arguments;
+  for (std::string& word : command)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   pid_t child = 0;
-  const bool started = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ) == 0;
+  const bool started = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ) == 0;
   posix_spawn_file_actions_destroy(&actions);
   int status = -1;
   return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -49,27 +53,29 @@ std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
   return result;
 }
 
-/// The script as a file of its own that leaves its pictures in the folder.
-std::string whole_script(const Picture& picture, const std::filesystem::path& folder)
+/// The script as a file of its own that leaves its pictures in the folder it is run in.
+std::string whole_script(const Picture& picture)
 {
   if (picture.drawn_by == DrawnBy::vtk)
-    return fmt::format("output = {}\nsize = ({}, {})\n{}",
-                       nlohmann::json((folder / (picture.name + ".png")).string()).dump(), picture.width,
-                       picture.height, picture.script);
+    return fmt::format("output = \"{}.png\"\nsize = ({}, {})\n{}", picture.name, picture.width, picture.height,
+                       picture.script);
   std::string script = "set encoding utf8\n";
   for (const auto& [ending, terminal] : outputs(picture))
     script += fmt::format("set terminal {}\nset output {}\n{}unset output\nreset\n", terminal,
-                          gnuplot_text((folder / (picture.name + ending)).string()), picture.script);
+                          gnuplot_text(picture.name + ending), picture.script);
   return script;
 }
 
 std::string draw_one(const Picture& picture, const std::filesystem::path& folder)
 {
+  if (!is_plain_name(picture.name))
+    throw std::logic_error("a picture is named " + in_quotes(picture.name));
   const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
-  const std::filesystem::path file = folder / (picture.name + (by_vtk ? ".py" : ".gp"));
-  write_whole_file(file, whole_script(picture, folder));
-  // Debian's Python: another that comes first in the path lacks Debian's modules.
-  const bool done = by_vtk ? run("/usr/bin/python3", file) : run("gnuplot", file);
+  const std::string script = picture.name + (by_vtk ? ".py" : ".gp");
+  write_whole_file(folder / script, whole_script(picture));
+  // Debian's Python: another that comes first in the path lacks Debian's modules. Isolated (-I), for it would rather
+  // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
+  const bool done = by_vtk ? run({"/usr/bin/python3", "-I", script}, folder) : run({"gnuplot", "-d", script}, folder);
   for (const auto& [ending, terminal] : outputs(picture))
     if (!done || !std::filesystem::exists(folder / (picture.name + ending)))
       return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
@@ -87,11 +93,18 @@ std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::f
   return problems;
 }
 
-std::string gnuplot_text(const std::string& text)
+std::string gnuplot_text(const std::string_view text)
 {
+  // Between single quotes gnuplot reads only the quote itself as anything but text. Doubling it is not enough: of
+  // three in a row the second ends the string. So the typographic one stands for it.
   std::string result = "'";
-  for (const char c : text)
-    result += c == '\'' ? std::string("''") : std::string(1, c);
+  for (const char c : printable(text))
+    {
+      // Its SVG writes "]]>" as it is, which is no XML.
+      if (c == '>' && result.ends_with("]]"))
+        result += ' ';
+      result += c == '\'' ? std::string("’") : std::string(1, c);
+    }
   return result + "'";
 }
 } // namespace feldspar

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace feldspar
@@ -15,7 +16,7 @@ enum class DrawnBy
 /// A picture to be drawn.
 struct Picture
 {
-  std::string name;        ///< of its files, without ending
+  std::string name;        ///< of its files, without ending: plain (base/quoted.h)
   std::string caption;     ///< what it shows
   std::string alternative; ///< the same in words, for who cannot see it
   int width = 0;           ///< [px]
@@ -30,9 +31,12 @@ struct Picture
 };
 
 /// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
-/// it drawn otherwise. Returns for each why it could not be drawn, or nothing.
+/// it drawn otherwise: run there, it draws into the folder it is run in. Returns for each why it could not be drawn, or
+/// nothing.
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder);
 
-/// Text as gnuplot's single-quoted string.
-std::string gnuplot_text(const std::string& text);
+/// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not
+/// written in our sources enters a script through this: gnuplot has no switch that forbids a script to start programs
+/// (`system`, backquotes, `!`, an output that begins with `|`), and its commands end with their line.
+std::string gnuplot_text(std::string_view text);
 } // namespace feldspar

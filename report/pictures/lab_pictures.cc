@@ -1,5 +1,6 @@
 #include "report/pictures/lab_pictures.h"
 
+#include "base/quoted.h"
 #include "report/pictures/crack_pictures.h"
 #include "report/pictures/plane_view.h"
 #include "report/pictures/plot_style.h"
@@ -26,7 +27,12 @@ std::string title_of(const FinishedTest& test)
 std::string block(const char* what, const FinishedTest& test)
 {
   std::string name = fmt::format("${}_{}", what, test.name);
-  std::replace(name.begin(), name.end(), '.', '_');
+  std::replace_if(
+    name.begin() + 1, name.end(),
+    [](const char c) {
+      return !is_plain_name({&c, 1});
+    },
+    '_');
   return name;
 }
 
@@ -72,7 +78,7 @@ std::string map_data(const FinishedTest& test)
 std::string curve_plot(const FinishedTest& test)
 {
   const auto& last = test.record.curve.back();
-  std::string text = fmt::format("set title '{}, seed {}' noenhanced\n"
+  std::string text = fmt::format("set title {} noenhanced\n"
                                  "set size noratio\n"
                                  "set xlabel 'axial strain [%]'\n"
                                  "set ylabel 'axial stress [MPa]'\n"
@@ -82,7 +88,7 @@ std::string curve_plot(const FinishedTest& test)
                                  "set border 11; set lmargin 10; set rmargin 10\n"
                                  "set bmargin 6\n"
                                  "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
-                                 title_of(test), test.record.seed);
+                                 gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)));
   const std::string data = block("curve", test);
   text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
                       "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",
@@ -98,15 +104,15 @@ std::string map_plot(const FinishedTest& test, const char upwards)
 {
   const auto& size = test.record.size;
   std::string text =
-    fmt::format("set title '{}, seed {}: cracks at the end' noenhanced\n"
+    fmt::format("set title {} noenhanced\n"
                 "set size ratio -1\n"
                 "set xlabel 'x [mm]'; set ylabel '{} [mm]'\n"
                 "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
                 "set xrange [{}:{}]; set yrange [{}:{}]\n"
                 "set bmargin 7\n"
                 "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
-                title_of(test), test.record.seed, upwards, -0.08 * size[0] / milli, 1.08 * size[0] / milli,
-                -0.02 * size[1] / milli, 1.02 * size[1] / milli);
+                gnuplot_text(fmt::format("{}, seed {}: cracks at the end", title_of(test), test.record.seed)), upwards,
+                -0.08 * size[0] / milli, 1.08 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
   const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
   text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'main body'", block("grains", test),

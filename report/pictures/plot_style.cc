@@ -1,12 +1,12 @@
 #include "report/pictures/plot_style.h"
 
+#include "base/quoted.h"
 #include "report/pictures/gnuplot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace feldspar::plot
 {
@@ -54,9 +54,10 @@ void add_cracks(std::string& data, std::string& plots, const std::size_t n, cons
 
 std::string file_name(const std::string& label)
 {
+  constexpr std::size_t most_characters = 60;
   std::string name;
-  for (const char c : label)
-    if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.')
+  for (const char c : label.substr(0, most_characters))
+    if (is_plain_name({&c, 1}) || (!name.empty() && (c == '-' || c == '.')))
       name += c;
     else if (!name.empty() && name.back() != '_')
       name += '_';

@@ -45,6 +45,7 @@ std::string title(const std::string& text);
 void add_cracks(std::string& data, std::string& plots, std::size_t n, CrackKind kind, const std::string& rows,
                 double line_width);
 
-/// A name for files out of a label.
+/// A part of the names of files out of a label: letters, digits, `-` and `.` of it, at most 60, a
+/// letter or a digit first; empty if there is none.
 std::string file_name(const std::string& label);
 } // namespace feldspar::plot

@@ -1,6 +1,7 @@
 #include "results/folder/csv_tables.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
@@ -184,7 +185,7 @@ public:
     double result = 0.0;
     const auto [end, error] = std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), result);
     if (error != std::errc() || end != cells[k].data() + cells[k].size())
-      throw InputError(fmt::format("{}:{}: \"{}\" is no number", file.string(), number, cells[k]));
+      throw InputError(fmt::format("{}:{}: {} is no number", file.string(), number, in_quotes(cells[k])));
     return result;
   }
 

@@ -1,5 +1,7 @@
 #include "results/folder/provenance_json.h"
 
+#include "base/quoted.h"
+
 namespace feldspar
 {
 nlohmann::ordered_json as_json(const Provenance& provenance)
@@ -8,9 +10,10 @@ nlohmann::ordered_json as_json(const Provenance& provenance)
   json["schema_version"] = summary_schema_version;
   json["feldspar_version"] = provenance.version;
   json["commit"] = provenance.commit;
-  json["input"]["file"] = provenance.input_file;
+  // JSON is UTF-8; names of files and values of the input need not be.
+  json["input"]["file"] = printable(provenance.input_file);
   for (const auto& entry : provenance.input)
-    json["input"]["parameters"][entry.section][entry.entry] = entry.value;
+    json["input"]["parameters"][entry.section][entry.entry] = printable(entry.value);
   json["host"]["processor"] = provenance.processor;
   json["host"]["threads"] = provenance.n_threads;
   return json;

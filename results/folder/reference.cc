@@ -1,6 +1,7 @@
 #include "results/folder/reference.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "results/fits/hoek_brown.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ ReferenceSource source(const Json& json, const char* key, const std::string& lab
   for (const auto& [name, entry] : json[key].items())
     {
       if (name == "label" && entry.is_string())
-        result.label = entry.get<std::string>();
+        result.label = excerpt(entry.get<std::string>());
       if (!entry.is_object())
         continue;
       if (const auto mean = number(entry, "mean"))
@@ -96,11 +97,11 @@ Reference read_reference(const std::filesystem::path& file)
       fmt::format("Report/Reference file = {}: not a JSON file with an \"experiment\" in it", file.string()));
   Reference reference;
   if (json.contains("rock") && json["rock"].is_string())
-    reference.rock = json["rock"].get<std::string>();
+    reference.rock = printable(json["rock"].get<std::string>());
   if (json.contains("citation") && json["citation"].is_object())
     for (const auto& [name, text] : json["citation"].items())
       if (text.is_string())
-        reference.citations.push_back(fmt::format("{}: {}", name, text.get<std::string>()));
+        reference.citations.push_back(printable(fmt::format("{}: {}", name, text.get<std::string>())));
   reference.experiment = source(json, "experiment", "experiment");
   reference.model = source(json, "paper_model", "paper's model");
   return reference;

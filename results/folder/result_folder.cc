@@ -1,6 +1,7 @@
 #include "results/folder/result_folder.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/provenance_json.h"
 #include "results/folder/summary.h"
@@ -19,6 +20,8 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_characters_of_name = 100; ///< of a test; pictures add to it
 
 std::optional<TestKind> kind_named(const std::string_view wanted)
 {
@@ -130,7 +133,7 @@ void try_to(std::vector<std::string>& problems, Read&& read)
     }
   catch (const InputError& error)
     {
-      problems.push_back(error.what());
+      problems.push_back(printable(error.what()));
     }
 }
 } // namespace
@@ -163,15 +166,25 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
   if (version == json.end() || *version != summary_schema_version)
     problems.push_back(fmt::format("{} has layout {}; this program writes layout {}, so figures may be missing here",
                                    (folder / result_file::summary).string(),
-                                   version == json.end() ? "unknown" : version->dump(), summary_schema_version));
+                                   version == json.end() ? "unknown" : excerpt(version->dump()),
+                                   summary_schema_version));
 
   std::vector<FinishedTest> tests;
+  const std::string summary = printable((folder / result_file::summary).string());
   for (const auto& entry : json["tests"])
-    if (const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind")) : std::nullopt)
-      tests.push_back(test_of(entry, *kind));
-    else
-      problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out",
-                                     (folder / result_file::summary).string()));
+    {
+      const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind")) : std::nullopt;
+      const std::string name = entry.is_object() ? text_of(entry, "name") : "";
+      if (!kind)
+        problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out", summary));
+      else if (!is_plain_name(name) || name.size() > most_characters_of_name)
+        // Tables and pictures are named by it, and a path would lead out of the folder.
+        problems.push_back(fmt::format("{}: a test was left out for its name, {}; names have 1 to {} letters, digits "
+                                       "or ._-+ and begin with a letter or a digit",
+                                       summary, in_quotes(name), most_characters_of_name));
+      else
+        tests.push_back(test_of(entry, *kind));
+    }
   if (tests.empty())
     throw InputError(fmt::format("{}: there is no test in it", (folder / result_file::summary).string()));
 

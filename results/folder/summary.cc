@@ -140,6 +140,7 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
     json["tests"].push_back(describe(test));
   json["ensemble"] = ensemble(tests);
   json["fits"] = fits(tests);
-  write_whole_file(file, json.dump(2) + "\n");
+  // Reasons may quote what is not UTF-8.
+  write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 } // namespace feldspar

@@ -181,6 +181,90 @@ TEST_F(Report, OfAnOlderLayoutSaysSoAndIsStillMade)
         {"summary.json has layout 0; this program writes layout 1", "from an unknown input", "Strength envelope"});
 }
 
+/// 60 GPa, Poisson's ratio 0.2 to 60 MPa, 0.35 to 120 MPa, 0.9 to the peak of 160 MPa; in per cent and MPa.
+std::string measured_curve(const std::string& header, const double sign_of_lateral = -1.0)
+{
+  std::string text = header + "\n";
+  const auto expansion = [](const double stress) {
+    return (0.2 * std::min(stress, 60.0) + 0.35 * std::clamp(stress - 60.0, 0.0, 60.0) +
+            0.9 * std::max(stress - 120.0, 0.0)) /
+           600.0;
+  };
+  for (int k = 0; k <= 200; ++k)
+    {
+      const double stress = k <= 160 ? k : 320.0 - k;
+      text +=
+        fmt::format("{:.9f},{:.9f},{},0\n", k / 600.0, sign_of_lateral * expansion(std::min(double(k), 160.0)), stress);
+    }
+  return text;
+}
+
+/// In single quotes of the shell.
+std::string for_shell(const std::string& text)
+{
+  std::string result = "'";
+  for (const char c : text)
+    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// Whether a file of that name lies anywhere below a folder.
+bool has_anywhere(const fs::path& folder, const std::string& name)
+{
+  return std::any_of(fs::recursive_directory_iterator(folder), {},
+                     [&](const fs::directory_entry& entry) { return entry.path().filename() == name; });
+}
+
+TEST_F(Report, RunsNothingThatANameAsksFor)
+{
+  using Json = nlohmann::ordered_json;
+  const std::string command = "a\nsystem \"touch marker\"\n'; system \"touch marker\"; `touch marker` @m \\";
+  Json reference = Json::parse(content(folder.path() / "out/reference.json"));
+  reference["rock"] = command;
+  reference["experiment"]["label"] = command + " <script>alert(1)</script>";
+  reference["paper_model"]["label"] = command;
+  reference["citation"]["tests"] = command;
+  Json summary = Json::parse(content(folder.path() / "out/summary.json"));
+  for (auto& test : summary["tests"])
+    {
+      test["variant"] = test["seed"] == 1 ? command : "=1+2";
+      test["group"] = command;
+      test["peak_stress_Pa_reason"] = command;
+    }
+  summary["tests"].push_back(summary["tests"].front());
+  summary["tests"].back()["name"] = "a; system \"touch marker\"\n";
+  summary["tests"].push_back(summary["tests"].front());
+  summary["tests"].back()["name"] = "../../escaped";
+  summary["input"]["parameters"]["Seeds"]["Seeds"] = "=cmd|' /C calc'!A0";
+  // A folder's name as well, which as an output of gnuplot's would be a program.
+  const std::string odd = "|touch marker; `touch marker` $(touch marker)\nsystem \"touch marker\"\n' \" gr\xfcn";
+  fs::copy(folder.path() / "out", folder.path() / odd, fs::copy_options::recursive);
+  folder.write(odd + "/reference.json", reference.dump());
+  fs::copy(folder.path() / "out", folder.path() / "-d", fs::copy_options::recursive);
+  folder.write("-d/reference.json", reference.dump());
+  folder.write("-d/summary.json", summary.dump());
+  const std::string curve = "c\nsystem \"touch marker\"\n.csv";
+  folder.write(curve,
+               measured_curve("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]"));
+  for (const std::string& arguments : {"report -- " + for_shell(odd), std::string("report -- -d"),
+                                       "report --output alone --curve " + for_shell(curve)})
+    {
+      const std::string page = remade(arguments, true);
+      EXPECT_EQ(count(page, "class=\"absent\""), 0u) << arguments;
+      EXPECT_EQ(count(page, "<script"), 0u) << arguments;
+      EXPECT_FALSE(has_anywhere(folder.path(), "marker")) << arguments;
+    }
+  EXPECT_FALSE(has_anywhere(folder.path(), "escaped_stress_strain.gp"));
+  EXPECT_GT(count(content(folder.path() / "-d/report.html"), "a test was left out for its name"), 1u);
+  const std::string input = content(folder.path() / "-d/tables/input_2_1_2.csv");
+  EXPECT_NE(input.find("\nSeeds,Seeds,'=cmd|' /C calc'!A0"), std::string::npos) << input;
+
+  // The test can fail: such a script does run, were it drawn.
+  folder.write("asked.gp", "system \"touch marker\"\n");
+  std::system(("cd " + for_shell(folder.path().string()) + " && gnuplot -d asked.gp").c_str());
+  EXPECT_TRUE(has_anywhere(folder.path(), "marker"));
+}
+
 TEST_F(Report, OfAForeignFolderIsRefusedInOneLine)
 {
   folder.write("out/summary.json", "{\"stiffness_Pa\": [1, 2]}");
@@ -220,24 +304,6 @@ TEST_F(Report, WithoutItsReferenceSaysSoInItsPlace)
         {"Nothing to compare with: Report/Reference file = nowhere.json: no such file"});
   fs::remove(folder.path() / "out/reference.json");
   holds(remade(), {"Nothing to compare with: there is no reference file"});
-}
-
-/// 60 GPa, Poisson's ratio 0.2 to 60 MPa, 0.35 to 120 MPa, 0.9 to the peak of 160 MPa; in per cent and MPa.
-std::string measured_curve(const std::string& header, const double sign_of_lateral = -1.0)
-{
-  std::string text = header + "\n";
-  const auto expansion = [](const double stress) {
-    return (0.2 * std::min(stress, 60.0) + 0.35 * std::clamp(stress - 60.0, 0.0, 60.0) +
-            0.9 * std::max(stress - 120.0, 0.0)) /
-           600.0;
-  };
-  for (int k = 0; k <= 200; ++k)
-    {
-      const double stress = k <= 160 ? k : 320.0 - k;
-      text +=
-        fmt::format("{:.9f},{:.9f},{},0\n", k / 600.0, sign_of_lateral * expansion(std::min(double(k), 160.0)), stress);
-    }
-  return text;
 }
 
 TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
@@ -488,6 +554,13 @@ TEST(ReportOfASample, CutsACylinderAndDrawsItsVolumesInSpace)
   EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
   EXPECT_GT(fs::file_size(folder.path() / "out/figures/direct_tension_seed_1_volumes.png"), 10'000u);
   EXPECT_NE(content(folder.path() / "out/tables/volumes_direct_tension_seed_1.csv").find("r = "), std::string::npos);
+
+  // A module of Python's that came with a folder is not taken for the one that draws.
+  for (const char* module : {"vtk", "subprocess", "signal"})
+    folder.write(fmt::format("out/figures/{}.py", module), "open('marker', 'w').close()\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
+  EXPECT_FALSE(has_anywhere(folder.path(), "marker"));
+  EXPECT_EQ(words_of(folder.path() / "out/report.html").find("class=\"absent\""), std::string::npos);
 }
 } // namespace
 } // namespace feldspar::tests

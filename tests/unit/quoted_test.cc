@@ -56,5 +56,23 @@ TEST(Quoted, LongTextIsCutAtWholeCharacters)
   const std::string long_text(6000, '\n');
   EXPECT_EQ(in_quotes(long_text).size(), 2 + 2 * 35 + std::string("…").size());
 }
+
+TEST(Quoted, CodesThatXmlForbidsAreNoCharacters)
+{
+  EXPECT_EQ(printable("\xef\xbf\xbd"sv), "\xef\xbf\xbd"); // U+FFFD is one
+  EXPECT_EQ(printable("\xef\xbf\xbe"sv), "\\xef\\xbf\\xbe");
+  EXPECT_EQ(printable("\xef\xbf\xbf"sv), "\\xef\\xbf\\xbf");
+}
+
+TEST(PlainName, IsOneThatNeedsNoQuotingAnywhere)
+{
+  for (const auto name : {"a"sv, "triaxial_compression_2.5_MPa_seed_1"sv, "pressed_at_1e+02"sv, "7"sv})
+    EXPECT_TRUE(is_plain_name(name)) << name;
+  for (const auto name : {""sv, "."sv, ".."sv, ".hidden"sv, "-option"sv, "|pipe"sv, "a/b"sv, "a b"sv, "a\nb"sv, "a'b"sv,
+                          "gr\xc3\xbcn"sv, "a\0b"sv})
+    EXPECT_FALSE(is_plain_name(name)) << printable(name);
+  EXPECT_TRUE(is_plain_name(std::string(235, 'a')));
+  EXPECT_FALSE(is_plain_name(std::string(236, 'a')));
+}
 } // namespace
 } // namespace feldspar::tests

@@ -330,6 +330,51 @@ TEST(Table, IsQuotedAsCsvWants)
   EXPECT_EQ(as_csv({"name", "caption", {"a", "b, c"}, {{"say \"so\"", "1"}}}), "a,\"b, c\"\n\"say \"\"so\"\"\",1\n");
 }
 
+TEST(Table, HasNoFormulas)
+{
+  // A number stays one, text that begins as a formula does is text for a spreadsheet too.
+  EXPECT_EQ(as_csv({"name", "caption", {"=1+2"}, {{"-1.5e-3"}, {"+5"}, {"-1 MPa"}, {"@SUM(A1)"}, {"a=b"}, {"–"}}}),
+            "'=1+2\n-1.5e-3\n'+5\n'-1 MPa\n'@SUM(A1)\na=b\n–\n");
+  EXPECT_EQ(as_csv({"name", "caption", {"=HYPERLINK(\"http://x\",\"y\")"}, {{"\t=1"}, {"\r=1"}, {"a\rb"}, {"a\n=1"}}}),
+            "\"'=HYPERLINK(\"\"http://x\"\",\"\"y\"\")\"\n'\t=1\n\"'\r=1\"\n\"a\rb\"\n\"a\n=1\"\n");
+}
+
+TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
+{
+  const TemporaryFolder folder;
+  std::vector<FinishedTest> tests{compression(3)};
+  write_result_folder({}, tests, folder.path());
+  std::string summary = content(folder.path() / "summary.json");
+  const std::string name = "\"uniaxial_compression_seed_3\"";
+  const std::string whole = summary.substr(summary.find("[\n") + 1, summary.find("\n  ],") - summary.find("[\n") - 1);
+  for (const char* const foreign :
+       {"../../uniaxial", "a\\nsystem \\\"touch marker\\\"", "", "/etc/passwd", "|touch marker"})
+    {
+      std::string one = whole;
+      one.replace(one.find(name), name.size(), fmt::format("\"{}\"", foreign));
+      summary.insert(summary.find("\n  ],"), "," + one);
+    }
+  folder.write("summary.json", summary);
+  const auto all = read_result_folder(folder.path());
+  EXPECT_EQ(all.at(0).tests.size(), 1u);
+  ASSERT_EQ(all[0].problems.size(), 5u);
+  EXPECT_NE(all[0].problems[1].find("a test was left out for its name, \"a\\nsystem \"touch marker\"\""),
+            std::string::npos)
+    << all[0].problems[1];
+}
+
+TEST(ResultFolder, WritesWhatIsNotUtf8AsItIsShown)
+{
+  const TemporaryFolder folder;
+  auto test = compression(3);
+  test.record.failure = "gr\xfcn.txt: no such file";
+  write_result_folder({"0.1", "abc", "gr\xfcn.prm", {{"Report", "Reference file", "\xff.json"}}, "", 1}, {test},
+                      folder.path());
+  const auto all = read_result_folder(folder.path());
+  EXPECT_EQ(all.at(0).made_by.input_file, "gr\\xfcn.prm");
+  EXPECT_EQ(all[0].made_by.input.at(0).value, "\\xff.json");
+}
+
 TEST(Reference, StrengthsUnderConfinementComeInTheOrderOfPressure)
 {
   const TemporaryFolder folder;

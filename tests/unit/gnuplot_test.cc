@@ -1,0 +1,170 @@
+// What gnuplot makes of texts of others: by gnuplot itself, for a rule of ours about it could be wrong.
+
+#include "report/pictures/gnuplot.h"
+
+#include "base/quoted.h"
+#include "report/pictures/plot_style.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+using namespace std::string_view_literals;
+namespace fs = std::filesystem;
+
+/// Texts that mean something to gnuplot, to its enhanced text, to a shell, to SVG or to none of them. Where a program
+/// can be started it leaves a file.
+std::vector<std::string> hostile_texts()
+{
+  std::vector<std::string> texts;
+  for (const auto text : {
+         "a\nsystem \"touch marker\"\n"sv,
+         "a\r\nsystem \"touch marker\"\r\n"sv,
+         "'; system \"touch marker\"; print '"sv,
+         "'''; system \"touch marker\" #"sv,
+         "''; system \"touch marker\""sv,
+         "\"; system(\"touch marker\")"sv,
+         "\\'; system \"touch marker\" #"sv,
+         "`touch marker`"sv,
+         "$(touch marker)"sv,
+         "@run"sv,
+         "!touch marker"sv,
+         "|touch marker"sv,
+         "ends with a backslash\\"sv,
+         "\\n \\x0a \\140touch marker\\140"sv,
+         "# no comment, 100 % %d %s $1 ${run}"sv,
+         "{/Bold a} a_b^c ~d{e} &{f} @g"sv,
+         "EOD\nEOD\n"sv,
+         "<text>&amp;</text>]]><!-- -->"sv,
+         "]]]>>"sv,
+         "\x01\x07\x1b[31m\x7f"sv,
+         "nul \0 in it"sv,
+         "gr\xfcn \xff\xfe \xc3"sv,
+         "\xc2\x85 \xc2\x9b"sv,
+         "\xef\xbf\xbf"sv,
+         "σ₃ – 5 °C \U0001F600"sv,
+         ""sv,
+         "'"sv,
+       })
+    texts.emplace_back(text);
+  texts.push_back(std::string(6000, '\'') + "\nsystem \"touch marker\"\n");
+  return texts;
+}
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// As it is to be read in the picture.
+std::string shown(const std::string& text)
+{
+  std::string result = printable(text);
+  for (std::size_t at = 0; (at = result.find("]]>", at)) != std::string::npos;)
+    result.insert(at + 2, " ");
+  for (std::size_t at = 0; (at = result.find('\'', at)) != std::string::npos;)
+    result.replace(at, 1, "’");
+  return result;
+}
+
+TEST(GnuplotText, IsReadByGnuplotAsThatTextAlone)
+{
+  const TemporaryFolder folder;
+  // What a macro would stand for, were it expanded.
+  std::string script = "set encoding utf8\nrun = 'system \"touch marker\"'\nset print 'printed'\n";
+  std::string expected;
+  for (const std::string& text : hostile_texts())
+    {
+      script += fmt::format("print {}\n", gnuplot_text(text));
+      expected += shown(text) + "\n";
+    }
+  folder.write("print.gp", script);
+  ASSERT_EQ(std::system(fmt::format("cd '{}' && gnuplot -d print.gp 2>errors", folder.path().string()).c_str()), 0);
+  EXPECT_EQ(content(folder.path() / "errors"), "");
+  EXPECT_EQ(content(folder.path() / "printed"), expected);
+  EXPECT_FALSE(fs::exists(folder.path() / "marker"));
+
+  // The check can fail: the same words outside of quotes do start a program.
+  folder.write("open.gp", "print 'a\nsystem \"touch marker\"\n");
+  std::system(fmt::format("cd '{}' && gnuplot -d open.gp 2>errors", folder.path().string()).c_str());
+  folder.write("backquotes.gp", "print \"`touch marker`\"\n");
+  std::system(fmt::format("cd '{}' && gnuplot -d backquotes.gp 2>errors", folder.path().string()).c_str());
+  EXPECT_TRUE(fs::exists(folder.path() / "marker"));
+}
+
+Picture picture(const std::string& name, const std::string& script)
+{
+  Picture result;
+  result.name = name;
+  result.width = 900;
+  result.height = 400;
+  result.script = script;
+  return result;
+}
+
+/// Words of an SVG.
+std::string unescaped(std::string svg)
+{
+  for (const auto& [escape, character] : {std::pair("&lt;", "<"), {"&gt;", ">"}, {"&quot;", "\""}, {"&amp;", "&"}})
+    for (std::size_t at = 0; (at = svg.find(escape, at)) != std::string::npos; ++at)
+      svg.replace(at, std::string(escape).size(), character);
+  return svg;
+}
+
+TEST(GnuplotText, IsWrittenIntoPicturesAsItIsShown)
+{
+  const TemporaryFolder folder;
+  std::vector<Picture> pictures;
+  const auto texts = hostile_texts();
+  for (const std::string& text : texts)
+    if (text.size() < 1000) // longer ones leave no room for a plot
+      pictures.push_back(
+        picture(fmt::format("picture_{}", pictures.size()),
+                plot::frame(text, text) + fmt::format("set title {} noenhanced\nplot x {}, 2*x {}\n",
+                                                      gnuplot_text(text), plot::title(text), plot::title(text))));
+  const auto problems = draw(pictures, folder.path());
+  for (std::size_t k = 0; k < pictures.size(); ++k)
+    {
+      EXPECT_EQ(problems[k], "") << printable(texts[k]);
+      const std::string svg = content(folder.path() / (pictures[k].name + ".svg"));
+      EXPECT_EQ(svg.find("]]>", svg.find("<desc>")), std::string::npos);
+      const std::string words = shown(texts[k]);
+      if (words.empty())
+        continue;
+      std::size_t n = 0;
+      const std::string all = unescaped(svg);
+      for (std::size_t at = 0; (at = all.find(words, at)) != std::string::npos; at += words.size())
+        ++n;
+      EXPECT_GE(n, 5u) << words; // two axes, the title of all and those of two lines
+    }
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    EXPECT_NE(entry.path().filename(), "marker");
+}
+
+TEST(Draw, WorksInAFolderOfAnyNameAndTakesPlainNamesAlone)
+{
+  const TemporaryFolder folder;
+  const fs::path odd = folder.path() / "|touch marker; `touch marker`\n' \xff -x";
+  fs::create_directory(odd);
+  EXPECT_EQ(draw({picture("line", "plot x\n")}, odd).front(), "");
+  EXPECT_GT(fs::file_size(odd / "line.svg"), 1000u);
+  EXPECT_THROW(draw({picture("../line", "plot x\n")}, odd), std::logic_error);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    EXPECT_NE(entry.path().filename(), "marker");
+}
+} // namespace
+} // namespace feldspar::tests
