@@ -1,5 +1,6 @@
 #pragma once
 
+#include "results/fits/strength_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/series.h"
 
@@ -13,7 +14,8 @@ namespace feldspar
 /// What a report is made of.
 struct ReportInput
 {
-  std::vector<Series> all; ///< the first is the one that is compared in words
+  std::vector<Series> all;                  ///< the first is the one that is compared in words
+  std::vector<StrengthEnvelopes> envelopes; ///< of each series
   std::optional<Reference> reference;
   std::string reference_problem; ///< why there is none although there should be one
   bool one_folder = true;        ///< the names of tests are unlike; every test gets pictures of its own, as files

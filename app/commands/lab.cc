@@ -11,8 +11,7 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "report/sections/comparison.h"
-#include "results/fits/strength_data.h"
-#include "results/fits/strength_envelopes.h"
+#include "results/fits/run_envelopes.h"
 #include "results/folder/field_output.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
@@ -36,7 +35,8 @@ std::optional<Reference> reference_of(const Input& input)
 /// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
 template <int dim>
 std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<dim>>& specimens,
-                         const std::vector<FinishedTest>& tests, const std::vector<std::string>& missing)
+                         const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
+                         const std::vector<std::string>& missing)
 {
   std::string text;
   for (const auto& specimen : specimens)
@@ -49,8 +49,9 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
       text += as_text(compare(of_variant, reference_of(variant.input))) + "\n";
-      if (const StrengthData data = strength_data(of_variant); data.points.size() > 1)
-        text += as_text(fit_strength_envelopes(data)) + "\n";
+      if (const auto found = envelopes.find(variant.label);
+          found != envelopes.end() && found->second.data.points.size() > 1)
+        text += as_text(found->second) + "\n";
     }
   for (const auto& test : tests)
     if (!test.results.peak_stress.value)
@@ -92,15 +93,16 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     throw InputError(failed->record.failure);
 
   // Report.
-  write_result_folder(provenance(input, input_file), tests, folder);
+  const RunEnvelopes envelopes = fit_each_rock(tests);
+  write_result_folder(provenance(input, input_file), tests, envelopes, folder);
   std::filesystem::create_directories(folder / "fields");
   for (const auto& test : tests)
     write_fields(test, folder / "fields");
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
-  const auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder});
-  const std::string text = describe_run(all_variants, specimens, tests, missing);
+  const auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder, envelopes});
+  const std::string text = describe_run(all_variants, specimens, tests, envelopes, missing);
   write_whole_file(folder / "log.txt", text);
   if (!quiet)
     fmt::print("\n{}\n", text);

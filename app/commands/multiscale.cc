@@ -12,8 +12,7 @@
 #include "base/whole_file.h"
 #include "coupling/sample/ranks.h"
 #include "report/sections/comparison.h"
-#include "results/fits/strength_data.h"
-#include "results/fits/strength_envelopes.h"
+#include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 
@@ -33,7 +32,7 @@ namespace feldspar
 namespace
 {
 std::string describe_run(const Input& input, const std::vector<Rock>& rocks, const std::vector<FinishedTest>& tests,
-                         const std::vector<std::string>& remarks)
+                         const RunEnvelopes& envelopes, const std::vector<std::string>& remarks)
 {
   std::string text;
   for (const Rock& rock : rocks)
@@ -44,8 +43,8 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file);
   text += as_text(compare(tests, reference)) + "\n";
-  if (const StrengthData data = strength_data(tests); data.points.size() > 1)
-    text += as_text(fit_strength_envelopes(data)) + "\n";
+  if (const auto found = envelopes.find(""); found != envelopes.end() && found->second.data.points.size() > 1)
+    text += as_text(found->second) + "\n";
   for (const auto& test : tests)
     if (!test.results.peak_stress.value)
       text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
@@ -204,14 +203,15 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   // Report.
   const bool was_interrupted = ranks::any(interrupted());
   ranks::first([&] {
-    write_result_folder(provenance(input, input_file), tests, folder);
+    const RunEnvelopes envelopes = fit_each_rock(tests);
+    write_result_folder(provenance(input, input_file), tests, envelopes, folder);
     if (!input.reference_file.empty())
       std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                  std::filesystem::copy_options::overwrite_existing);
     if (!tests.empty())
-      for (auto& sentence : report_on({{folder}, {}, {}, folder}))
+      for (auto& sentence : report_on({{folder}, {}, {}, folder, envelopes}))
         remarks.push_back(std::move(sentence));
-    const std::string text = describe_run(input, rocks, tests, remarks);
+    const std::string text = describe_run(input, rocks, tests, envelopes, remarks);
     write_whole_file(folder / "log.txt", text);
     if (!quiet)
       fmt::print("\n{}\n", text);

@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "report/report.h"
+#include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,12 @@ std::vector<std::string> report_on(const ReportOrder& order)
     }
   for (const auto& curve : order.curves)
     input.all.push_back(read_laboratory_curve(curve));
+  for (const auto& series : input.all)
+    {
+      const auto fitted = order.envelopes.find(series.tests.front().variant);
+      input.envelopes.push_back(fitted != order.envelopes.end() ? fitted->second
+                                                                : fit_strength_envelopes(strength_data(series.tests)));
+    }
   if (reference)
     try
       {

@@ -133,10 +133,7 @@ std::map<std::uint32_t, double> fragment_diameters(const TestRecord& record)
 }
 
 std::string seed_of(const FinishedTest& test) { return fmt::format("seed {}", test.record.seed); }
-} // namespace
 
-namespace
-{
 /// Broken segments of the volume at one point of a sample.
 struct PointDamage
 {

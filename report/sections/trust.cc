@@ -52,17 +52,17 @@ const std::vector<Measure>& measures()
          return std::nullopt;
        return test.results.energy_imbalance_over_work;
      }},
-    {"kinetic over strain energy, largest up to the peak", " %", percent, 3, Side::at_most, 1 * percent,
+    {"kinetic over strain energy, largest over the rows up to the peak", " %", percent, 3, Side::at_most, 1 * percent,
      result(&TestResults::kinetic_to_strain_energy)},
-    {"unbalanced over contact force, mean up to the peak", " %", percent, 3, Side::at_most, 1 * percent,
+    {"unbalanced over contact force, mean over the rows up to the peak", " %", percent, 3, Side::at_most, 1 * percent,
      result(&TestResults::unbalanced_force_ratio)},
-    {"difference of the end stresses over the peak, largest", " %", percent, 1, Side::at_most, 5 * percent,
-     result(&TestResults::end_stress_difference)},
+    {"difference of the end stresses over the peak, largest over the rows", " %", percent, 1, Side::at_most,
+     5 * percent, result(&TestResults::end_stress_difference)},
     {"P-wave transits up to the peak", "", 1.0, 0, Side::at_least, 20, result(&TestResults::p_wave_transits_to_peak)},
-    {"servo error of the confinement, mean", " %", percent, 2, Side::at_most, 1 * percent,
+    {"servo error of the confinement, mean over the rows up to the peak", " %", percent, 2, Side::at_most, 1 * percent,
      result(&TestResults::servo_error)},
-    {"servo error of the confinement, largest", " %", percent, 1, Side::at_most, 3 * percent,
-     result(&TestResults::servo_error_largest)},
+    {"servo error of the confinement, largest over the rows up to the peak, each a mean since the row before", " %",
+     percent, 1, Side::at_most, 3 * percent, result(&TestResults::servo_error_largest)},
     {"resolution, width over mean grain diameter", "", 1.0, 1, Side::at_least, 10,
      [](const FinishedTest& test) -> std::optional<double> {
        if (!(test.record.specimen.resolution > 0.0))

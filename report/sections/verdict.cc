@@ -1,8 +1,8 @@
 #include "report/sections/verdict.h"
 
-#include <fmt/format.h>
+#include "report/sections/text.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
 namespace feldspar
 {
@@ -12,15 +12,15 @@ namespace
 std::string beside_experiment(const ComparisonRow& row)
 {
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-  std::string text = fmt::format("{} {:.{}f}{}; experiment {}{}", row.property, row.ours->mean, row.decimals, unit,
-                                 as_text(row, row.experiment), unit);
+  std::string sentence = fmt::format("{} {:.{}f}{}; experiment {}{}", row.property, row.ours->mean, row.decimals, unit,
+                                     as_text(row, row.experiment), unit);
   if (const auto deviation = row.deviation())
-    text += fmt::format("; {}{:.1f} %", *deviation < 0.0 ? "−" : "+", 100.0 * std::abs(*deviation));
+    sentence += "; " + text::signed_percent(*deviation);
   if (row.in_range() == true && row.surely_in_range() == false)
-    text += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches out of the range",
-                        row.ours->mean - *row.ours->confidence_95, row.decimals,
-                        row.ours->mean + *row.ours->confidence_95, row.decimals);
-  return text;
+    sentence += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches out of the range",
+                            row.ours->mean - *row.ours->confidence_95, row.decimals,
+                            row.ours->mean + *row.ours->confidence_95, row.decimals);
+  return sentence;
 }
 } // namespace
 

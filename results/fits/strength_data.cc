@@ -6,13 +6,13 @@
 
 namespace feldspar
 {
-StrengthData strength_data(const std::vector<FinishedTest>& tests)
+StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::optional<std::string>& variant)
 {
   std::map<double, std::vector<double>> by_confinement;
   std::vector<double> direct;
   std::vector<double> brazilian;
   for (const auto& test : tests)
-    if (test.results.peak_stress.value)
+    if (test.results.peak_stress.value && (!variant || test.variant == *variant))
       {
         const double strength = *test.results.peak_stress.value;
         if (test.record.kind == TestKind::direct_tension)

@@ -3,11 +3,14 @@
 #include "results/fits/fit.h"
 #include "results/run.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace feldspar
 {
 /// The strengths of a programme as envelopes are fitted to them: means over the seeds of its uniaxial and triaxial
-/// tests, and of direct tension (of Brazilian tests where there is none).
-StrengthData strength_data(const std::vector<FinishedTest>& tests);
+/// tests, and of direct tension (of Brazilian tests where there is none). `variant`: of its tests alone.
+StrengthData strength_data(const std::vector<FinishedTest>& tests,
+                           const std::optional<std::string>& variant = std::nullopt);
 } // namespace feldspar

@@ -139,7 +139,7 @@ void try_to(std::vector<std::string>& problems, Read&& read)
 } // namespace
 
 void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
-                         const std::filesystem::path& folder)
+                         const RunEnvelopes& envelopes, const std::filesystem::path& folder)
 {
   std::filesystem::create_directories(folder / result_file::curves);
   if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
@@ -155,7 +155,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
         write_volume(volume, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
-  write_summary(made_by, tests, folder / result_file::summary);
+  write_summary(made_by, tests, envelopes, folder / result_file::summary);
 }
 
 std::vector<Series> read_result_folder(const std::filesystem::path& folder)

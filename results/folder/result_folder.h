@@ -1,5 +1,6 @@
 #pragma once
 
+#include "results/fits/run_envelopes.h"
 #include "results/series.h"
 
 #include <filesystem>
@@ -26,7 +27,7 @@ inline constexpr const char* page = "report.html";
 /// Writes what a later report needs: summary.json, curves/, cracks.csv, grains/, points/. The fields of finite
 /// elements, fields/, are there already.
 void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
-                         const std::filesystem::path& folder);
+                         const RunEnvelopes& envelopes, const std::filesystem::path& folder);
 
 /// Reads it back: one series, or one for each variant. A table that is missing or cannot be read leaves its place empty
 /// and becomes a problem of the series, as does a summary of another layout, as far as it can be read. Throws InputError

@@ -1,8 +1,6 @@
 #include "results/folder/summary.h"
 
 #include "base/whole_file.h"
-#include "results/fits/strength_data.h"
-#include "results/fits/strength_envelopes.h"
 #include "results/folder/provenance_json.h"
 #include "results/result_table.h"
 #include "results/statistics.h"
@@ -107,12 +105,14 @@ Json ensemble(const std::vector<FinishedTest>& tests)
         }
   return json;
 }
-/// Every strength envelope of one programme; variants of it are different rocks and are not fitted together.
-Json fits(const std::vector<FinishedTest>& tests)
+
+/// Every strength envelope of one programme; of variants there is none of all together.
+Json fits(const RunEnvelopes& envelopes)
 {
   Json json;
-  const bool varied = !tests.empty() && !tests.front().variant.empty();
-  for (const auto& record : records(fit_strength_envelopes(varied ? StrengthData{} : strength_data(tests))))
+  const auto of_one_rock = envelopes.find("");
+  const bool varied = !envelopes.empty() && of_one_rock == envelopes.end();
+  for (const auto& record : records(of_one_rock == envelopes.end() ? fit_strength_envelopes({}) : of_one_rock->second))
     {
       Json& form = json[record.form];
       Json& out = record.variant.empty() ? form : form[record.variant];
@@ -131,7 +131,7 @@ Json fits(const std::vector<FinishedTest>& tests)
 }
 } // namespace
 
-void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests,
+void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
                    const std::filesystem::path& file)
 {
   Json json = as_json(provenance);
@@ -139,7 +139,7 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
   for (const auto& test : tests)
     json["tests"].push_back(describe(test));
   json["ensemble"] = ensemble(tests);
-  json["fits"] = fits(tests);
+  json["fits"] = fits(envelopes);
   // Reasons may quote what is not UTF-8.
   write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -5,6 +5,7 @@
 #include "report/sections/comparison.h"
 #include "report/sections/trust.h"
 #include "report/sections/verdict.h"
+#include "results/fits/run_envelopes.h"
 #include "results/folder/result_folder.h"
 #include "results/result_table.h"
 #include "results/series.h"
@@ -105,7 +106,7 @@ TEST(ResultFolder, IsReadBackAsItWasWritten)
   failed.results = evaluate(failed.record);
   const std::vector<FinishedTest> written{compression(3), compression(4, 1.1), failed};
   const Provenance made_by{"0.1", "abc", "rock.prm", {{"Seeds", "Seeds", "3, 4"}}, "a processor", 2};
-  write_result_folder(made_by, written, folder.path());
+  write_result_folder(made_by, written, fit_each_rock(written), folder.path());
   const auto all = read_result_folder(folder.path());
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].label, folder.path().filename().string());
@@ -132,7 +133,7 @@ TEST(ResultFolder, IsReadBackAsItWasWritten)
     }
   // Written again, the same bytes: nothing was lost on the way.
   const TemporaryFolder again;
-  write_result_folder(made_by, all[0].tests, again.path());
+  write_result_folder(made_by, all[0].tests, fit_each_rock(all[0].tests), again.path());
   for (const char* file : {"summary.json", "cracks.csv", "curves/uniaxial_compression_seed_3.csv",
                            "grains/uniaxial_compression_seed_4.csv"})
     EXPECT_EQ(content(again.path() / file), content(folder.path() / file)) << file;
@@ -147,7 +148,7 @@ TEST(ResultFolder, OfVariantsIsASeriesForEach)
   auto fast = compression(1);
   fast.name += "_variant_2";
   fast.variant = "Tests/Compression strain rate = 1 1/s";
-  write_result_folder({}, {slow, fast}, folder.path());
+  write_result_folder({}, {slow, fast}, {}, folder.path());
   const auto all = read_result_folder(folder.path());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].label, slow.variant);
@@ -202,7 +203,7 @@ TEST(ResultFolder, ThatIsNoneIsRefused)
 TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
 {
   const TemporaryFolder folder;
-  write_result_folder({}, {compression(3), compression(4)}, folder.path());
+  write_result_folder({}, {compression(3), compression(4)}, {}, folder.path());
   std::filesystem::create_directories(folder.path() / "curves");
   folder.write("curves/uniaxial_compression_seed_3.csv", "step,time_s\n1,2\n");
   folder.write("curves/uniaxial_compression_seed_4.csv",
@@ -227,7 +228,7 @@ TEST(ResultFolder, KnowsTestsOnFiniteElementsAndWhatTheyCannotHave)
   test.record.ended_early = "no equilibrium was found";
   test.results = evaluate(test.record);
   const TemporaryFolder folder;
-  write_result_folder({}, {test}, folder.path());
+  write_result_folder({}, {test}, {}, folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "grains"));
 
   const auto all = read_result_folder(folder.path());
@@ -325,6 +326,22 @@ TEST(Trust, SaysWhatIsOutOfItsBounds)
   EXPECT_NE(said.find("Only 1 specimen:"), std::string::npos) << said;
 }
 
+TEST(Trust, WarnsOfAServoThatLetsTheConfinementGo)
+{
+  Series series{"x", SeriesKind::specimens, {}, {compression(1)}, {}};
+  TestResults& results = series.tests.front().results;
+  const auto warned = [&] {
+    const auto sentences = warnings(series);
+    return std::any_of(sentences.begin(), sentences.end(), [](const std::string& sentence) {
+      return sentence.find("servo error of the confinement, largest over the rows up to the peak") != std::string::npos;
+    });
+  };
+  results.servo_error_largest = {0.029, ""};
+  EXPECT_FALSE(warned());
+  results.servo_error_largest = {0.089, ""};
+  EXPECT_TRUE(warned());
+}
+
 TEST(Table, IsQuotedAsCsvWants)
 {
   EXPECT_EQ(as_csv({"name", "caption", {"a", "b, c"}, {{"say \"so\"", "1"}}}), "a,\"b, c\"\n\"say \"\"so\"\"\",1\n");
@@ -343,7 +360,7 @@ TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
 {
   const TemporaryFolder folder;
   std::vector<FinishedTest> tests{compression(3)};
-  write_result_folder({}, tests, folder.path());
+  write_result_folder({}, tests, {}, folder.path());
   std::string summary = content(folder.path() / "summary.json");
   const std::string name = "\"uniaxial_compression_seed_3\"";
   const std::string whole = summary.substr(summary.find("[\n") + 1, summary.find("\n  ],") - summary.find("[\n") - 1);
@@ -368,7 +385,7 @@ TEST(ResultFolder, WritesWhatIsNotUtf8AsItIsShown)
   const TemporaryFolder folder;
   auto test = compression(3);
   test.record.failure = "gr\xfcn.txt: no such file";
-  write_result_folder({"0.1", "abc", "gr\xfcn.prm", {{"Report", "Reference file", "\xff.json"}}, "", 1}, {test},
+  write_result_folder({"0.1", "abc", "gr\xfcn.prm", {{"Report", "Reference file", "\xff.json"}}, "", 1}, {test}, {},
                       folder.path());
   const auto all = read_result_folder(folder.path());
   EXPECT_EQ(all.at(0).made_by.input_file, "gr\\xfcn.prm");

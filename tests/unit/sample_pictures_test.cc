@@ -2,6 +2,7 @@
 
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "report/pictures/volume_pictures.h"
 #include "results/folder/result_folder.h"
 #include "tests/temporary_folder.h"
 
@@ -298,7 +299,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   auto test = test_with({});
   test.record.curve.clear();
   test.volumes = {volume()};
-  write_result_folder({}, {test}, folder.path());
+  write_result_folder({}, {test}, {}, folder.path());
   const auto all = read_result_folder(folder.path());
   ASSERT_EQ(all.at(0).tests.at(0).volumes.size(), 1u);
   const PointVolume& read = all[0].tests[0].volumes[0];

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "report/page/page.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// Pictures of a page and of its folder, drawn together when all are known.
+class PictureBook
+{
+public:
+  /// Pictures for the page, in their places there; whether they could be drawn is filled in by draw_into(). A name that
+  /// is taken is changed.
+  std::vector<PagePicture> keep(std::vector<Picture> pictures);
+
+  /// Pictures that go to files only; those whose names are taken are on the page already.
+  void keep_as_files(std::vector<Picture> pictures);
+
+  /// Draws all into a folder that exists and tells the page which are not there. Returns why the first of these is not;
+  /// empty if all are.
+  std::string draw_into(const std::filesystem::path& folder, Page& page) const;
+
+private:
+  bool is_taken(const std::string& name) const;
+
+  std::vector<Picture> all;
+};
+} // namespace feldspar

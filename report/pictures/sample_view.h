@@ -1,0 +1,56 @@
+#pragma once
+
+#include "results/run.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// The way from the mesh of a sample to the plane of a picture [m].
+namespace feldspar
+{
+using PlanePoint = std::array<double, 2>;
+
+/// A cell of the picture's plane, or the polygon that the plane cuts out of one: its corners around.
+struct SamplePiece
+{
+  std::size_t cell;
+  std::vector<PlanePoint> rest;
+  std::vector<PlanePoint> moved; ///< displacements drawn larger
+};
+
+/// A sample in the plane as it is, a half section in r and z with its mirror image, a body in space cut through its axis.
+/// The fields outlive it.
+class SampleView
+{
+public:
+  /// Displacements are drawn `scale` times larger.
+  SampleView(const SampleFields& fields, double scale);
+
+  std::vector<SamplePiece> pieces() const;
+
+  /// Where a volume is drawn: displaced with its cell.
+  PlanePoint place(const PointVolume& volume) const;
+
+private:
+  PlanePoint in_picture(const std::array<double, 3>& at) const;
+  std::array<double, 3> moved(std::uint32_t node) const;
+  SamplePiece flat(std::size_t cell) const;
+  SamplePiece section(std::size_t cell) const; ///< where the plane meets the edges of a hexahedron
+
+  const SampleFields& fields;
+  double scale;
+  double cut = 0.0; ///< y of the section of a body in space
+};
+
+/// Edges of the pieces for which `inside` holds, as rows for gnuplot [mm], unless pieces on both sides are inside.
+std::string outline(const std::vector<SamplePiece>& pieces, const std::vector<PlanePoint> SamplePiece::*drawn,
+                    const std::function<bool(const SamplePiece&)>& inside);
+
+PlanePoint middle_of(const std::vector<PlanePoint>& corners);
+double area_of(const std::vector<PlanePoint>& corners);
+
+/// A round number by which displacements can be multiplied to be seen: at most 6 % of the height.
+double visible_scale(const SampleFields& fields);
+} // namespace feldspar

@@ -1,0 +1,171 @@
+#include "report/sections/comparison_table.h"
+
+#include "base/append.h"
+#include "report/pictures/plot_style.h"
+#include "report/sections/text.h"
+#include "results/statistics.h"
+#include "results/test_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using namespace text;
+
+std::string against_experiment(const ComparisonRow& row)
+{
+  if (!row.ours || !row.experiment)
+    return none;
+  const std::string deviation = row.deviation() ? signed_percent(*row.deviation()) : "";
+  if (!row.in_range())
+    return "no range given" + (deviation.empty() ? "" : ", " + deviation);
+  return (*row.in_range() ? "✓ " : "✗ ") + deviation + (*row.in_range() ? ", in range" : ", out of range");
+}
+
+/// A line of the comparison: heading, model, experiment, model against experiment and so on of one series; of several
+/// the rock before them.
+std::vector<std::string> arranged(const std::string& heading, const std::vector<std::string>& rock,
+                                  const std::vector<std::string>& ours, const bool one)
+{
+  std::vector<std::string> line{heading};
+  if (one && !rock.empty())
+    append(line, {ours[0], rock[0], ours[1], ours[2], rock[1]});
+  else
+    {
+      append(line, rock);
+      append(line, ours);
+    }
+  return line;
+}
+
+} // namespace
+
+Table comparison_table(const Findings& findings)
+{
+  // Measured curves have tables of their own beside the model, if there is one.
+  const bool any_model = std::any_of(findings.all.begin(), findings.all.end(),
+                                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  std::vector<std::size_t> compared;
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve)
+      compared.push_back(n);
+
+  // Rows of these series, by their names, in the order in which they come.
+  std::vector<std::string> properties;
+  for (const std::size_t n : compared)
+    for (const auto& row : findings.comparisons[n])
+      if ((row.ours || row.experiment || row.model) &&
+          std::find(properties.begin(), properties.end(), row.property) == properties.end())
+        properties.push_back(row.property);
+  const bool one = compared.size() == 1;
+
+  Table table{"comparison",
+              "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
+              "Student's t. Range: does our mean lie in that of the experiments?",
+              {"property"},
+              {}};
+  // Of one series the model stands beside the rock; of several each is held against the rock, which comes first.
+  std::vector<std::string> rock;
+  if (findings.reference)
+    rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};
+  std::vector<std::string> of_series;
+  for (const std::size_t n : compared)
+    append(of_series, {one && any_model ? "model" : findings.all[n].label, "against experiment", "95 % of the mean"});
+  table.header = arranged("property", rock, of_series, one);
+  for (const auto& property : properties)
+    {
+      std::string heading;
+      std::vector<std::string> ours;
+      std::string experiment = none;
+      std::string model = none;
+      for (const std::size_t n : compared)
+        {
+          const auto& rows = findings.comparisons[n];
+          const auto row = std::find_if(rows.begin(), rows.end(),
+                                        [&](const ComparisonRow& candidate) { return candidate.property == property; });
+          if (row == rows.end())
+            {
+              append(ours, {none, none, none});
+              continue;
+            }
+          heading = row->unit.empty() ? property : fmt::format("{} [{}]", property, row->unit);
+          append(ours, {row->ours
+                          ? fmt::format("{} (n = {})", mean_and_deviation(*row->ours, 1.0, row->decimals), row->ours->n)
+                          : none,
+                        against_experiment(*row), row->ours ? interval(*row->ours, 1.0, row->decimals) : none});
+          if (row->experiment)
+            experiment = as_text(*row, row->experiment);
+          if (row->model)
+            model = as_text(*row, row->model);
+        }
+      if (findings.reference)
+        rock = {experiment, model};
+      table.rows.push_back(arranged(heading, rock, ours, one));
+    }
+  return table;
+}
+
+Table measured_table(const Findings& findings, const std::size_t n)
+{
+  const Series& measured = findings.all[n];
+  const TestGroup curve = groups_of(measured).front();
+  Table table{fmt::format("measured_{}_{}", n + 1, plot::file_name(measured.label)),
+              curve.title() + ": measured and model, mean ± standard deviation over the seeds",
+              {"property", measured.label},
+              {}};
+  // The model was hardly pressed with just the pressure of the laboratory.
+  const auto is_alike = [&](const TestGroup& group) {
+    return group.kind == curve.kind && std::abs(group.confining_pressure - curve.confining_pressure) <=
+                                         0.05 * std::max(group.confining_pressure, curve.confining_pressure);
+  };
+  std::vector<TestGroup> beside;
+  for (const auto& series : findings.all)
+    if (series.kind != SeriesKind::laboratory_curve)
+      for (const auto& group : groups_of(series))
+        if (is_alike(group))
+          {
+            beside.push_back(group);
+            table.header.push_back(group.confining_pressure == curve.confining_pressure
+                                     ? series.label
+                                     : series.label + ", " + group.title());
+          }
+  struct Property
+  {
+    const char* name;
+    Figure TestResults::*figure;
+    double unit;
+    int decimals;
+  };
+  static constexpr std::array properties{
+    Property{"peak stress [MPa]", &TestResults::peak_stress, mega, 1},
+    Property{"strain at peak [1e-3]", &TestResults::strain_at_peak, 1e-3, 2},
+    Property{"Young's modulus, tangent 40-60 % of peak [GPa]", &TestResults::youngs_modulus_tangent, 1e9, 1},
+    Property{"Young's modulus, initial [GPa]", &TestResults::youngs_modulus_initial, 1e9, 1},
+    Property{"Poisson's ratio, secant at 50 % of peak", &TestResults::poissons_ratio_secant, 1.0, 3},
+    Property{"Poisson's ratio, initial", &TestResults::poissons_ratio_initial, 1.0, 3},
+    Property{"crack initiation stress, lateral strain [MPa]", &TestResults::crack_initiation_stress_lateral, mega, 1},
+    Property{"crack initiation stress, count of cracks [MPa]", &TestResults::crack_initiation_stress, mega, 1},
+    Property{"crack damage stress [MPa]", &TestResults::crack_damage_stress, mega, 1}};
+  for (const auto& property : properties)
+    {
+      std::vector<std::string> row{
+        property.name, number(curve.tests.front()->results.*property.figure, property.unit, property.decimals)};
+      for (const auto& group : beside)
+        {
+          const auto over_seeds = statistics(values(group, property.figure));
+          row.push_back(over_seeds ? mean_and_deviation(*over_seeds, property.unit, property.decimals) : none);
+        }
+      table.rows.push_back(row);
+    }
+  if (beside.empty())
+    table.caption += "; the model was not tested so";
+  return table;
+}
+} // namespace feldspar

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "report/page/table.h"
+#include "report/sections/findings.h"
+
+namespace feldspar
+{
+/// Every property of every series beside the rock, a line each.
+Table comparison_table(const Findings& findings);
+
+/// The n-th series, a measured curve, beside the model's tests of its kind and pressure.
+Table measured_table(const Findings& findings, std::size_t n);
+} // namespace feldspar

@@ -1,0 +1,169 @@
+#include "report/sections/sections.h"
+
+#include "report/pictures/envelope_pictures.h"
+#include "report/sections/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using namespace text;
+
+/// Terminal text writes stresses out.
+std::string with_symbols(std::string text)
+{
+  for (const auto& [word, symbol] :
+       {std::pair("sigma_3", "σ₃"), {"sigma_1", "σ₁"}, {"sigma_t", "σ_t"}, {"sigma_ci", "σ_ci"}, {"<=", "≤"}})
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
+      text.replace(at, std::string(word).size(), symbol);
+  return text;
+}
+
+Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
+{
+  const auto& measured = envelopes.data;
+  const auto stress = [](const std::optional<double>& value, const int decimals) {
+    return value ? number(*value / mega, decimals) : none;
+  };
+  const auto beside = [](const double fitted, const std::optional<double>& was_measured) {
+    return was_measured ? fmt::format(" ({})", signed_percent(fitted / *was_measured - 1.0)) : std::string();
+  };
+  Table table{
+    name,
+    fmt::format(
+      "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa; fitted strengths "
+      "with their deviation from the measured ones, UCS {} and σ_t {}",
+      stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
+    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
+    {}};
+  for (const auto& pair : envelopes.hoek_brown)
+    for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+      {
+        const std::string form =
+          fmt::format("{}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
+                      answer == &pair.with_tension_point ? "with" : "without");
+        if (!answer->fit)
+          {
+            table.rows.push_back({form, "no fit: " + answer->reason, "", "", "", "", "", "", "", ""});
+            continue;
+          }
+        const HoekBrownFit& fit = *answer->fit;
+        table.rows.push_back(
+          {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
+           estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
+           number(fit.quality.root_mean_square / mega, 1),
+           estimate(fit.uniaxial_compressive_strength, mega, 1) +
+             beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
+           number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength),
+           fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
+      }
+  if (const auto& fit = envelopes.mohr_coulomb.fit)
+    table.rows.push_back({"Mohr–Coulomb", none, none, none, none, number(fit->quality.r_squared, 1.0, 4),
+                          number(fit->quality.root_mean_square / mega, 1),
+                          estimate(fit->uniaxial_strength, mega, 1) +
+                            beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
+                          none, "✓"});
+  else
+    table.rows.push_back({"Mohr–Coulomb", "no fit: " + envelopes.mohr_coulomb.reason, "", "", "", "", "", "", "", ""});
+  return table;
+}
+
+Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name)
+{
+  Table table{name, "Residuals: σ₁ of each point less that of the envelope [MPa]", {"σ₃ [MPa]", "σ₁ [MPa]"}, {}};
+  std::map<std::pair<double, double>, std::map<std::size_t, double>> residuals;
+  std::size_t n_fits = 0;
+  for (const auto& record : records(envelopes))
+    {
+      if (!record.reason.empty())
+        continue;
+      std::string heading = record.form + (record.variant.empty() ? "" : ", " + record.variant);
+      std::replace(heading.begin(), heading.end(), '_', ' ');
+      table.header.push_back(heading);
+      for (const auto& [point, residual] : record.residuals)
+        residuals[{point.sigma_3, point.sigma_1}][n_fits] = residual;
+      ++n_fits;
+    }
+  for (const auto& [point, of_fits] : residuals)
+    {
+      std::vector<std::string> row{number(point.first / mega, 2), number(point.second / mega, 1)};
+      for (std::size_t k = 0; k < n_fits; ++k)
+        row.push_back(of_fits.contains(k) ? number(of_fits.at(k) / mega, 1) : none);
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+/// Whether an envelope that another source prints meets its own uniaxial tests; empty if there is none.
+std::string remark_on_printed(const ReferenceSource& source)
+{
+  const auto measured = source.find("uniaxial_compressive_strength_MPa");
+  if (!source.envelope || !measured)
+    return "";
+  const double fitted = source.envelope->sigma_1(0.0) / mega;
+  std::string text = fmt::format(
+    "{}: the printed envelope has s = {:.2f} and says {:.0f} MPa at σ₃ = 0, where its own tests gave {:.0f} MPa",
+    source.label, source.envelope->s, fitted, measured->mean);
+  if (source.envelope->s > 1.0)
+    text += ": with s > 1 the strength σ_ci·sᵃ at σ₃ = 0 exceeds σ_ci";
+  return text + ".";
+}
+} // namespace
+
+PageSection envelope_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"envelope", "Envelope", "Strength envelope", {}};
+  if (auto combined = combined_envelope_picture(findings.all, findings.envelopes, findings.reference);
+      !combined.empty())
+    {
+      PageBlock together;
+      together.pictures = book.keep(std::move(combined));
+      section.blocks.push_back(together);
+    }
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      if (findings.all[n].kind == SeriesKind::laboratory_curve)
+        continue;
+      PageBlock block = findings.heading_of(n);
+      const StrengthEnvelopes& envelopes = findings.envelopes[n];
+      if (envelopes.data.points.empty())
+        {
+          block.paragraphs.push_back("No compression test of this series has a strength, so there is no envelope.");
+          section.blocks.push_back(block);
+          continue;
+        }
+      block.paragraphs.push_back(with_symbols(remark(envelopes)));
+      if (n == 0 && findings.reference)
+        if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
+          block.paragraphs.push_back(printed);
+      block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
+      section.blocks.push_back(block);
+      PageBlock figures;
+      figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
+      if (const auto& fit = envelopes.mohr_coulomb.fit)
+        figures.paragraphs.push_back(fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa.",
+                                                 estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
+                                                 estimate(fit->cohesion, mega, 1)));
+      figures.paragraphs.push_back(
+        "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
+        "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");
+      section.blocks.push_back(figures);
+      PageBlock residuals;
+      residuals.folded = findings.titled("Residual of every point", findings.all[n]);
+      residuals.pictures = book.keep(residual_picture(findings.all[n], envelopes));
+      residuals.tables.push_back(residual_table(envelopes, "residuals" + findings.ending_of_files(n)));
+      if (!residuals.pictures.empty())
+        section.blocks.push_back(residuals);
+    }
+  return section;
+}
+} // namespace feldspar

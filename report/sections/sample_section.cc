@@ -1,0 +1,109 @@
+#include "report/sections/sections.h"
+
+#include "base/append.h"
+#include "report/pictures/sample_pictures.h"
+#include "report/pictures/volume_pictures.h"
+#include "report/sections/text.h"
+#include "results/test_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using namespace text;
+
+/// Where the volumes that are drawn stand, with what broke in them.
+std::vector<Table> volume_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
+{
+  if (test.volumes.empty())
+    return {};
+  Table table{"volumes_" + test.name + ending,
+              fmt::format("{}, seed {}: the volumes that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
+                          "writes these or any other for ParaView and for feldspar rve",
+                          title, test.record.seed),
+              {"volume", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
+              {}};
+  for (std::size_t k = 0; k < test.volumes.size(); ++k)
+    {
+      const PointVolume& volume = test.volumes[k];
+      const auto n_shear = std::count_if(volume.cracks.begin(), volume.cracks.end(),
+                                         [](const Crack& crack) { return crack.kind == CrackKind::shear; });
+      table.rows.push_back({fmt::format("{}, {}", letter_of_volume(k), volume.which), standing_of(volume, test.fields),
+                            volume.place(), fmt::format("{}", volume.cracks.size()),
+                            number(100.0 * broken_share(volume), 2), fmt::format("{}", n_shear)});
+    }
+  return {table};
+}
+
+/// The test of a group that has most to show.
+const FinishedTest* with_fields(const TestGroup& group)
+{
+  if (const auto* test = typical(group))
+    return test;
+  const auto found = std::find_if(group.tests.begin(), group.tests.end(),
+                                  [](const FinishedTest* test) { return !test->fields.nodes.empty(); });
+  return found == group.tests.end() ? nullptr : *found;
+}
+} // namespace
+
+PageSection sample_section(const Findings& findings, PictureBook& book)
+{
+  PageSection section{"sample", "Sample", "The sample at its end", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      const Series& series = findings.all[n];
+      if (series.kind != SeriesKind::finite_elements)
+        continue;
+      std::vector<const FinishedTest*> on_page;
+      for (const auto& group : shown(groups_of(series)))
+        if (const auto* test = with_fields(group))
+          on_page.push_back(test);
+      PageBlock heading = findings.heading_of(n);
+      std::vector<PageBlock> blocks;
+      for (const auto& group : groups_of(series))
+        for (const auto* test : group.tests)
+          {
+            const std::string title = findings.titled(group.title(), series);
+            const auto named = [&](std::vector<Picture> pictures) {
+              if (!findings.one_folder)
+                for (auto& picture : pictures)
+                  picture.name += findings.ending_of_files(n);
+              return pictures;
+            };
+            std::vector<Picture> sample = named(sample_picture(*test, title));
+            std::vector<Picture> volumes = named(volume_picture(*test, title));
+            if (std::find(on_page.begin(), on_page.end(), test) == on_page.end())
+              {
+                if (findings.one_folder)
+                  for (auto* pictures : {&sample, &volumes})
+                    book.keep_as_files(std::move(*pictures));
+                continue;
+              }
+            PageBlock block;
+            block.subheading = title;
+            block.pictures = book.keep(std::move(sample));
+            append(block.pictures, book.keep(std::move(volumes)));
+            if (block.pictures.empty())
+              continue;
+            block.tables = volume_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));
+            if (test->volumes.empty())
+              block.paragraphs.push_back("The grains of single volumes are not in this result folder: it is of before "
+                                         "they were kept, or the test did not come to its end.");
+            blocks.push_back(block);
+          }
+      if (blocks.empty())
+        heading.paragraphs.push_back(
+          "No picture of the sample: its fields are missing in this result folder, or it has "
+          "no grains.");
+      if (!heading.subheading.empty() || !heading.paragraphs.empty())
+        section.blocks.push_back(heading);
+      append(section.blocks, std::move(blocks));
+    }
+  return section;
+}
+} // namespace feldspar

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "report/page/picture_book.h"
+#include "report/sections/findings.h"
+
+/// The sections of the page, a file each; those with pictures keep them in the book, which draws them all at the end.
+namespace feldspar
+{
+/// Whether the model is the rock, each series beside the reference, and every warning.
+PageSection verdict_section(const Findings& findings);
+
+/// Strengths under confinement with the envelopes fitted to them.
+PageSection envelope_section(const Findings& findings, PictureBook& book);
+
+/// Stress, cracks and energies over strain.
+PageSection curve_section(const Findings& findings, PictureBook& book);
+
+/// Samples of finite elements at the end of their tests; nothing of specimens and of samples without grains.
+PageSection sample_section(const Findings& findings, PictureBook& book);
+
+/// Where cracks are, their directions, and the fragments.
+PageSection crack_section(const Findings& findings, PictureBook& book);
+
+/// Checks of the method, specimens, provenance and input, and every test.
+PageSection trust_section(const Findings& findings);
+} // namespace feldspar

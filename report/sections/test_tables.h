@@ -1,0 +1,13 @@
+#pragma once
+
+#include "report/page/table.h"
+#include "report/sections/findings.h"
+
+namespace feldspar
+{
+/// Mean strengths of every kind of test.
+Table strength_table(const Findings& findings);
+
+/// Figures of every test in SI: all of them, or those that are looked at most.
+Table test_table(const Findings& findings, bool all_figures);
+} // namespace feldspar

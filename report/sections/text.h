@@ -1,0 +1,21 @@
+#pragma once
+
+#include "results/fits/fit.h"
+#include "results/record.h"
+#include "results/statistics.h"
+
+#include <string>
+
+/// Numbers as the page writes them, in a unit and with a number of decimals.
+namespace feldspar::text
+{
+inline constexpr double mega = 1e6;
+inline constexpr const char* none = "–";
+
+std::string number(double value, int decimals);
+std::string number(const Figure& figure, double unit, int decimals);    ///< or none
+std::string estimate(const Estimate& value, double unit, int decimals); ///< 42.0 ± 1.5, half of the 95 % interval
+std::string mean_and_deviation(const Statistics& over_seeds, double unit, int decimals); ///< 42.0 ± 1.5, over the seeds
+std::string interval(const Statistics& over_seeds, double unit, int decimals);           ///< of the mean, 95 %; or none
+std::string signed_percent(double share); ///< +1.5 %, with a minus that is one
+} // namespace feldspar::text

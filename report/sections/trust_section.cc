@@ -1,0 +1,68 @@
+#include "report/sections/sections.h"
+
+#include "base/append.h"
+#include "report/sections/provenance.h"
+#include "report/sections/test_tables.h"
+#include "report/sections/trust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+Table check_table(const Series& series, const std::string& name)
+{
+  Table table{name, "Checks over all tests", {"measure", "bound", "mean", "worst", "within"}, {}};
+  for (const auto& check : trust_checks(series))
+    table.rows.push_back({check.measure, check.bound, check.mean, check.worst,
+                          check.n_out == 0 ? fmt::format("✓ all {}", check.n_tests)
+                                           : fmt::format("✗ {} of {} out", check.n_out, check.n_tests)});
+  return table;
+}
+
+/// The checks of the n-th series, its specimens, what made it and its input.
+std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
+{
+  const Series& series = findings.all[n];
+  PageBlock block = findings.heading_of(n);
+  if (series.kind == SeriesKind::laboratory_curve)
+    {
+      block.paragraphs.push_back("Measured on rock; there is nothing of ours to be checked.");
+      return {block};
+    }
+  if (series.kind == SeriesKind::finite_elements)
+    block.paragraphs.push_back("Each row of a curve is an equilibrium, found without time: there is no kinetic "
+                               "energy, no wave and no servo to be checked.");
+  block.tables.push_back(check_table(series, "trust" + findings.ending_of_files(n)));
+  if (std::any_of(series.tests.begin(), series.tests.end(),
+                  [](const FinishedTest& test) { return test.record.specimen.n_grains > 0; }))
+    {
+      Table specimens = specimen_table(series);
+      specimens.name += findings.ending_of_files(n);
+      block.tables.push_back(specimens);
+    }
+  block.paragraphs.push_back(sentence_of(series.made_by));
+  PageBlock input;
+  input.folded = findings.titled("Input", series);
+  input.tables.push_back(input_table(series.made_by, "input" + findings.ending_of_files(n)));
+  return {block, input};
+}
+} // namespace
+
+PageSection trust_section(const Findings& findings)
+{
+  PageSection section{"trust", "Trust", "How far to trust it", {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    append(section.blocks, evidence(findings, n));
+  PageBlock tests;
+  tests.folded = "Every test";
+  tests.tables = {strength_table(findings), test_table(findings, false)};
+  section.blocks.push_back(tests);
+  return section;
+}
+} // namespace feldspar
