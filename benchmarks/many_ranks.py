@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much faster two cores break a sample than one, and what cells that move bring.
+"""The speed-up of two cores over one for a sample that breaks, and the gain by cells that move.
 
     python3 benchmarks/many_ranks.py build/release/app/feldspar    # writes results/many-ranks.json
 

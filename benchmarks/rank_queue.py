@@ -1,22 +1,24 @@
 #!/usr/bin/env python3
-"""Replays measured costs of volumes over 1 ... 10 000 cores: where scaling ends, and which way of dealing wins.
+"""Replays measured costs of representative volumes (RVEs) on 1 ... 10 000 cores: the limit of scaling, and the best
+distribution of the cells.
 
     build/release/benchmarks/volume_costs > benchmarks/results/volume-costs.json
     python3 benchmarks/rank_queue.py    # writes results/rank-queue.json and .csv; some minutes
     cd benchmarks && gnuplot rank_queue.gp
 
-A square sample of n x n cells with four volumes each, along a curve as p4est has it. A band of one tenth of the cells, as a
-shear band, goes the whole measured path; the others go 10 to 35 % of it. Which packing a volume is of, and how fast it
-goes, is drawn from a fixed seed. In a row of the curve every volume is asked eight times for stress and tangent and four
-times for its breaks, and all ranks wait for the last each time. Costs are those of the measured row, alike in every round.
+A square sample has n x n cells with four RVEs each, along the curve of p4est. A band of one tenth of the cells, like a
+shear band, follows the whole measured path; the others follow 10 to 35 % of it. The packing of an RVE and its speed are
+drawn from a fixed seed. In a row of the curve every RVE computes stress and tangent eight times and its breaks four times,
+and all ranks wait for the last each time. Costs are those of the measured row, equal in every round.
 
-Ways of dealing. A rank has one core, or 16 that take its volumes one by one:
+Distributions. A rank has one core, or 16 that take its RVEs one by one:
   equal          as many cells to each rank, for good
-  measured       cut anew by the time each cell took since the last cut, once that has lost what a move costs (fem/solid/solid.cc)
+  measured       cut anew by the time of each cell since the last cut, once the time lost equals the cost of a move
+                 (ski-rental rule)
   last row       the same by the time of the last row only
   longest first  free cores of a rank take first what took longest in the row before
-  queue          one for all cores: a free core asks the first rank for the next volume, a message there and back
-  bound          no dealing can be faster: all work over all cores, or the longest volume
+  queue          one for all cores: a free core asks the first rank for the next RVE, a message there and back
+  bound          no distribution can be faster: all work over all cores, or the slowest RVE
 Not replayed: the solution of the system of the finite elements, which is the same for all.
 """
 

@@ -7,9 +7,10 @@
 #include <memory>
 #include <string>
 
-/// What a volume of some 240 discs of Table 1 costs its rank, step by step as it cracks: twelve packings, pulled and pressed
-/// with their sides free. An iteration is stress and tangent with bonds frozen, a relaxation the breaks of the step. In
-/// processor time of one core. Writes benchmarks/results/volume-costs.json, for rank_queue.py, to the screen; some minutes.
+/// Cost of a representative volume of some 240 discs of Table 1 to its rank, step by step as it cracks: twelve packings,
+/// pulled and pressed with their sides free. An iteration is stress and tangent with bonds frozen, a relaxation the breaks
+/// of the step. In processor time of one core. Writes benchmarks/results/volume-costs.json, for rank_queue.py, to the
+/// screen; some minutes.
 namespace feldspar
 {
 namespace

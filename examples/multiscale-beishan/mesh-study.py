@@ -5,11 +5,11 @@
 
 GEOMETRY is plane or axisymmetric; without one both are run. Writes results/mesh-study.json and draws
 results/mesh-study.png (gnuplot), and prints the tables of the READMEs. The inputs are mesh-study.prm here and in
-../multiscale-beishan-cylinder. On the coarsest mesh elements are as large as the volume, and both ways of softening are
-the same; it is run once.
+../multiscale-beishan-cylinder. On the coarsest mesh elements are as large as the representative volume, and both ways of
+softening are the same; it is run once.
 
-Work after the peak is what the platens do from the row of the highest stress to the end, per area; loss after the peak
-what breaks, slides and settles from there on, by the energies of the run.
+Work after the peak is the work of the platens from the row of the highest stress to the end, per area. Loss after the
+peak is the energy released, dissipated by slip and settled from there on, by the energies of the run.
 """
 
 import csv

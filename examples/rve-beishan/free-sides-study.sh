@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What free sides do to the compressive strength: cells, and boxes of the same size with free sides between smooth platens,
-# pressed by explicit dynamics, in the plane and in space. Writes results/free-sides-DIMENSIONd-EDGE-mm-cell.json and
-# …-box.json, the summary of each run.
+# The effect of free sides on the compressive strength: cells, and boxes of the same size with free sides between smooth
+# platens, compressed by explicit dynamics, in the plane and in space. Writes results/free-sides-DIMENSIONd-EDGE-mm-cell.json
+# and …-box.json, the summary of each run.
 #
 #   examples/rve-beishan/free-sides-study.sh FELDSPAR
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Cells of five sizes, five realisations each: the tension of tension.prm from break to break, and the compression of
-# uniaxial.prm by explicit dynamics, which always gets through its peak. Writes results/size-NN-mm.json and
+# Cells of five sizes, five realisations each: the tension of tension.prm event by event, and the compression of
+# uniaxial.prm by explicit dynamics, which always passes its peak. Writes results/size-NN-mm.json and
 # results/size-NN-mm-compression.json, the summary of each run, and results/sizes.csv, mean and scatter over the
 # realisations.
 #
