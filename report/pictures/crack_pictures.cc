@@ -218,9 +218,10 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
   const auto [panel_width, panel_height] = panel_size(frame);
   return {
     {.name = test.name + "_cracks",
-     .caption = fmt::format("{}, {}: broken segments of the volume at each point, at crack initiation, at the peak "
-                            "and at the end; the area of a circle is their number, up to {}",
-                            title, seed_of(test), most),
+     .caption = fmt::format(
+       "{}, {}: broken segments of the representative volume at each point, at crack initiation, at the peak "
+       "and at the end; the area of a circle is their number, up to {}",
+       title, seed_of(test), most),
      .alternative = fmt::format("Maps of the broken segments at the points of {} ({}): {} in tension and {} in "
                                 "shear at the end.",
                                 title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),

@@ -217,8 +217,9 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
   const bool any_volumes = std::any_of(same.begin(), same.end(),
                                        [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
   const std::string of_volumes =
-    any_volumes ? ". Of finite elements those of the volumes at all points, more than the sample itself would have"
-                : "";
+    any_volumes
+      ? ". Of finite elements those of the representative volumes at all points, more than the sample itself would have"
+      : "";
   return Picture{.name = name + "_cracks",
                  .caption = "Broken segments. Lines: means; bands: ± standard deviation" + of_volumes,
                  .alternative = "Number of tension and of shear cracks against axial strain in " + of_tests + ".",

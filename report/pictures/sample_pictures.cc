@@ -146,7 +146,7 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
     caption += ". Nowhere have half of a cell's points localised";
   if (!test.volumes.empty())
     {
-      caption += ". Letters: the volumes drawn below";
+      caption += ". Letters: the representative volumes drawn below";
       if (fields.dimension == 3)
         caption += ", projected";
     }

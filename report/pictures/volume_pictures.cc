@@ -41,11 +41,12 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
   for (std::size_t k = 0; k < volumes.size(); ++k)
     headings.push_back(fmt::format("{}: {}", letter_of_volume(k), volumes[k].which));
   const std::string name = test.name + "_volumes";
-  const std::string caption = fmt::format("{}, seed {}: grains and cracks of the volumes at a few points of the "
-                                          "sample, along its axes, at the end",
-                                          title, test.record.seed);
-  const std::string alternative =
-    fmt::format("Grains and cracks of {} volumes of {} (seed {}).", volumes.size(), title, test.record.seed);
+  const std::string caption =
+    fmt::format("{}, seed {}: grains and cracks of the representative volumes at a few points of the "
+                "sample, along its axes, at the end",
+                title, test.record.seed);
+  const std::string alternative = fmt::format("Grains and cracks of {} representative volumes of {} (seed {}).",
+                                              volumes.size(), title, test.record.seed);
   if (test.fields.dimension == 3 || test.fields.has("crack_orientation_zz_per_m"))
     {
       Picture picture = space_picture_of_volumes(volumes, headings);
@@ -110,7 +111,7 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
     {.name = name,
      .caption =
        caption +
-       ". Coordinates are from the point that the volume stands for; it is periodic, so that cracks at its rim go on at "
+       ". Coordinates are from the point of the sample; the cell is periodic, so that cracks at its rim go on at "
        "the other side",
      .alternative = alternative,
      .width = 400 * int(volumes.size()),

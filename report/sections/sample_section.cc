@@ -17,17 +17,19 @@ namespace
 {
 using namespace text;
 
-/// Where the volumes that are drawn stand, with what broke in them.
+/// Where the representative volumes (RVEs) that are drawn stand, with what broke in them.
 std::vector<Table> volume_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
 {
   if (test.volumes.empty())
     return {};
-  Table table{"volumes_" + test.name + ending,
-              fmt::format("{}, seed {}: the volumes that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
-                          "writes these or any other for ParaView and for feldspar rve",
-                          title, test.record.seed),
-              {"volume", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
-              {}};
+  Table table{
+    "volumes_" + test.name + ending,
+    fmt::format(
+      "{}, seed {}: the representative volumes (RVEs) that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
+      "writes these or any other for ParaView and for feldspar rve",
+      title, test.record.seed),
+    {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
+    {}};
   for (std::size_t k = 0; k < test.volumes.size(); ++k)
     {
       const PointVolume& volume = test.volumes[k];
@@ -92,8 +94,9 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
               continue;
             block.tables = volume_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));
             if (test->volumes.empty())
-              block.paragraphs.push_back("The grains of single volumes are not in this result folder: it is of before "
-                                         "they were kept, or the test did not come to its end.");
+              block.paragraphs.push_back(
+                "The grains of single representative volumes are not in this result folder: it is of before "
+                "they were kept, or the test did not come to its end.");
             blocks.push_back(block);
           }
       if (blocks.empty())

@@ -145,12 +145,12 @@ std::vector<std::string> warnings(const Series& series)
 
 Table specimen_table(const Series& series)
 {
-  Table table{"specimens",
-              series.kind == SeriesKind::specimens ? "Specimens" : "Volumes at the points, the first of each seed",
-              {"seed", "grains", "joints", "coordination number", "in the core", "gap ratio", "porosity",
-               "mean overlap / radius", "width / mean diameter", "radius multiplier", "tests", "steps",
-               "run time of the tests [s]"},
-              {}};
+  Table table{
+    "specimens",
+    series.kind == SeriesKind::specimens ? "Specimens" : "Representative volumes at the points, the first of each seed",
+    {"seed", "grains", "joints", "coordination number", "in the core", "gap ratio", "porosity", "mean overlap / radius",
+     "width / mean diameter", "radius multiplier", "tests", "steps", "run time of the tests [s]"},
+    {}};
   for (const auto seed : seeds_of(series))
     {
       const FinishedTest* first = nullptr;

@@ -22,7 +22,7 @@ std::string material_at_points(const Provenance& made_by)
   });
   if (found == made_by.input.end())
     return "";
-  return found->value == "grains" ? " with a volume of grains at every point"
+  return found->value == "grains" ? " with a representative volume of grains at every point"
                                   : " of " + found->value + ", without grains";
 }
 } // namespace

@@ -83,9 +83,10 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   const auto report = run_feldspar(folder.path(), "report grains one --output both");
   ASSERT_EQ(report.exit_code, 0) << report.error;
   const std::string page = contents(folder.path() / "both/report.html");
-  for (const char* const words :
-       {"</span>grains</h3>", "</span>one</h3>", "finite elements with a volume of grains at every point",
-        "broken segments of the volume at each point", "Each row of a curve is an equilibrium, found without time"})
+  for (const char* const words : {"</span>grains</h3>", "</span>one</h3>",
+                                  "finite elements with a representative volume of grains at every point",
+                                  "broken segments of the representative volume at each point",
+                                  "Each row of a curve is an equilibrium, found without time"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("class=\"absent\""), std::string::npos);
   const std::string strengths = contents(folder.path() / "both/tables/strengths.csv");

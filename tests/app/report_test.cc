@@ -498,7 +498,8 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsVolumes)
   const fs::path page = folder.path() / "out/report.html";
   for (const char* const wanted :
        {"The sample at its end", "share of the segments that are broken, in each cell, at the end",
-        "Letters: the volumes drawn below", "the volumes that are drawn", "A, most damaged", "cell:point"})
+        "Letters: the representative volumes drawn below", "the representative volumes (RVEs) that are drawn",
+        "A, most damaged", "cell:point"})
     EXPECT_NE(words.find(wanted), std::string::npos) << wanted;
   EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
   for (const char* const name : {"sample.svg", "sample.pdf", "volumes.png"})
