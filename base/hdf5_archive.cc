@@ -1,13 +1,22 @@
 #include "base/hdf5_archive.h"
 
+#include "base/seal.h"
 #include "base/whole_file.h"
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace feldspar
 {
 namespace
 {
+void add_notice(const H5::Group& root)
+{
+  std::uint32_t sealed = 1;
+  Hdf5Writer(root).value(std::string(seal_notice), sealed);
+}
+
 /// The bytes of a file that `write` fills. In memory, because the library hides why a disk refused them, and does not
 /// get over it.
 std::string image_of(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
@@ -21,7 +30,9 @@ std::string image_of(const std::filesystem::path& file, const std::function<void
       in_memory.setCore(growth, false);
       const H5::H5File out(file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
       {
-        Hdf5Writer writer(out.openGroup("/"));
+        const H5::Group root = out.openGroup("/");
+        add_notice(root);
+        Hdf5Writer writer(root);
         write(writer);
       }
       out.flush(H5F_SCOPE_GLOBAL);
@@ -36,15 +47,9 @@ std::string image_of(const std::filesystem::path& file, const std::function<void
       throw std::runtime_error(fmt::format("{}: {}", file.string(), error.getDetailMsg()));
     }
 }
-} // namespace
 
-void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
-{
-  write_whole_file(file, image_of(file, write));
-}
-
-void read_hdf5(const std::filesystem::path& file, const std::string& expected,
-               const std::function<void(Hdf5Reader&)>& read)
+void read(const std::filesystem::path& file, const std::string& expected, const bool may_lack_seal,
+          const std::function<void(Hdf5Reader&)>& use)
 {
   const std::lock_guard lock(hdf5_mutex());
   H5::Exception::dontPrint();
@@ -52,9 +57,15 @@ void read_hdf5(const std::filesystem::path& file, const std::string& expected,
   if (std::filesystem::is_regular_file(file))
     try
       {
+        // Before HDF5 sees it, which is not made for damaged files.
+        const Seal seal = examine_seal(file);
+        if (seal == Seal::broken)
+          throw InputError("damaged or cut short: its content is not that of its checksum");
+        if (seal == Seal::none && !may_lack_seal)
+          throw InputError("damaged or cut short, or not of this version of the program: it has no checksum");
         const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-        Hdf5Reader reader(in.openGroup("/"));
-        read(reader);
+        Hdf5Reader reader(in.openGroup("/"), std::filesystem::file_size(file));
+        use(reader);
         return;
       }
     catch (const H5::Exception&)
@@ -66,5 +77,45 @@ void read_hdf5(const std::filesystem::path& file, const std::string& expected,
         problem = error.what();
       }
   throw InputError(fmt::format("{}: {}; {} is expected", file.string(), problem, expected));
+}
+} // namespace
+
+void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
+{
+  std::string image = image_of(file, write);
+  image += seal_of(image);
+  write_whole_file(file, image);
+}
+
+void seal_hdf5(const std::filesystem::path& file)
+{
+  const std::lock_guard lock(hdf5_mutex());
+  H5::Exception::dontPrint();
+  try
+    {
+      const H5::H5File opened(file.string(), H5F_ACC_RDWR);
+      add_notice(opened.openGroup("/"));
+    }
+  catch (const H5::Exception& error)
+    {
+      throw OutputError(fmt::format("{}: cannot be sealed: {}", file.string(), error.getDetailMsg()));
+    }
+  std::ifstream in(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::ofstream out(file, std::ios::binary | std::ios::app);
+  if (!in || !(out << seal_of(content)).flush())
+    throw OutputError(fmt::format("{}: cannot be sealed", file.string()));
+}
+
+void read_hdf5(const std::filesystem::path& file, const std::string& expected,
+               const std::function<void(Hdf5Reader&)>& use)
+{
+  read(file, expected, false, use);
+}
+
+void read_foreign_hdf5(const std::filesystem::path& file, const std::string& expected,
+                       const std::function<void(Hdf5Reader&)>& use)
+{
+  read(file, expected, true, use);
 }
 } // namespace feldspar

@@ -94,28 +94,36 @@ class Hdf5Reader
 public:
   static constexpr bool reads = true;
 
-  explicit Hdf5Reader(const H5::Group& where)
+  /// Of a file of so many bytes: no array in it is longer.
+  Hdf5Reader(const H5::Group& where, const std::uint64_t size_of_file)
     : group(where)
+    , file_size(size_of_file)
   {
   }
 
   template <typename T>
   void value(const std::string& name, T& stored)
   {
-    group.openAttribute(name).read(stored_type<T>(), &stored);
+    single(name).read(stored_type<T>(), &stored);
   }
 
   void text(const std::string& name, std::string& stored)
   {
-    const H5::Attribute attribute = group.openAttribute(name);
-    attribute.read(attribute.getStrType(), stored);
+    const H5::Attribute attribute = single(name);
+    const H5::StrType type = attribute.getStrType();
+    if (!type.isVariableStr())
+      throw InputError(fmt::format("{} is no text", name));
+    attribute.read(type, stored);
   }
+
+  /// How many values an array has.
+  std::size_t size_of(const std::string& name) const { return size_of(name, group.openDataSet(name)); }
 
   template <typename T>
   void array(const std::string& name, std::vector<T>& values)
   {
     const H5::DataSet set = group.openDataSet(name);
-    values.resize(std::size_t(set.getSpace().getSimpleExtentNpoints()));
+    values.resize(size_of(name, set));
     set.read(values.data(), stored_type<T>());
     if constexpr (std::is_same_v<T, double>)
       if (!std::all_of(values.begin(), values.end(), [](const double v) { return std::isfinite(v); }))
@@ -136,10 +144,29 @@ public:
 
   bool has(const std::string& name) const { return group.nameExists(name); }
 
-  Hdf5Reader subgroup(const std::string& name) { return Hdf5Reader(group.openGroup(name)); }
+  Hdf5Reader subgroup(const std::string& name) { return {group.openGroup(name), file_size}; }
 
 private:
+  /// An attribute of one value: what it is read into has no room for more.
+  H5::Attribute single(const std::string& name) const
+  {
+    H5::Attribute attribute = group.openAttribute(name);
+    if (attribute.getSpace().getSimpleExtentNpoints() != 1)
+      throw InputError(fmt::format("{} is not one value", name));
+    return attribute;
+  }
+
+  /// Nothing is stored compressed: each value lies in the file.
+  std::size_t size_of(const std::string& name, const H5::DataSet& set) const
+  {
+    const hssize_t n = set.getSpace().getSimpleExtentNpoints();
+    if (n < 0 || std::uint64_t(n) > file_size / set.getDataType().getSize())
+      throw InputError(fmt::format("{} is longer than the file", name));
+    return std::size_t(n);
+  }
+
   H5::Group group;
+  std::uint64_t file_size;
 };
 
 /// Numbers that lie otherwise than in a vector; reading them, as many as there are.
@@ -161,10 +188,20 @@ inline std::mutex& hdf5_mutex()
   return mutex;
 }
 
-/// Writes a file whole or not at all, made in memory first. Throws OutputError, which names file and cause.
+/// Writes a file whole or not at all, made in memory first, with a seal (base/seal.h). Throws OutputError, which names
+/// file and cause.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write);
 
-/// Reads a file. Whatever is wrong with it is an InputError, which says so and that `expected` was expected.
+/// Seals a file that another library wrote. Throws OutputError.
+void seal_hdf5(const std::filesystem::path& file);
+
+/// Reads a file that write_hdf5() wrote. Whatever is wrong with it is an InputError, which says so and that `expected` was
+/// expected.
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,
                const std::function<void(Hdf5Reader&)>& read);
+
+/// The same of a file that may be older than seals, or another program's. Where it has a seal that is not broken; without
+/// one `read` must check every number that it uses.
+void read_foreign_hdf5(const std::filesystem::path& file, const std::string& expected,
+                       const std::function<void(Hdf5Reader&)>& read);
 } // namespace feldspar

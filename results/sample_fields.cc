@@ -33,6 +33,8 @@ Place place_of(const Xml& parent)
   const std::size_t colon = text.find(":/");
   if (colon == std::string::npos)
     throw InputError("a DataItem names no array of a file");
+  if (text.find('/') < colon)
+    throw InputError("a DataItem names a file of another folder");
   return {text.substr(0, colon), text.substr(colon + 2)};
 }
 
@@ -77,10 +79,13 @@ std::vector<std::array<double, 3>> points_of(const std::vector<double>& values, 
 SampleFields fields_of(const std::filesystem::path& folder, const LastTime& last)
 {
   SampleFields fields;
+  constexpr double most_rows = 1e12;
+  if (!(last.time >= 0.0 && last.time <= most_rows))
+    throw InputError("its last time is no number of rows");
   fields.n_rows = std::size_t(last.time);
   std::vector<double> nodes, displacement;
   std::vector<std::uint32_t> corners;
-  read_hdf5(folder / last.nodes.file, expected, [&](Hdf5Reader& root) {
+  read_foreign_hdf5(folder / last.nodes.file, expected, [&](Hdf5Reader& root) {
     root.array(last.nodes.array, nodes);
     root.array(last.cells.array, corners);
   });
@@ -88,7 +93,7 @@ SampleFields fields_of(const std::filesystem::path& folder, const LastTime& last
     throw InputError("there is no field in it");
   // Of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
-  read_hdf5(folder / last.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
+  read_foreign_hdf5(folder / last.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
     for (const auto& [name, place] : last.fields)
       root.array(place.array, of_nodes[name]);
   });

@@ -10,6 +10,11 @@
 #include <memory>
 #include <vector>
 
+// Of Eigen's functions that Ceres's static library holds too, as those that order a matrix, one copy serves the program:
+// both must take and free memory alike.
+static_assert(EIGEN_MALLOC_ALREADY_ALIGNED && EIGEN_DEFAULT_ALIGN_BYTES == 16,
+              "Eigen would allocate otherwise than in the libraries of the distribution");
+
 namespace feldspar
 {
 /// Where the stiffness of each link goes in the matrix of a network's grains, whose grains are ordered for little fill.

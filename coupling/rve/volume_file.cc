@@ -1,10 +1,12 @@
 #include "coupling/rve/volume_file.h"
 
 #include "base/hdf5_archive.h"
+#include "coupling/rve/parameters.h"
 #include "coupling/rve/state_archive.h"
 #include "dem/specimen/specimen_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace feldspar
 {
@@ -18,10 +20,18 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   std::size_t n_segments = network.n_segments();
   for (const Link<dim>& link : network.links())
     n_segments = std::max(n_segments, std::size_t(link.first_segment) + link.n_segments);
+  const auto by_segment = [](const UnbondedSegment<dim>& a, const UnbondedSegment<dim>& b) {
+    return a.segment < b.segment;
+  };
+  const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
+    return unbonded.segment < n_segments && std::all_of(unbonded.shear_stress.begin(), unbonded.shear_stress.end(),
+                                                        [](const double stress) { return std::isfinite(stress); });
+  };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
-         (state.intact || !state.motions.empty()) &&
-         std::all_of(state.unbonded.begin(), state.unbonded.end(),
-                     [&](const UnbondedSegment<dim>& unbonded) { return unbonded.segment < n_segments; });
+         (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
+         state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
+         std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
+         std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);
 }
 } // namespace
 
@@ -39,7 +49,7 @@ template <int dim>
 std::optional<NetworkState<dim>> read_volume_state(const std::filesystem::path& file, const Network<dim>& network)
 {
   std::optional<NetworkState<dim>> state;
-  read_hdf5(file, "a volume of `feldspar multiscale --extract`, or a specimen.h5", [&](Hdf5Reader& root) {
+  read_foreign_hdf5(file, "a volume of `feldspar multiscale --extract`, or a specimen.h5", [&](Hdf5Reader& root) {
     if (!root.has(group_of_state))
       return;
     auto group = root.subgroup(group_of_state);

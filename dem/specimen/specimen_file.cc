@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -14,6 +18,7 @@ namespace
 {
 const std::string format_name = "feldspar specimen";
 constexpr std::uint32_t schema_version = 3;
+constexpr double most_segments = 4096.0; // of a face, far beyond what an input may ask for
 
 /// The layout of the file.
 template <int dim, typename Archive>
@@ -67,7 +72,6 @@ void transfer(Archive& root, Specimen<dim>& specimen)
       joints.value("n_rings", division[0]);
       joints.value("n_sectors", division[1]);
     }
-  stored.divide(division);
   joints.value("thickness_m", stored.thickness);
   joints.value("friction", stored.friction);
   joints.value("friction_slope", stored.friction_slope);
@@ -75,38 +79,101 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   joints.array("grain_2", stored.grain_2);
   joints.array("number", stored.number);
   if constexpr (Archive::reads)
-    stored.resize_all(stored.grain_1.size());
+    {
+      // Before a table is made for so many segments.
+      const double n_segments = std::accumulate(division.begin(), division.end(), 1.0, std::multiplies<>());
+      if (!(n_segments >= 1.0 && n_segments <= most_segments) ||
+          n_segments * double(stored.grain_1.size()) != double(joints.size_of("bonded")))
+        throw InputError("joints are missing, or divided into another number of segments");
+      stored.divide(division);
+      stored.resize_all(stored.grain_1.size());
+    }
   const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(joints, name, values); };
   stored.visit_per_joint(pass);
   stored.visit_per_segment(pass);
 }
 
-/// What types alone do not tell.
-template <int dim>
-void check(Specimen<dim>& specimen)
+void require(const bool holds, const char* otherwise)
 {
-  auto& grains = specimen.grains;
-  auto& joints = specimen.joints;
-  const auto require = [](const bool holds, const char* otherwise) {
-    if (!holds)
-      throw InputError(otherwise);
-  };
-  require(grains.size() == specimen.report.n_grains && grains.mass.size() == grains.size(), "grains are missing");
-  for (const auto& component : grains.position)
-    require(component.size() == grains.size(), "grains are missing");
-  const auto positive = [](const double v) { return v > 0.0; };
-  require(std::all_of(grains.radius.begin(), grains.radius.end(), positive) &&
-            std::all_of(grains.mass.begin(), grains.mass.end(), positive),
-          "a grain has no positive radius and mass");
+  if (!holds)
+    throw InputError(otherwise);
+}
 
-  require(joints.n_segments > 0, "joints without segments");
-  require(joints.size() == specimen.report.n_joints && joints.grain_2.size() == joints.size() &&
-            joints.number.size() == joints.size(),
+/// In [low, high]; false for what is not a number.
+bool lies(const double value, const double low, const double high) { return value >= low && value <= high; }
+
+template <typename Values>
+bool all_lie(const Values& values, const double low, const double high)
+{
+  return std::all_of(values.begin(), values.end(), [=](const double value) { return lies(value, low, high); });
+}
+
+constexpr double smallest = std::numeric_limits<double>::min();
+constexpr double largest = std::numeric_limits<double>::max();
+
+template <int dim>
+void check_grains(const Specimen<dim>& specimen)
+{
+  const auto& grains = specimen.grains;
+  require(grains.size() > 0 && grains.size() == specimen.report.n_grains && grains.mass.size() == grains.size(),
+          "grains are missing");
+  for (int c = 0; c < dim; ++c)
+    {
+      require(grains.position[c].size() == grains.size(), "grains are missing");
+      require(all_lie(grains.position[c], -specimen.size[c], 2.0 * specimen.size[c]), "a grain lies far from its box");
+    }
+  require(all_lie(grains.radius, smallest, specimen.size.maxCoeff()) && all_lie(grains.mass, smallest, largest),
+          "a grain has no positive radius and mass, or does not fit into its box");
+  const auto [least, most] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+  require(lies(specimen.report.mean_radius, 0.99 * *least, 1.01 * *most), "its mean radius is not that of its grains");
+}
+
+template <int dim>
+void check_joints(const Specimen<dim>& specimen)
+{
+  const auto& joints = specimen.joints;
+  const std::size_t n = joints.size();
+  require(n == specimen.report.n_joints && joints.grain_2.size() == n && joints.number.size() == n,
           "joints are missing");
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    require(joints.grain_1[j] < joints.grain_2[j] + std::uint32_t(specimen.periodic) && // or its own image
-              joints.grain_2[j] < grains.size(),
-            "a joint names a grain that is not there");
+  std::vector<bool> is_taken(n, false);
+  for (std::size_t j = 0; j < n; ++j)
+    {
+      require(joints.grain_1[j] < specimen.grains.size() && joints.grain_2[j] < specimen.grains.size() &&
+                (joints.grain_1[j] < joints.grain_2[j] ||
+                 (specimen.periodic && joints.grain_1[j] == joints.grain_2[j])), // its own image
+              "a joint names a grain that is not there");
+      require(joints.number[j] < n && !is_taken[joints.number[j]], "two joints have one number");
+      is_taken[joints.number[j]] = true;
+      const Vector<dim> normal = at<dim>(joints.normal, j);
+      require(lies(normal.norm(), 1.0 - 1e-6, 1.0 + 1e-6), "a joint has no direction");
+      // Neighbours in the box or across one of its sides.
+      const Vector<dim> branch = (joints.rest_distance[j] + joints.opening[j]) * normal;
+      require((branch.array().abs() <= 2.0 * specimen.size.array()).all(), "a joint leads out of its box");
+    }
+  const double edge = specimen.size.maxCoeff();
+  require(all_lie(joints.normal_stiffness, smallest, largest) && all_lie(joints.shear_stiffness, 0.0, largest) &&
+            all_lie(joints.half_length, smallest, edge) && all_lie(joints.rest_distance, smallest, 2.0 * edge),
+          "a joint has no positive stiffness and size");
+  require(std::all_of(joints.bonded.begin(), joints.bonded.end(), [](const double b) { return b == 0.0 || b == 1.0; }),
+          "a segment is neither bonded nor broken");
+  require(all_lie(joints.tensile_strength, 0.0, largest) && all_lie(joints.cohesion, 0.0, largest),
+          "a segment has a negative strength");
+}
+
+/// What types alone do not tell, of a file whose bytes may be anybody's.
+template <int dim>
+void check(const Specimen<dim>& specimen)
+{
+  require(all_lie(specimen.size, smallest, largest) && lies(specimen.thickness, smallest, largest) &&
+            lies(specimen.bulk_density, 0.0, largest),
+          "its size or density is not positive");
+  const auto& contact = specimen.particle_contact;
+  require(lies(contact.modulus, 0.0, largest) && lies(contact.stiffness_ratio, 0.0, largest) &&
+            lies(contact.friction, 0.0, largest) && lies(specimen.joints.thickness, smallest, largest) &&
+            lies(specimen.joints.friction, 0.0, largest) && lies(specimen.joints.friction_slope, 0.0, largest),
+          "a parameter of its contacts is negative or not a number");
+  check_grains(specimen);
+  check_joints(specimen);
 }
 } // namespace
 
@@ -132,7 +199,7 @@ template <int dim>
 Specimen<dim> read_specimen(const std::filesystem::path& file)
 {
   Specimen<dim> specimen;
-  read_hdf5(file, "a specimen.h5 of `feldspar specimen`", [&](Hdf5Reader& root) {
+  read_foreign_hdf5(file, "a specimen.h5 of `feldspar specimen`", [&](Hdf5Reader& root) {
     std::string format;
     std::uint32_t version = 0;
     std::uint32_t dimension = 0;

@@ -248,7 +248,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
   };
   resumed(
     "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); },
-    "not an HDF5 file, cut short");
+    "damaged or cut short");
   resumed(
     "missing", [](const fs::path& file) { fs::remove(file); }, "no such file");
   std::string other = pull;

@@ -1,0 +1,100 @@
+#include "base/seal.h"
+
+#include "base/fingerprint.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::string_view mark = "\nfeldspar: seal\n";
+constexpr std::size_t number_size = 8;
+constexpr std::size_t seal_size = mark.size() + 2 * number_size;
+constexpr std::size_t piece_size = std::size_t(1) << 20;
+
+/// The lowest byte first, on every machine.
+std::string bytes_of(const std::uint64_t number)
+{
+  std::string bytes;
+  for (std::size_t i = 0; i < number_size; ++i)
+    bytes += char(number >> (8 * i) & 0xffu);
+  return bytes;
+}
+
+void add(Fingerprint& print, const std::string_view content)
+{
+  for (const char c : content)
+    print.add_byte(static_cast<unsigned char>(c));
+}
+
+std::string seal(const std::uint64_t length, const Fingerprint& content)
+{
+  return std::string(mark) + bytes_of(length) + bytes_of(content.value());
+}
+
+/// `use` sees the first `length` bytes of a file piece by piece, until it returns false. False where they cannot be read.
+bool for_each_piece(std::ifstream& file, std::uint64_t length, const std::function<bool(std::string_view)>& use)
+{
+  file.clear();
+  file.seekg(0);
+  std::string piece;
+  while (length > 0)
+    {
+      piece.resize(std::min<std::uint64_t>(length, piece_size));
+      if (!file.read(piece.data(), std::streamsize(piece.size())))
+        return false;
+      if (!use(piece))
+        break;
+      length -= piece.size();
+    }
+  return true;
+}
+} // namespace
+
+std::string seal_of(const std::string_view content)
+{
+  Fingerprint print;
+  add(print, content);
+  return seal(content.size(), print);
+}
+
+Seal examine_seal(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  std::ifstream file(path, std::ios::binary);
+  if (error || !file)
+    return Seal::broken;
+  if (size >= seal_size)
+    {
+      const std::uint64_t length = size - seal_size;
+      Fingerprint print;
+      const bool could_be_read = for_each_piece(file, length, [&](const std::string_view piece) {
+        add(print, piece);
+        return true;
+      });
+      std::string end(seal_size, '\0');
+      if (!could_be_read || !file.read(end.data(), seal_size))
+        return Seal::broken;
+      if (end == seal(length, print))
+        return Seal::intact;
+      if (end.starts_with(mark))
+        return Seal::broken;
+    }
+  // No seal where one would be. The notice may lie across the border of two pieces.
+  bool has_notice = false;
+  std::string before;
+  const bool could_be_read = for_each_piece(file, size, [&](const std::string_view piece) {
+    before += piece;
+    has_notice = before.find(seal_notice) != std::string::npos;
+    before.erase(0, before.size() - std::min(before.size(), seal_notice.size()));
+    return !has_notice;
+  });
+  return has_notice || !could_be_read ? Seal::broken : Seal::none;
+}
+} // namespace feldspar

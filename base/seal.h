@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+/// The seal of a file: its length and a checksum (FNV-1a, 64 bits) after its content. HDF5 ignores bytes behind its own
+/// end, so that a sealed file remains one for every other program; unlike the checksums of HDF5's arrays the seal covers
+/// attributes and the library's own tables, whose damage HDF5 may answer with a crash.
+namespace feldspar
+{
+/// Occurs in the content of every sealed file, so that a file which lost its seal is not taken for one that had none.
+inline constexpr std::string_view seal_notice = "checksum_and_length_follow_the_content";
+
+/// The bytes to append to a content.
+std::string seal_of(std::string_view content);
+
+enum class Seal
+{
+  intact,
+  broken,
+  none ///< of an older version or of another program
+};
+
+/// Reads the whole file once, a piece at a time. A file that cannot be read is broken.
+Seal examine_seal(const std::filesystem::path& file);
+} // namespace feldspar

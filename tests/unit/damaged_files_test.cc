@@ -1,0 +1,253 @@
+#include "base/hdf5_archive.h"
+#include "base/seal.h"
+#include "coupling/rve/path_run.h"
+#include "coupling/rve/volume_file.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/specimen/specimen_file.h"
+#include "results/sample_fields.h"
+#include "tests/mutations.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/small_specimen.h"
+#include "tests/unit/small_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <string>
+
+/// Files that were damaged, cut short or made up: one line, and nothing else.
+namespace feldspar
+{
+namespace
+{
+using tests::Mutations;
+using tests::TemporaryFolder;
+
+std::string content_of(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// What `read` says in an InputError; empty if it says nothing. Whatever else it throws fails the test.
+std::string refusal(const std::function<void()>& read)
+{
+  try
+    {
+      read();
+    }
+  catch (const InputError& error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+/// Every one of so many mutations of a file is told by `read`, in one line.
+void expect_all_refused(const std::filesystem::path& file, const std::function<void()>& read)
+{
+  constexpr std::uint64_t n_mutations = 300;
+  const std::string whole = content_of(file);
+  ASSERT_EQ(refusal(read), "");
+  for (std::uint64_t seed = 0; seed < n_mutations; ++seed)
+    {
+      std::ofstream(file, std::ios::binary) << Mutations(seed).of(whole);
+      const std::string words = refusal(read);
+      EXPECT_NE(words, "") << "mutation " << seed;
+      EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+    }
+  std::ofstream(file, std::ios::binary) << whole;
+  EXPECT_EQ(refusal(read), "");
+}
+
+TEST(Seal, SeesEveryChangeOfAFile)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sealed";
+  const std::string content = "some content, " + std::string(seal_notice) + ", and more of it";
+  const std::string sealed = content + seal_of(content);
+  const auto examined = [&](const std::string& bytes) {
+    folder.write("sealed", bytes);
+    return examine_seal(file);
+  };
+  EXPECT_EQ(examined(sealed), Seal::intact);
+  EXPECT_EQ(examined("another file, without any"), Seal::none);
+  EXPECT_EQ(examined(""), Seal::none);
+  EXPECT_EQ(examine_seal(folder.path() / "missing"), Seal::broken);
+  for (std::size_t bit = 0; bit < 8 * sealed.size(); ++bit)
+    {
+      std::string flipped = sealed;
+      flipped[bit / 8] = char(flipped[bit / 8] ^ 1 << bit % 8);
+      EXPECT_EQ(examined(flipped), Seal::broken) << bit;
+    }
+  for (std::size_t size = content.size(); size < sealed.size(); ++size)
+    EXPECT_EQ(examined(sealed.substr(0, size)), Seal::broken) << size;
+  // The notice across the border between the pieces in which a file is read.
+  for (std::size_t before = (1u << 20) - seal_notice.size() - 1; before < (1u << 20) + 2; ++before)
+    EXPECT_EQ(examined(std::string(before, ' ') + std::string(seal_notice)), Seal::broken) << before;
+}
+
+TEST(DamagedFiles, SpecimensAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "specimen.h5";
+  write_specimen(small_specimen(), file);
+  expect_all_refused(file, [&] { read_specimen<2>(file); });
+}
+
+TEST(DamagedFiles, CheckpointsOfTheLaboratoryAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const TestCase wanted{TestKind::uniaxial_compression};
+  const auto specimen = small_specimen();
+  LabTest<2> test(wanted, specimen, {}, {});
+  for (int n = 0; n < 3; ++n)
+    test.advance();
+  test.write_checkpoint(file, "this one");
+  LabTest<2> resumed(wanted, specimen, {}, {});
+  expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
+}
+
+TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfVolumesAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const auto specimen = periodic_specimen<2>();
+  const auto network = std::make_shared<const Network<2>>(specimen);
+  PathRun<2> run(network, {{strain_control<2>(axial<2>(3e-4)), true}}, {});
+  while (!run.has_ended())
+    run.advance();
+  ASSERT_GT(run.record().cracks.size(), 0u);
+  run.write_checkpoint(file, "this one");
+  PathRun<2> resumed(network, {{strain_control<2>(axial<2>(3e-4)), true}}, {});
+  expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
+
+  const auto volume_file = folder.path() / "volume.h5";
+  write_volume<2>(specimen, run.volume().state(), volume_file);
+  expect_all_refused(volume_file, [&] { read_volume_state<2>(volume_file, *network); });
+
+  // States that are whole but not of this network.
+  const auto refusal_of = [&](const std::function<void(NetworkState<2>&)>& change) {
+    NetworkState<2> state = run.volume().state();
+    change(state);
+    write_volume<2>(specimen, state, volume_file);
+    return refusal([&] { read_volume_state<2>(volume_file, *network); });
+  };
+  EXPECT_EQ(refusal_of([](NetworkState<2>&) {}), "");
+  EXPECT_NE(refusal_of([](NetworkState<2>& state) { state.motions.pop_back(); }), "");
+  EXPECT_NE(refusal_of([](NetworkState<2>& state) { state.unbonded.back().segment = 1u << 31; }), "");
+  EXPECT_NE(refusal_of([](NetworkState<2>& state) { std::reverse(state.unbonded.begin(), state.unbonded.end()); }), "");
+  EXPECT_NE(refusal_of([](NetworkState<2>& state) {
+              state.unbonded.front().shear_stress[0] = std::numeric_limits<double>::quiet_NaN();
+            }),
+            "");
+  EXPECT_NE(refusal_of([](NetworkState<2>& state) { state.strain[1] = 1e300; }), "");
+}
+
+// A file of another program, or of a version before there were checksums, may hold anything.
+TEST(DamagedFiles, SpecimensThatCannotBeAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "specimen.h5";
+  const auto refusal_of = [&](const std::function<void(Specimen<2>&)>& change) {
+    Specimen<2> specimen = small_specimen();
+    change(specimen);
+    write_specimen(specimen, file);
+    return refusal([&] { read_specimen<2>(file); });
+  };
+  const auto says = [](const std::string& refused, const std::string& words) {
+    EXPECT_NE(refused.find(words), std::string::npos) << refused;
+  };
+  using S = Specimen<2>;
+  EXPECT_EQ(refusal_of([](S&) {}), "");
+  says(refusal_of([](S& s) { s.joints.grain_2[3] = std::uint32_t(s.grains.size()); }), "a grain that is not there");
+  says(refusal_of([](S& s) { std::swap(s.joints.grain_1[3], s.joints.grain_2[3]); }), "a grain that is not there");
+  says(refusal_of([](S& s) { s.joints.number[3] = s.joints.number[4]; }), "one number");
+  says(refusal_of([](S& s) { s.joints.number[3] = 1u << 31; }), "one number");
+  says(refusal_of([](S& s) { s.joints.normal[0][3] = 5.0; }), "no direction");
+  says(refusal_of([](S& s) { s.joints.rest_distance[3] = 1e9; }), "leads out of its box");
+  says(refusal_of([](S& s) { s.joints.half_length[3] = 0.0; }), "positive stiffness and size");
+  says(refusal_of([](S& s) { s.joints.bonded[3] = 0.5; }), "neither bonded nor broken");
+  says(refusal_of([](S& s) { s.joints.cohesion[3] = -1.0; }), "negative strength");
+  says(refusal_of([](S& s) { s.joints.division = {1u << 30}; }), "another number of segments");
+  says(refusal_of([](S& s) { s.joints.division = {0}; }), "another number of segments");
+  says(refusal_of([](S& s) { s.joints.division = {s.joints.n_segments + 1}; }), "another number of segments");
+  says(refusal_of([](S& s) { s.grains.position[1][7] = 1e300; }), "far from its box");
+  says(refusal_of([](S& s) { s.grains.radius[7] = -1e-3; }), "no positive radius");
+  says(refusal_of([](S& s) { s.grains.mass.pop_back(); }), "grains are missing");
+  says(refusal_of([](S& s) { s.report.n_grains = 1u << 31; }), "grains are missing");
+  says(refusal_of([](S& s) { s.report.mean_radius = 1e-30; }), "mean radius");
+  says(refusal_of([](S& s) { s.size[0] = std::numeric_limits<double>::infinity(); }), "size or density");
+  says(refusal_of([](S& s) { s.particle_contact.friction = std::numeric_limits<double>::quiet_NaN(); }),
+       "a parameter of its contacts");
+}
+
+TEST(DamagedFiles, AnArrayIsNotLongerThanItsFile)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "long.h5";
+  {
+    // Announced, but never written: HDF5 itself would hand out zeros.
+    const H5::H5File out(file.string(), H5F_ACC_TRUNC);
+    const std::array<hsize_t, 1> length{hsize_t(1) << 40};
+    out.createDataSet("endless", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, length.data()));
+    const std::array<hsize_t, 1> three{3};
+    const std::array<double, 3> values{1.0, 2.0, 3.0};
+    out.createAttribute("several", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, three.data()))
+      .write(H5::PredType::NATIVE_DOUBLE, values.data());
+  }
+  std::vector<double> read;
+  const auto reading = [&](const std::function<void(Hdf5Reader&)>& use) {
+    return refusal([&] { read_foreign_hdf5(file, "a test", use); });
+  };
+  EXPECT_NE(reading([&](Hdf5Reader& root) { root.array("endless", read); }).find("longer than the file"),
+            std::string::npos);
+  double one = 0.0;
+  EXPECT_NE(reading([&](Hdf5Reader& root) { root.value("several", one); }).find("not one value"), std::string::npos);
+  std::string text;
+  EXPECT_NE(reading([&](Hdf5Reader& root) { root.text("several", text); }), "");
+  // Read as one that this version wrote.
+  EXPECT_NE(refusal([&] { read_hdf5(file, "a test", [](Hdf5Reader&) {}); }).find("no checksum"), std::string::npos);
+}
+
+TEST(DamagedFiles, FieldsOfSamplesAreRefused)
+{
+  const TemporaryFolder folder;
+  const std::string index =
+    "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"CellTime\">\n<Grid Name=\"mesh\">\n"
+    "<Time Value=\"5\"/>\n<Geometry GeometryType=\"XY\"><DataItem>a.h5:/nodes</DataItem></Geometry>\n"
+    "<Topology><DataItem>a.h5:/cells</DataItem></Topology>\n"
+    "<Attribute Name=\"displacement\"><DataItem>a.h5:/displacement</DataItem></Attribute>\n"
+    "</Grid>\n</Grid>\n</Domain>\n</Xdmf>\n";
+  folder.write("a.xdmf", index);
+  const auto file = folder.path() / "a.h5";
+  write_hdf5(file, [](Hdf5Writer& root) {
+    std::vector<double> nodes{0, 0, 1, 0, 1, 1, 0, 1};
+    std::vector<double> displacement(12, 0.5);
+    std::vector<std::uint32_t> cells{0, 1, 2, 3};
+    root.array("nodes", nodes, 2);
+    root.array("cells", cells, 4);
+    root.array("displacement", displacement, 3);
+  });
+  const auto read = [&] { read_sample_fields(folder.path(), "a"); };
+  ASSERT_EQ(read_sample_fields(folder.path(), "a").n_rows, 5u);
+  expect_all_refused(file, read);
+
+  // The index is text that nothing seals: read or refused.
+  for (std::uint64_t seed = 0; seed < 300; ++seed)
+    {
+      folder.write("a.xdmf", Mutations(seed).of(index));
+      EXPECT_EQ(refusal(read).find('\n'), std::string::npos) << seed;
+    }
+  folder.write("a.xdmf", std::string(index).replace(index.find("\"5\""), 3, "\"1e300\""));
+  EXPECT_NE(refusal(read), "");
+  folder.write("a.xdmf", std::string(index).replace(index.find("a.h5"), 4, "../a.h5"));
+  EXPECT_NE(refusal(read).find("another folder"), std::string::npos);
+}
+} // namespace
+} // namespace feldspar
