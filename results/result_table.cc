@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace feldspar
 {
@@ -28,7 +29,11 @@ ResultEntry number(const std::string_view name, const Part& part, const std::str
           [=](FinishedTest& test, const Figure& figure) {
             auto& place = part(test);
             using Number = std::remove_reference_t<decltype(place)>;
-            place = Number(figure.value.value_or(std::numeric_limits<Number>::quiet_NaN())); // 0 of a count
+            const double value = figure.value.value_or(std::numeric_limits<double>::quiet_NaN());
+            if constexpr (std::is_integral_v<Number>) // 0 of what is no count: foreign files hold anything
+              place = value >= 0.0 && value < double(std::numeric_limits<Number>::max()) ? Number(value) : Number(0);
+            else
+              place = Number(value);
           }};
 }
 

@@ -9,14 +9,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace feldspar
 {
@@ -32,18 +35,23 @@ struct Column
   std::function<void(Row&, double)> set;
   bool laboratory = false;
   bool added = false;
+  double most = 0.0; ///< of a count or a number of something, the largest that is one; 0 of what need not be whole
 };
 
 /// `part` gives the number's place in a row.
 template <typename Row, typename Part>
 Column<Row> column(const std::string_view name, const Part& part, const bool laboratory = false)
 {
-  return {name, [=](const Row& row) { return double(part(row)); },
+  using Number = std::remove_cvref_t<decltype(part(std::declval<Row&>()))>;
+  return {name,
+          [=](const Row& row) { return double(part(row)); },
           [=](Row& row, const double value) {
             auto& place = part(row);
-            place = std::remove_reference_t<decltype(place)>(value);
+            place = Number(value);
           },
-          laboratory, false};
+          laboratory,
+          false,
+          std::is_integral_v<Number> ? std::min(0x1p53, double(std::numeric_limits<Number>::max())) : 0.0};
 }
 
 template <typename Row, typename T>
@@ -180,6 +188,15 @@ public:
 
   std::string_view text(const std::size_t k) const { return cells[k]; }
 
+  double whole_value(const std::size_t k, const double most) const
+  {
+    const double result = value(k);
+    if (!(result >= 0.0 && result <= most && result == std::floor(result)))
+      throw InputError(
+        fmt::format("{}:{}: {} is no count or number of something", file.string(), number, in_quotes(cells[k])));
+    return result;
+  }
+
   double value(const std::size_t k) const
   {
     double result = 0.0;
@@ -227,7 +244,11 @@ Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
   Row row{};
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (places[k])
-      columns[k].set(row, columns[k].laboratory ? sign * table.value(*places[k]) : table.value(*places[k]));
+      {
+        const double value =
+          columns[k].most > 0.0 ? table.whole_value(*places[k], columns[k].most) : table.value(*places[k]);
+        columns[k].set(row, columns[k].laboratory ? sign * value : value);
+      }
   return row;
 }
 } // namespace

@@ -380,6 +380,29 @@ TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
     << all[0].problems[1];
 }
 
+TEST(ResultFolder, TakesNoCountThatIsNone)
+{
+  const TemporaryFolder folder;
+  write_result_folder({}, {compression(3)}, {}, folder.path());
+  const auto file = folder.path() / "grains/uniaxial_compression_seed_3.csv";
+  const std::string table = content(file);
+  ASSERT_TRUE(table.ends_with(",1\n")) << table; // the fragment of the last grain
+  for (const char* const number : {"1e300", "-1", "nan", "inf", "0.5", "4294967296"})
+    {
+      folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 2) + number + "\n");
+      const auto all = read_result_folder(folder.path());
+      ASSERT_EQ(all.at(0).problems.size(), 1u) << number;
+      EXPECT_NE(all[0].problems[0].find(fmt::format(".csv:3: \"{}\" is no count", number)), std::string::npos)
+        << all[0].problems[0];
+    }
+  // A count of summary.json that is none is taken for 0.
+  std::string summary = content(folder.path() / "summary.json");
+  const std::string steps = "\"steps\": 1000";
+  ASSERT_NE(summary.find(steps), std::string::npos);
+  folder.write("summary.json", summary.replace(summary.find(steps), steps.size(), "\"steps\": 1e300"));
+  EXPECT_EQ(read_result_folder(folder.path()).at(0).tests.at(0).record.steps, 0u);
+}
+
 TEST(ResultFolder, WritesWhatIsNotUtf8AsItIsShown)
 {
   const TemporaryFolder folder;
