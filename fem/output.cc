@@ -1,5 +1,9 @@
 #include "fem/output.h"
 
+#include "base/hdf5_archive.h"
+#include "base/whole_file.h"
+
+#include <deal.II/base/mpi.h>
 #include <deal.II/numerics/data_out.h>
 
 #include <boost/archive/text_iarchive.hpp>
@@ -61,6 +65,25 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
     add(solid.field_names()[f], [&](const std::size_t i) { return material_fields[i].at(f); });
   return fields;
 }
+
+/// With checksums. By the first rank, whose failure is that of all.
+void seal(const std::vector<std::filesystem::path>& files, const MPI_Comm communicator)
+{
+  std::string problem;
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    try
+      {
+        for (const std::filesystem::path& file : files)
+          seal_hdf5(file);
+      }
+    catch (const OutputError& error)
+      {
+        problem = error.what();
+      }
+  problem = dealii::Utilities::MPI::broadcast(communicator, problem);
+  if (!problem.empty())
+    throw OutputError(problem);
+}
 } // namespace
 
 FieldOutput::FieldOutput(const std::filesystem::path& its_folder, const std::string& its_name)
@@ -98,6 +121,10 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
   const std::string fields_file = fmt::format("{}-{:04}.h5", name, entries.size());
   out.write_hdf5_parallel(filter, another_mesh, (folder / mesh_file).string(), (folder / fields_file).string(),
                           solid.communicator());
+  std::vector<std::filesystem::path> files{folder / fields_file};
+  if (another_mesh)
+    files.push_back(folder / mesh_file);
+  seal(files, solid.communicator());
   entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
   out.write_xdmf_file(entries, (folder / (name + ".xdmf")).string(), solid.communicator());
 }

@@ -1,5 +1,8 @@
 #include "fem/mesh/sample_mesh.h"
 
+#include "base/input_error.h"
+#include "fem/mesh/gmsh_check.h"
+
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
@@ -194,9 +197,19 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
                           const unsigned int n_refinements)
 {
   const std::string name = file.string();
-  std::ifstream stream(file);
-  if (!stream)
+  std::ifstream opened(file);
+  if (!opened)
     throw MeshError(fmt::format("{}: cannot be opened", name));
+  std::stringstream stream;
+  stream << opened.rdbuf();
+  try
+    {
+      check_gmsh(stream.view(), dim);
+    }
+  catch (const InputError& error)
+    {
+      throw MeshError(fmt::format("{}: {}", name, error.what()));
+    }
   SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), physical_names(stream, dim - 1, name)};
 
   // Into a serial triangulation first, which also takes what the distributed one does not.
