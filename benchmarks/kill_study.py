@@ -23,7 +23,7 @@ import time
 import h5py
 import numpy
 
-from on_ranks import ENVIRONMENT, launcher
+from on_ranks import ENVIRONMENT, committed_version, launcher
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 NAME = "uniaxial_compression_seed_1"
@@ -126,6 +126,7 @@ def largest_difference(one, other):
 
 def main():
     feldspar = os.path.abspath(sys.argv[1])
+    version = committed_version(feldspar)
     folder = tempfile.mkdtemp(prefix="kill-study-")
     with open(os.path.join(folder, "press.prm"), "w", encoding="utf-8") as file:
         file.write(INPUT)
@@ -147,6 +148,7 @@ def main():
         }
 
     result = {
+        "feldspar_version": version,
         "n_events": len(whole_events) - 1,
         "n_steps": int(whole_curve["step"][-1]),
         "kills": [],

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from on_ranks import ENVIRONMENT, launcher
+from on_ranks import ENVIRONMENT, committed_version, launcher
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUT = """subsection Specimen
@@ -79,10 +79,11 @@ def run(feldspar, folder, test, n_ranks, n_threads):
 
 def main():
     feldspar = os.path.abspath(sys.argv[1])
+    version = committed_version(feldspar)
     folder = tempfile.mkdtemp(prefix="many-ranks-")
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         processor = next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
-    result = {"processor": processor, "n_processors": os.cpu_count(), "runs": []}
+    result = {"feldspar_version": version, "processor": processor, "n_processors": os.cpu_count(), "runs": []}
     for test, runs in RUNS.items():
         for n_ranks, n_threads in runs:
             events, one = run(feldspar, folder, test, n_ranks, n_threads)

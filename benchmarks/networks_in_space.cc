@@ -1,3 +1,4 @@
+#include "benchmarks/committed_version.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/network.h"
 #include "dem/genesis/genesis.h"
@@ -10,6 +11,7 @@
 int main()
 {
   using namespace feldspar;
+  const std::string version_of_results = committed_version();
   SpecimenParameters wanted;
   wanted.dimension = 3;
   wanted.shape = "periodic";
@@ -37,5 +39,5 @@ int main()
             constants.anisotropy);
         }
     }
-  fmt::print("[\n{}\n]\n", rows);
+  fmt::print("{{\"feldspar_version\": \"{}\", \"networks\": [\n{}\n]}}\n", version_of_results, rows);
 }

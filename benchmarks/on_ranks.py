@@ -1,6 +1,7 @@
-"""How the scripts here start the command on several ranks."""
+"""How the scripts here start the command on several ranks, and which builds of it they take."""
 
 import os
+import subprocess
 
 ENVIRONMENT = os.environ | {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -12,3 +13,9 @@ ENVIRONMENT = os.environ | {
 
 def launcher(n_ranks):
     return ["mpirun", "-np", str(n_ranks), "--oversubscribe"] if n_ranks > 1 else []
+
+
+def committed_version(feldspar):
+    """Of a build whose results can be committed; ends the script for others."""
+    check = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../scripts/provenance.sh")
+    return subprocess.run([check, feldspar], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()

@@ -4,6 +4,7 @@ distribution of the cells.
 
     build/release/benchmarks/volume_costs > benchmarks/results/volume-costs.json
     python3 benchmarks/rank_queue.py    # writes results/rank-queue.json and .csv; some minutes
+    python3 benchmarks/rank_queue.py 16    # prints one run of the smaller sample, on 16 cores, and writes nothing
     cd benchmarks && gnuplot rank_queue.gp
 
 A square sample has n x n cells with four RVEs each, along the curve of p4est. A band of one tenth of the cells, like a
@@ -27,6 +28,7 @@ import json
 import math
 import os
 import random
+import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -196,12 +198,33 @@ def quantiles(values):
     }
 
 
+def replay(rows, cells, n_cores):
+    """One sample on one number of cores."""
+    alone = bound(rows, 1)
+    run = {"cells": cells, "volumes": len(rows[0]), "cores": n_cores, "speed_up": {}, "moves": {}}
+    for name, (policy, n_of_rank, longest_first) in POLICIES.items():
+        n_ranks = n_cores // n_of_rank
+        if 1 <= n_ranks <= cells:
+            time, run["moves"][name] = in_pieces(rows, n_ranks, n_of_rank, policy, longest_first)
+            run["speed_up"][name] = round(alone / time, 2)
+    run["speed_up"]["queue"] = round(alone / queue(rows, n_cores), 2)
+    run["speed_up"]["bound"] = round(alone / bound(rows, n_cores), 2)
+    return run
+
+
 def main():
     with open(os.path.join(HERE, "results", "volume-costs.json"), encoding="utf-8") as file:
-        measured = json.load(file)["volumes"]
+        measurement = json.load(file)
+    measured = measurement["volumes"]
     compression = [v["rows"] for v in measured if v["test"] == "compression"]
+    if sys.argv[1:]:
+        print(json.dumps(replay(costs_of_rows(compression, 32, random.Random(1)), 32 * 32, int(sys.argv[1]))))
+        return
+    if "feldspar_version" not in measurement:
+        sys.exit("results/volume-costs.json does not say by which build it was measured: measure it anew")
     everything = [row for v in measured for row in v["rows"]]
     result = {
+        "feldspar_version": measurement["feldspar_version"],
         "costs_s": {
             "iteration, intact": quantiles([row[1] for row in everything if row[3] == 0]),
             "iteration, damaged": quantiles([row[1] for row in everything if row[3] > 0]),
@@ -214,16 +237,8 @@ def main():
         print(name, of)
     for across in (32, 128):
         rows = costs_of_rows(compression, across, random.Random(1))
-        alone = bound(rows, 1)
         for n_cores in [2**k for k in range(14)] + [10000]:
-            run = {"cells": across * across, "volumes": len(rows[0]), "cores": n_cores, "speed_up": {}, "moves": {}}
-            for name, (policy, n_of_rank, longest_first) in POLICIES.items():
-                n_ranks = n_cores // n_of_rank
-                if 1 <= n_ranks <= across * across:
-                    time, run["moves"][name] = in_pieces(rows, n_ranks, n_of_rank, policy, longest_first)
-                    run["speed_up"][name] = round(alone / time, 2)
-            run["speed_up"]["queue"] = round(alone / queue(rows, n_cores), 2)
-            run["speed_up"]["bound"] = round(alone / bound(rows, n_cores), 2)
+            run = replay(rows, across * across, n_cores)
             result["runs"].append(run)
             print(run["cells"], n_cores, run["speed_up"], run["moves"], flush=True)
     with open(os.path.join(HERE, "results", "rank-queue.json"), "w", encoding="utf-8") as file:

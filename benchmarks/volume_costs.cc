@@ -1,3 +1,4 @@
+#include "benchmarks/committed_version.h"
 #include "coupling/sample/grain_material.h"
 #include "dem/genesis/genesis.h"
 
@@ -100,6 +101,7 @@ std::string path(const std::shared_ptr<const Network<2>>& of, const double step,
 int main()
 {
   using namespace feldspar;
+  const std::string version_of_results = committed_version();
   std::string volumes;
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
     {
@@ -111,7 +113,7 @@ int main()
                       volumes.empty() ? "" : ",\n", seed, of->n_grains(), of->n_segments(),
                       pulled ? "tension" : "compression", pulled ? path(of, 1e-5, 3e-4) : path(of, -1e-4, 4e-3));
     }
-  fmt::print(
-    "{{\"columns\": [\"strain\", \"iteration_s\", \"relaxation_s\", \"broken_segments\"], \"volumes\": [\n{}\n]}}\n",
-    volumes);
+  fmt::print("{{\"feldspar_version\": \"{}\", \"columns\": [\"strain\", \"iteration_s\", \"relaxation_s\", "
+             "\"broken_segments\"], \"volumes\": [\n{}\n]}}\n",
+             version_of_results, volumes);
 }

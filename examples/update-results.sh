@@ -5,11 +5,12 @@
 #
 # FELDSPAR is the built command; without names every study is run. Each EXAMPLE/results/NAME.json is the summary.json of
 # its run: figures, seeds, commit and machine. The READMEs take their figures from there, and a test checks that they
-# agree.
+# agree. A build of a changed work tree is refused: its results could not be made again.
 set -euo pipefail
 feldspar=$(realpath "$1")
 shift
 cd "$(dirname "${BASH_SOURCE[0]}")"
+../scripts/provenance.sh "$feldspar"
 studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}

@@ -145,6 +145,7 @@ def draw(runs):
 
 def main():
     feldspar = os.path.realpath(sys.argv[1])
+    subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), feldspar], check=True)
     results = os.path.join(RESULTS, "mesh-study.json")
     geometries = sys.argv[2:] or list(INPUTS)
     runs = []

@@ -8,6 +8,7 @@
 set -euo pipefail
 feldspar=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")"
+../../scripts/provenance.sh "$feldspar"
 work=$(mktemp --directory)
 trap 'rm --recursive "$work"' EXIT
 

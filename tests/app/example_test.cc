@@ -141,7 +141,9 @@ TEST(Example, TheEnsembleIsTheRock)
   EXPECT_EQ(ensemble["uniaxial_compression"]["peak_stress_Pa"]["n"], 10);
   for (const int pressure : {5, 10, 20, 30, 40, 50, 60})
     EXPECT_LT(mean(fmt::format("triaxial_compression_{}_MPa", pressure), "servo_error"), 0.01) << pressure << " MPa";
-  for (const auto& test : results("ensemble")["tests"])
+  const auto tests = results("ensemble")["tests"];
+  EXPECT_EQ(tests.size(), 90u);
+  for (const auto& test : tests)
     EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
 }
 
@@ -240,7 +242,7 @@ TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
       double mean_coordination = 0.0;
       double mean_modulus = 0.0;
       int n = 0;
-      for (const auto& row : networks)
+      for (const auto& row : networks["networks"])
         if (row["installation_gap_ratio"] == gap)
           {
             EXPECT_GT(row["n_grains"], 800);
@@ -305,6 +307,14 @@ double dissipated(const nlohmann::json& volume)
 nlohmann::json volume_results(const std::string& study)
 {
   return nlohmann::json::parse(content(of_volumes + "results/" + study + ".json"));
+}
+
+/// By value: the loop that walks through them would outlive the file they are read from.
+std::vector<nlohmann::json> volumes_of(const std::string& study)
+{
+  const auto volumes = volume_results(study)["volumes"];
+  EXPECT_FALSE(volumes.empty()) << study;
+  return {volumes.begin(), volumes.end()};
 }
 
 TEST(Example, TheVolumesReadmeShowsTheCommittedResults)
@@ -375,7 +385,7 @@ TEST(Example, PathsFromBreakToBreakBalance)
   for (const char* const study :
        {"tension", "uniaxial", "triaxial-20", "triaxial-60", "tension-3d", "uniaxial-3d", "triaxial-20-3d",
         "triaxial-60-3d", "size-12-mm", "size-16-mm", "size-23-mm", "size-32.5-mm", "size-46-mm"})
-    for (const auto& volume : volume_results(study)["volumes"])
+    for (const auto& volume : volumes_of(study))
       if (volume.value("variant", "") != "Strain path/Solver = explicit")
         {
           EXPECT_LE(volume["hill_mandel_residual"].get<double>(), 1e-5) << study << " " << volume["seed"];
@@ -404,7 +414,7 @@ TEST(Example, TheVolumesReadmeShowsTheCommittedResultsInSpace)
   for (const auto& [name, study] : {std::pair("uniaxial compression", "uniaxial-3d"),
                                     {"triaxial compression at 20 MPa", "triaxial-20-3d"},
                                     {"triaxial compression at 60 MPa", "triaxial-60-3d"}})
-    for (const auto& volume : volume_results(study)["volumes"])
+    for (const auto& volume : volumes_of(study))
       path_row(std::string(name) + (is_explicit(volume) ? ", explicit" : ""), volume, "lowest_stress", -1.0);
 
   for (const auto& [name, study, axis] : {std::tuple("plane, 16 mm", "2d-16-mm", "yy"),
@@ -650,7 +660,9 @@ TEST(Benchmark, TheReadmeShowsTheCommittedResults)
             run["speed_up"].contains(policy) ? fmt::format(" {:.1f} |", run["speed_up"][policy].get<double>()) : " – |";
         shown(row);
       }
-  for (const auto& run : nlohmann::json::parse(content(folder + "results/many-ranks.json"))["runs"])
+  const auto on_ranks = nlohmann::json::parse(content(folder + "results/many-ranks.json"))["runs"];
+  EXPECT_EQ(on_ranks.size(), 7u);
+  for (const auto& run : on_ranks)
     {
       const auto& of_ranks = run["in_volumes"];
       const double mean = of_ranks["mean_s"];
@@ -698,7 +710,7 @@ TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
     }
   EXPECT_LT(error, 0.02 * rate_free);
   for (const char* study : {"tension", "break-rules", "uniaxial", "triaxial-20", "triaxial-60"})
-    for (const auto& volume : volume_results(study)["volumes"])
+    for (const auto& volume : volumes_of(study))
       if (!volume.contains("variant") || volume["variant"] != "Strain path/Solver = explicit")
         {
           EXPECT_LE(volume["energy_imbalance"].get<double>(), 1e-3) << study << volume["name"];

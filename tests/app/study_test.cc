@@ -1,0 +1,433 @@
+// Each study has a reduced piece that is run here, by the program as it is now, and must give what stands in the study's
+// committed results: a result that does not come out any more is older than the code that made it.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+const std::filesystem::path root = FELDSPAR_SOURCE_DIR;
+
+std::string text_of(const std::filesystem::path& file)
+{
+  std::ifstream in(file);
+  if (!in)
+    throw std::runtime_error("no file " + file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// An input with one entry of a section changed, or added.
+std::string with_entry(std::string input, const std::string& section, const std::string& entry,
+                       const std::string& value)
+{
+  const std::string heading = "subsection " + section + "\n";
+  const std::string line = "  set " + entry + " = " + value + "\n";
+  const std::size_t begin = input.find(heading);
+  if (begin == std::string::npos)
+    return input + "\n" + heading + line + "end\n";
+  const std::size_t body = begin + heading.size();
+  const std::size_t end = input.find("\nend", begin);
+  const std::string inside = input.substr(body, end + 1 - body);
+  const std::regex found("  set " + entry + " *=[^\n]*\n");
+  return input.replace(body, inside.size(),
+                       std::regex_search(inside, found) ? std::regex_replace(inside, found, line) : inside + line);
+}
+
+/// How much of a study's path its piece goes.
+enum class Extent
+{
+  whole, ///< to its end: all figures of the rock are there again
+  begun, ///< the piece ends early: those of the body before it is loaded
+};
+
+struct Change
+{
+  std::string section, entry, value;
+};
+
+struct Piece
+{
+  std::string name;
+  std::string command;              ///< of feldspar
+  std::string input;                ///< of the study, below examples/
+  std::vector<std::string> results; ///< that hold what comes out, below examples/
+  std::vector<Change> changes;
+  Extent extent = Extent::whole;
+};
+
+void PrintTo(const Piece& piece, std::ostream* out) { *out << piece.name; }
+
+const Change first_seed{"Seeds", "Seeds", "1"};
+const Change no_reference{"Report", "Reference file", "none"};
+const Change hardly_strained{"Strain path", "Size", "1e-5"};
+
+const std::vector<Piece> pieces{
+  {"GraniteInTension",
+   "lab",
+   "beishan-granite/ensemble.prm",
+   {"beishan-granite/results/ensemble.json", "beishan-granite/results/beishan.json"},
+   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
+  {"GraniteInCompressionAtTheFullRate",
+   "lab",
+   "beishan-granite/rate-study.prm",
+   {"beishan-granite/results/rate-study.json"},
+   {{"Seeds", "Seeds", "3"}, {"Variants", "Values", "1 1/s"}, no_reference}},
+  {"GranitePackedFinely",
+   "lab",
+   "beishan-granite/radius-as-diameter.prm",
+   {"beishan-granite/results/radius-as-diameter.json"},
+   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "2e-6"}, {"Seeds", "Seeds", "3"}, no_reference},
+   Extent::begun},
+  {"CylinderPacked",
+   "lab",
+   "beishan-cylinder/beishan-cylinder.prm",
+   {"beishan-cylinder/results/beishan-cylinder.json"},
+   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "4e-6"}, first_seed},
+   Extent::begun},
+
+  {"VolumeInTension", "rve", "rve-beishan/tension.prm", {"rve-beishan/results/tension.json"}, {first_seed}},
+  {"VolumeByBothBreakRules",
+   "rve",
+   "rve-beishan/break-rules.prm",
+   {"rve-beishan/results/break-rules.json"},
+   {first_seed}},
+  {"VolumeByExplicitDynamics",
+   "rve",
+   "rve-beishan/explicit-tension.prm",
+   {"rve-beishan/results/explicit-tension.json"},
+   {first_seed, {"Variants", "Values", "1000; 10000"}}},
+  {"VolumeUnderPressureExplicit",
+   "rve",
+   "rve-beishan/triaxial-20.prm",
+   {"rve-beishan/results/triaxial-20.json"},
+   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "explicit"}}},
+  {"VolumeUnderHighPressureBegun",
+   "rve",
+   "rve-beishan/triaxial-60.prm",
+   {"rve-beishan/results/triaxial-60.json"},
+   {{"Seeds", "Seeds", "2"}, hardly_strained},
+   Extent::begun},
+  {"VolumePressedBegun",
+   "rve",
+   "rve-beishan/uniaxial.prm",
+   {"rve-beishan/results/uniaxial.json", "rve-beishan/results/size-32.5-mm-compression.json"},
+   {{"Seeds", "Seeds", "2"}, hardly_strained},
+   Extent::begun},
+  {"SmallestVolumesInTension",
+   "rve",
+   "rve-beishan/tension.prm",
+   {"rve-beishan/results/size-12-mm.json"},
+   {{"Specimen", "Width", "12 mm"}, {"Specimen", "Height", "12 mm"}}},
+  {"SmallestVolumesPressed",
+   "rve",
+   "rve-beishan/uniaxial.prm",
+   {"rve-beishan/results/size-12-mm-compression.json"},
+   {{"Specimen", "Width", "12 mm"}, {"Specimen", "Height", "12 mm"}, {"Strain path", "Solver", "explicit"}}},
+  {"SmallVolumeInTension",
+   "rve",
+   "rve-beishan/tension.prm",
+   {"rve-beishan/results/size-16-mm.json"},
+   {first_seed, {"Specimen", "Width", "16 mm"}, {"Specimen", "Height", "16 mm"}}},
+  {"SmallVolumePressed",
+   "rve",
+   "rve-beishan/uniaxial.prm",
+   {"rve-beishan/results/size-16-mm-compression.json"},
+   {first_seed,
+    {"Specimen", "Width", "16 mm"},
+    {"Specimen", "Height", "16 mm"},
+    {"Strain path", "Solver", "explicit"}}},
+  {"MediumVolumeInTension",
+   "rve",
+   "rve-beishan/tension.prm",
+   {"rve-beishan/results/size-23-mm.json"},
+   {first_seed, {"Specimen", "Width", "23 mm"}, {"Specimen", "Height", "23 mm"}}},
+  {"MediumVolumePressed",
+   "rve",
+   "rve-beishan/uniaxial.prm",
+   {"rve-beishan/results/size-23-mm-compression.json"},
+   {first_seed,
+    {"Specimen", "Width", "23 mm"},
+    {"Specimen", "Height", "23 mm"},
+    {"Strain path", "Solver", "explicit"}}},
+  {"LargestVolumeBegun",
+   "rve",
+   "rve-beishan/tension.prm",
+   {"rve-beishan/results/size-46-mm.json", "rve-beishan/results/size-46-mm-compression.json"},
+   {{"Seeds", "Seeds", "2"}, {"Specimen", "Width", "46 mm"}, {"Specimen", "Height", "46 mm"}, hardly_strained},
+   Extent::begun},
+  {"VolumeInSpaceBegun",
+   "rve",
+   "rve-beishan/tension-3d.prm",
+   {"rve-beishan/results/tension-3d.json", "rve-beishan/results/uniaxial-3d.json",
+    "rve-beishan/results/triaxial-20-3d.json", "rve-beishan/results/triaxial-60-3d.json"},
+   {hardly_strained},
+   Extent::begun},
+
+  {"SampleInTension",
+   "multiscale",
+   "multiscale-beishan/demo.prm",
+   {"multiscale-beishan/results/demo.json"},
+   {{"Tests", "List", "direct_tension"}, no_reference}},
+  {"SampleBegun",
+   "multiscale",
+   "multiscale-beishan/beishan.prm",
+   {"multiscale-beishan/results/beishan.json"},
+   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "1e-5"}, first_seed, no_reference},
+   Extent::begun},
+  {"SectionBegun",
+   "multiscale",
+   "multiscale-beishan-cylinder/tension.prm",
+   {"multiscale-beishan-cylinder/results/tension.json"},
+   {{"Tests", "Stop strain", "1e-5"}},
+   Extent::begun},
+  {"WholeCylinderBegun",
+   "multiscale",
+   "multiscale-beishan-cylinder/cylinder.prm",
+   {"multiscale-beishan-cylinder/results/cylinder.json"},
+   {{"Tests", "Stop strain", "1e-5"}},
+   Extent::begun},
+  {"SectionPressedBegun",
+   "multiscale",
+   "multiscale-beishan-cylinder/compression.prm",
+   {"multiscale-beishan-cylinder/results/compression.json"},
+   {{"Tests", "List", "uniaxial_compression"}, {"Tests", "Stop strain", "2e-4"}},
+   Extent::begun},
+};
+
+// Figures of a body before it is loaded.
+const std::set<std::string> of_the_body{"n_grains",
+                                        "n_joints",
+                                        "coordination_number",
+                                        "coordination_number_core",
+                                        "installation_gap_ratio",
+                                        "porosity",
+                                        "mean_overlap_ratio",
+                                        "resolution",
+                                        "radius_multiplier",
+                                        "size_m",
+                                        "cell_m",
+                                        "fabric",
+                                        "stiffness_Pa",
+                                        "youngs_modulus_Pa",
+                                        "poissons_ratio",
+                                        "bulk_modulus_Pa",
+                                        "shear_modulus_Pa",
+                                        "anisotropy"};
+
+// Figures of its way to the end of the test. How exactly a run was computed (energies, servo, balance) is not among them:
+// such a measure may come to be defined more sharply, and the rock stays the same.
+const std::set<std::string> of_the_path{"peak_stress_Pa",
+                                        "strain_at_peak",
+                                        "youngs_modulus_initial_Pa",
+                                        "youngs_modulus_tangent_Pa",
+                                        "youngs_modulus_secant_Pa",
+                                        "poissons_ratio_initial",
+                                        "poissons_ratio_secant",
+                                        "crack_initiation_stress_Pa",
+                                        "crack_damage_stress_Pa",
+                                        "post_peak_drop",
+                                        "residual_deviator_ratio",
+                                        "n_tension_cracks",
+                                        "n_shear_cracks",
+                                        "n_tension_cracks_at_peak",
+                                        "n_shear_cracks_at_peak",
+                                        "n_fragments",
+                                        "largest_fragment_share",
+                                        "steps",
+                                        "highest_stress",
+                                        "lowest_stress",
+                                        "at_end"};
+
+/// Where records of one run lie, and what tells one from the others whatever else was run.
+const nlohmann::json& records(const nlohmann::json& summary)
+{
+  return summary.contains("volumes") ? summary["volumes"] : summary["tests"];
+}
+
+std::string identity(const nlohmann::json& record)
+{
+  std::string result;
+  for (const char* const key : {"kind", "seed", "variant", "confining_pressure_Pa"})
+    if (record.contains(key))
+      result += record[key].dump() + " ";
+  return result;
+}
+
+/// The tolerance of an equilibrium from break to break: what another order of summation changes is far below it.
+constexpr double tolerance = 1e-6;
+
+/// A side held free of stress has only what the tolerance leaves; where along the path that is largest says nothing.
+bool is_free_side(const std::string& key, const nlohmann::json& value)
+{
+  const bool is_stress = key.starts_with("stress_") && value.is_number();
+  const bool is_extreme = value.is_object() && value.contains("stress_Pa");
+  return (is_stress && std::abs(value.get<double>()) < 1.0) ||
+         (is_extreme && std::abs(value["stress_Pa"].get<double>()) < 1.0);
+}
+
+/// Number by number.
+void expect_near(const nlohmann::json& found, const nlohmann::json& expected, const std::string& where)
+{
+  if (expected.is_number())
+    {
+      ASSERT_TRUE(found.is_number()) << where;
+      EXPECT_NEAR(found.get<double>(), expected.get<double>(), tolerance * std::abs(expected.get<double>())) << where;
+    }
+  else if (expected.is_array())
+    {
+      ASSERT_EQ(found.size(), expected.size()) << where;
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        expect_near(found[k], expected[k], where);
+    }
+  else if (expected.is_object())
+    {
+      for (const auto& [key, value] : expected.items())
+        if (!is_free_side(key, value))
+          expect_near(found.value(key, nlohmann::json()), value, where + "/" + key);
+    }
+  else
+    EXPECT_EQ(found, expected) << where;
+}
+} // namespace
+
+class ReducedStudy : public testing::TestWithParam<Piece>
+{
+};
+
+TEST_P(ReducedStudy, GivesTheCommittedFigures)
+{
+  const Piece& piece = GetParam();
+  std::string input = text_of(root / "examples" / piece.input);
+  for (const auto& [section, entry, value] : piece.changes)
+    input = with_entry(input, section, entry, value);
+  const TemporaryFolder folder;
+  folder.write("piece.prm", input);
+  const auto run = run_feldspar(folder.path(), piece.command + " piece.prm --output out --quiet --threads 1");
+  ASSERT_EQ(run.exit_code, 0) << run.error << input;
+  const auto again = nlohmann::json::parse(text_of(folder.path() / "out/summary.json"));
+  for (const auto& file : piece.results)
+    {
+      const auto committed = nlohmann::json::parse(text_of(root / "examples" / file));
+      // The arithmetic is the same on every processor, but functions of the C library are not, and explicit dynamics
+      // amplify their last bit. Another processor only has to make the same body.
+      const bool same_processor = again["host"]["processor"] == committed["host"]["processor"];
+      std::size_t n_figures = 0;
+      for (auto record : records(again)) // a key it does not have is null
+        for (const auto& expected : records(committed))
+          if (piece.extent == Extent::begun ? record["seed"] == expected["seed"]
+                                            : identity(record) == identity(expected))
+            for (const auto& [key, value] : expected.items())
+              if (of_the_body.contains(key) ||
+                  (of_the_path.contains(key) && piece.extent == Extent::whole && same_processor))
+                {
+                  expect_near(record[key], value, file + ": " + identity(expected) + key);
+                  ++n_figures;
+                }
+      EXPECT_GT(n_figures, 8u) << file << " has no record of this piece";
+    }
+}
+
+// The replay of measured costs has no program: its piece is one sample on one number of cores.
+TEST(RankQueue, GivesTheCommittedSpeedUps)
+{
+  const std::string command = "python3 '" + (root / "benchmarks/rank_queue.py").string() + "' 16 2>&1";
+  FILE* const pipe = popen(command.c_str(), "r");
+  ASSERT_TRUE(pipe);
+  std::string output;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+    output.append(buffer.data(), n);
+  ASSERT_EQ(pclose(pipe), 0) << output;
+  const auto again = nlohmann::json::parse(output);
+  std::size_t n_found = 0;
+  const auto committed = nlohmann::json::parse(text_of(root / "benchmarks/results/rank-queue.json"));
+  for (const auto& run : committed["runs"])
+    if (run["cells"] == again["cells"] && run["cores"] == again["cores"])
+      {
+        EXPECT_EQ(run, again);
+        ++n_found;
+      }
+  EXPECT_EQ(n_found, 1u);
+}
+
+/// Versions of the program in a JSON, at any depth.
+std::vector<std::string> versions_in(const nlohmann::json& value)
+{
+  std::vector<std::string> result;
+  if (value.is_object() && value.contains("feldspar_version"))
+    result.push_back(value["feldspar_version"]);
+  if (value.is_structured())
+    for (const auto& part : value)
+      for (std::string& version : versions_in(part))
+        result.push_back(std::move(version));
+  return result;
+}
+
+int exit_code_of_git(const std::string& arguments)
+{
+  return std::system(("git -C '" + root.string() + "' " + arguments + " >/dev/null 2>&1").c_str());
+}
+
+// Measured before their scripts wrote the version; a result that comes to have one leaves this list.
+const std::set<std::string> of_no_known_build{"full-size.json",         "kill-study.json", "many-ranks.json",
+                                              "networks-in-space.json", "rank-queue.json", "volume-costs.json"};
+
+// Made by a work tree with changes that are in no commit; to be made anew.
+const std::set<std::string> of_a_changed_tree{"beishan-cylinder.json"};
+
+TEST(CommittedResults, AreOfBuildsOfCommits)
+{
+  const std::regex of_a_commit(R"(\d+\.\d+\.\d+\+g([0-9a-f]{7,}))");
+  // An archive and a shallow clone do not know the commits.
+  const bool has_history = exit_code_of_git("rev-parse --verify HEAD") == 0 &&
+                           exit_code_of_git("rev-parse --is-shallow-repository | grep false") == 0;
+  std::size_t n_results = 0;
+  for (const char* const folder : {"examples", "benchmarks"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".json" && entry.path().parent_path().filename() == "results")
+        {
+          const std::string name = entry.path().filename().string();
+          const auto versions = versions_in(nlohmann::json::parse(text_of(entry.path())));
+          EXPECT_EQ(versions.empty(), of_no_known_build.contains(name)) << name;
+          for (const std::string& version : versions)
+            {
+              EXPECT_EQ(version.ends_with(".modified"), of_a_changed_tree.contains(name))
+                << name << " is of " << version;
+              if (of_a_changed_tree.contains(name))
+                continue;
+              std::smatch commit;
+              ASSERT_TRUE(std::regex_match(version, commit, of_a_commit)) << name << " is of " << version;
+              if (has_history)
+                {
+                  EXPECT_EQ(exit_code_of_git("merge-base --is-ancestor " + commit[1].str() + " HEAD"), 0)
+                    << name << " is of " << version << ", which is not in the history";
+                }
+            }
+          ++n_results;
+        }
+  EXPECT_GT(n_results, 40u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, ReducedStudy, testing::ValuesIn(pieces),
+                         [](const auto& piece) { return piece.param.name; });
+} // namespace feldspar::tests
