@@ -70,14 +70,14 @@ class RisingBranch
 {
 public:
   RisingBranch(const TestRecord& record, const std::size_t peak)
-    : sign(laboratory_sign(record.kind))
+    : kind(record.kind)
     , pressure(record.confining_pressure)
     , rows(record.curve.data(), peak + 1)
     , peak_deviator(deviator(rows.back()))
   {
   }
 
-  double stress(const CurveSample& row) const { return sign * row.axial_stress; }
+  double stress(const CurveSample& row) const { return kind.stress(row); }
   double deviator(const CurveSample& row) const { return stress(row) - pressure; }
 
   /// First row whose deviator reaches this share of the peak's.
@@ -127,7 +127,7 @@ public:
       visit(rows[k]);
   }
 
-  double sign;
+  TestKind kind;
   double pressure;
   std::span<const CurveSample> rows;
   double peak_deviator;
@@ -153,10 +153,13 @@ std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
   return std::size_t(row - branch.rows.begin());
 }
 
+/// In which the volume shrinks until cracks open.
+bool is_uniform_compression(const TestKind& kind) { return kind.sign < 0.0 && kind.has_uniform_stress; }
+
 /// Where volumetric strain, contracting at first, turns round.
 Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
 {
-  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+  if (!is_uniform_compression(record.kind))
     return unknown("of uniaxial and triaxial compression only");
   if (const auto row = most_contracted_row(branch))
     return known(branch.stress(branch.rows[*row]));
@@ -169,7 +172,7 @@ Figure crack_damage(const TestRecord& record, const RisingBranch& branch)
 /// start to crack damage, for there it begins to grow faster. Needs no crack to be counted.
 Figure crack_initiation_by_lateral_strain(const TestRecord& record, const RisingBranch& branch)
 {
-  if (record.kind == TestKind::direct_tension || record.kind == TestKind::brazilian)
+  if (!is_uniform_compression(record.kind))
     return unknown("of uniaxial and triaxial compression only");
   const auto damage = most_contracted_row(branch);
   if (!damage)
@@ -201,16 +204,16 @@ constexpr const char* without_time = "equilibrium is sought without time";
 /// Moduli and Poisson's ratios, of tests whose stress is uniform.
 void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, TestResults& results)
 {
-  if (record.kind == TestKind::brazilian)
+  if (!record.kind.has_uniform_stress)
     {
-      const Figure none = unknown("the stress in a Brazilian disc is not uniform");
+      const Figure none = unknown("the stress in this test is not uniform");
       results.youngs_modulus_initial = results.youngs_modulus_tangent = results.youngs_modulus_secant = none;
       results.poissons_ratio_initial = results.poissons_ratio_secant = results.p_wave_transits_to_peak = none;
       return;
     }
-  const double sign = branch.sign;
+  const double sign = record.kind.sign;
   const auto stress = [&](const CurveSample& row) { return branch.stress(row); };
-  const auto strain = [sign](const CurveSample& row) { return sign * row.axial_strain; };
+  const auto strain = [&](const CurveSample& row) { return record.kind.strain(row); };
   const auto gauge_axial = [sign](const CurveSample& row) { return sign * row.gauge_axial_strain; };
   const auto expansion = [sign](const CurveSample& row) { return -sign * row.gauge_lateral_strain; };
   results.youngs_modulus_initial = branch.slope_between(0.05, 0.20, gauge_axial, stress);
@@ -293,10 +296,10 @@ void evaluate_fragments(const TestRecord& record, TestResults& results)
 
 std::optional<std::size_t> peak_row(const TestRecord& record)
 {
-  PeakWatch watch(record.kind);
+  PeakWatch watch(record.kind.peak_rule);
   std::size_t peak = 0;
   for (std::size_t k = 0; k < record.curve.size(); ++k)
-    if (watch.is_highest(laboratory_sign(record.kind) * record.curve[k].axial_stress))
+    if (watch.is_highest(record.kind.stress(record.curve[k])))
       peak = k;
   if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart))
     return std::nullopt;
@@ -341,10 +344,9 @@ TestResults evaluate(const TestRecord& record)
     }
 
   const RisingBranch branch(record, *peak);
-  const double sign = branch.sign;
   const CurveSample& at_peak = curve[*peak];
   results.peak_stress = known(branch.stress(at_peak));
-  results.strain_at_peak = known(sign * at_peak.axial_strain);
+  results.strain_at_peak = known(record.kind.strain(at_peak));
   results.crack_initiation_stress = crack_initiation(record, branch);
   results.crack_initiation_stress_lateral = crack_initiation_by_lateral_strain(record, branch);
   results.crack_damage_stress = crack_damage(record, branch);

@@ -48,8 +48,7 @@ struct TestResults
   Figure largest_fragment_share; ///< of the grains' volume
 };
 
-/// The row of the curve where the stress was highest; none if it was rising to the end. Of a Brazilian test the first
-/// maximum that was followed by a fall: the halves of a split disc may carry more than the whole one did.
+/// The row of the curve where the stress was highest, by the peak rule of the test; none if it was rising to the end.
 std::optional<std::size_t> peak_row(const TestRecord& record);
 
 /// The first row with 1 % of the cracks at the peak; none if there is no crack up to there.

@@ -2,43 +2,53 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <algorithm>
+#include <tuple>
 
 namespace feldspar
 {
-std::string name(const TestKind kind)
+bool comes_before(const TestKind& a, const TestKind& b)
 {
-  switch (kind)
-    {
-    case TestKind::direct_tension:
-      return "direct_tension";
-    case TestKind::uniaxial_compression:
-      return "uniaxial_compression";
-    case TestKind::triaxial_compression:
-      return "triaxial_compression";
-    case TestKind::brazilian:
-      return "brazilian";
-    }
-  throw std::logic_error("a test kind without a name");
+  const auto place = [](const TestKind& kind) {
+    return std::tuple(kind.envelope_role, kind.takes_confining_pressure, kind.name);
+  };
+  return place(a) < place(b);
+}
+
+EnvelopeRole envelope_role(const TestKind& kind, const std::optional<double>& intermediate_stress)
+{
+  return intermediate_stress ? EnvelopeRole::none : kind.envelope_role;
 }
 
 std::string name(const TestCase& test)
 {
-  return test.kind == TestKind::triaxial_compression
-           ? fmt::format("{}_{}_MPa", name(test.kind), test.confining_pressure / 1e6)
-           : name(test.kind);
+  return test.kind.takes_confining_pressure ? fmt::format("{}_{}_MPa", test.kind.name, test.confining_pressure / 1e6)
+                                            : std::string(test.kind.name);
 }
 
 std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements)
 {
   std::vector<TestCase> tests;
-  for (const TestKind kind : kinds)
-    if (kind == TestKind::triaxial_compression)
+  for (const TestKind& kind : kinds)
+    if (kind.takes_confining_pressure)
       for (const double pressure : confinements)
         tests.push_back({kind, pressure});
     else
       tests.push_back({kind});
   return tests;
+}
+
+bool any_takes_confining_pressure(const std::vector<TestKind>& kinds)
+{
+  return std::any_of(kinds.begin(), kinds.end(), [](const TestKind& kind) { return kind.takes_confining_pressure; });
+}
+
+std::string names(const std::vector<TestKind>& kinds)
+{
+  std::string text;
+  for (const TestKind& kind : kinds)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", kind.name);
+  return text;
 }
 
 std::string name(const TestBody body) { return body == TestBody::grains ? "grains" : "finite_elements"; }
@@ -47,14 +57,12 @@ bool PeakWatch::is_highest(const double stress)
 {
   constexpr double fall = 0.05;
   constexpr double round_off = 1e-9; // a plateau peaks where it begins
-  const bool brazilian_over = kind == TestKind::brazilian && fallen;
+  const bool is_over = rule == PeakRule::first_before_a_fall && fallen;
   if (stress < (1.0 - fall) * highest)
     fallen = true;
-  if (stress <= highest * (1.0 + round_off) || brazilian_over)
+  if (stress <= highest * (1.0 + round_off) || is_over)
     return false;
   highest = stress;
   return true;
 }
-
-double laboratory_sign(const TestKind kind) { return kind == TestKind::direct_tension ? 1.0 : -1.0; }
 } // namespace feldspar

@@ -1,20 +1,67 @@
 #pragma once
 
+#include "results/curve.h"
+
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace feldspar
 {
-enum class TestKind
+/// A column of the curve.
+struct Channel
 {
-  direct_tension,
-  uniaxial_compression,
-  triaxial_compression,
-  brazilian
+  double CurveSample::*value;
+  std::string_view name; ///< on axes
 };
 
-/// The name used in input and result files.
-std::string name(TestKind kind);
+inline constexpr Channel axial_stress{&CurveSample::axial_stress, "axial stress"};
+
+/// Which maximum of the measured stress is the strength.
+enum class PeakRule
+{
+  highest,
+  first_before_a_fall ///< the halves of a split disc may carry more than the whole one did
+};
+
+/// The point that the strength of a test is to an envelope. Reports show tests in this order.
+enum class EnvelopeRole
+{
+  tension,          ///< the uniaxial tensile strength
+  compression,      ///< σ_1 at σ_2 = σ_3
+  indirect_tension, ///< stands in where no test gives the uniaxial tensile strength
+  none
+};
+
+/// All that tells one kind of laboratory test from another, but for how it is set up on grains; each kind is one
+/// constant in dem/lab/protocols/. A property that a kind does not name is one that it does not have.
+struct TestKind
+{
+  std::string_view name;     ///< in input and result files: direct_tension
+  std::string_view title;    ///< in headings: Direct tension
+  std::string_view strength; ///< in rows of tables: tensile strength
+  double sign = 0.0; ///< +1 pulls, -1 presses: turns tension-positive figures into those of the laboratory curve
+  Channel channel = axial_stress; ///< whose peak is the strength
+  PeakRule peak_rule = PeakRule::highest;
+  EnvelopeRole envelope_role = EnvelopeRole::none;
+  bool has_uniform_stress = false; ///< so that its curve gives elastic constants
+  bool takes_confining_pressure = false;
+  bool runs_on_finite_elements = false; ///< a sample that is pulled or pressed at its ends
+  int strength_decimals = 1;            ///< of the strength in MPa in tables
+  int duration_rank = 0; ///< tests of the higher rank last longer; in one rank those of the higher pressure
+
+  double stress(const CurveSample& row) const { return sign * row.*channel.value; } ///< positive in its sense [Pa]
+  double strain(const CurveSample& row) const { return sign * row.axial_strain; }   ///< the same
+
+  friend constexpr bool operator==(const TestKind& a, const TestKind& b) { return a.name == b.name; }
+};
+
+/// The order of reports: by what kinds are to the envelope, unconfined before confined, then by name.
+bool comes_before(const TestKind& a, const TestKind& b);
+
+/// That of the kind where σ_2 = σ_3; none where another intermediate stress was held, which no envelope here knows.
+EnvelopeRole envelope_role(const TestKind& kind, const std::optional<double>& intermediate_stress);
 
 /// What a test is made on.
 enum class TestBody
@@ -30,30 +77,33 @@ std::string name(TestBody body);
 struct TestCase
 {
   TestKind kind;
-  double confining_pressure = 0.0; ///< of a triaxial test, compression positive [Pa]
+  double confining_pressure = 0.0; ///< compression positive [Pa]
 };
 
-/// The name used in result files: the kind, and of a triaxial test the pressure.
+/// The name used in result files: the kind, and of a confined test the pressure.
 std::string name(const TestCase& test);
 
-/// Each kind, and each triaxial test under each of the pressures [Pa], in this order.
+/// Each kind, and each confined one under each of the pressures [Pa], in this order.
 std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements);
 
-/// +1 where the test pulls, -1 where it presses: turns tension-positive figures into those of the laboratory curve.
-double laboratory_sign(TestKind kind);
+/// Whether one of them takes a confining pressure.
+bool any_takes_confining_pressure(const std::vector<TestKind>& kinds);
+
+/// Their names, separated by commas.
+std::string names(const std::vector<TestKind>& kinds);
 
 /// Follows a curve to its peak, row by row; stresses positive in the sense of the test.
 struct PeakWatch
 {
-  explicit PeakWatch(const TestKind of_kind)
-    : kind(of_kind)
+  explicit PeakWatch(const PeakRule of_test)
+    : rule(of_test)
   {
   }
 
-  /// Whether this stress is the highest so far. In a Brazilian test nothing is after the first fall of 5 %.
+  /// Whether this stress is the highest so far. By the rule of the first peak nothing is after a fall of 5 %.
   bool is_highest(double stress);
 
-  TestKind kind;
+  PeakRule rule;
   double highest = 0.0;
   bool fallen = false;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/specimen/specimen_report.h"
+#include "results/curve.h"
 #include "results/kinds.h"
 
 #include <array>
@@ -31,25 +31,6 @@ struct Crack
   std::array<double, 3> normal{};
   double size;            ///< length of the segment in 2D, root of its area in 3D [m]
   double released_energy; ///< [J]
-};
-
-/// One row of the curve.
-struct CurveSample
-{
-  std::uint64_t step = 0;
-  double time = 0.0;                  ///< [s]
-  double axial_strain = 0.0;          ///< platen or grip travel over the length between them
-  double axial_stress = 0.0;          ///< mean of both ends over the area; Brazilian: -2P/(πDt) [Pa]
-  double end_stress_difference = 0.0; ///< between both ends [Pa]
-  double lateral_stress = 0.0;        ///< of the side walls, mean since the row before; 0 without [Pa]
-  double mid_stress = 0.0;            ///< carried across the middle of the specimen [Pa]
-  double gauge_axial_strain = 0.0;    ///< of the grains in the middle
-  double gauge_lateral_strain = 0.0;
-  double gauge_volumetric_strain = 0.0;
-  std::uint64_t n_tension_cracks = 0;
-  std::uint64_t n_shear_cracks = 0;
-  double unbalanced_force_ratio = 0.0; ///< mean unbalanced over mean contact force
-  Energies energies;
 };
 
 /// A grain as the pictures need it.
@@ -96,7 +77,9 @@ struct TestRecord
   TestKind kind;
   TestBody body = TestBody::grains;
   double confining_pressure = 0.0; ///< compression positive [Pa]
-  bool has_servo = false;          ///< which holds it; else it is applied as it is
+  /// σ_2, compression positive, where it is held at another value than the confining pressure [Pa].
+  std::optional<double> intermediate_stress = std::nullopt;
+  bool has_servo = false; ///< which holds it; else it is applied as it is
   std::uint64_t seed = 0;
   double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane
@@ -116,6 +99,7 @@ struct TestRecord
   bool came_apart = false; ///< it ended early because beyond its last row nothing held it
   std::optional<SolverWork> solver_work;
 
+  EnvelopeRole envelope_role() const { return feldspar::envelope_role(kind, intermediate_stress); }
   int dimension() const { return size[2] > 0.0 ? 3 : 2; }
 };
 } // namespace feldspar

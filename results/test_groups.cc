@@ -19,56 +19,69 @@ std::string megapascals(const double pressure) { return fmt::format("{:g}", pres
 
 std::string TestGroup::title() const
 {
-  switch (kind)
-    {
-    case TestKind::direct_tension:
-      return "Direct tension";
-    case TestKind::uniaxial_compression:
-      return "Uniaxial compression";
-    case TestKind::triaxial_compression:
-      return fmt::format("Triaxial compression, {} MPa", megapascals(confining_pressure));
-    case TestKind::brazilian:
-      return "Brazilian test";
-    }
-  return "";
+  std::string text(kind.title);
+  if (kind.takes_confining_pressure)
+    text += fmt::format(", {} MPa", megapascals(confining_pressure));
+  if (intermediate_stress)
+    text += fmt::format(", intermediate stress {} MPa", megapascals(*intermediate_stress));
+  return text;
 }
 
-std::string TestGroup::name() const { return feldspar::name(TestCase{kind, confining_pressure}); }
+std::string TestGroup::name() const
+{
+  const std::string text = feldspar::name(TestCase{kind, confining_pressure});
+  return intermediate_stress ? fmt::format("{}_intermediate_{}_MPa", text, *intermediate_stress / 1e6) : text;
+}
+
+TestGroup group_of(const TestRecord& record)
+{
+  return {record.kind, record.confining_pressure, record.intermediate_stress, {}};
+}
+
+bool same_conditions(const TestGroup& a, const TestGroup& b)
+{
+  return a.kind == b.kind && a.confining_pressure == b.confining_pressure &&
+         a.intermediate_stress == b.intermediate_stress;
+}
+
+bool comes_before(const TestGroup& a, const TestGroup& b)
+{
+  if (a.kind != b.kind)
+    return comes_before(a.kind, b.kind);
+  return std::pair(a.confining_pressure, a.intermediate_stress) <
+         std::pair(b.confining_pressure, b.intermediate_stress);
+}
 
 std::vector<TestGroup> groups_of(const Series& series)
 {
   std::vector<TestGroup> groups;
   for (const auto& test : series.tests)
     {
-      const auto& record = test.record;
-      auto group = std::find_if(groups.begin(), groups.end(), [&](const TestGroup& one) {
-        return one.kind == record.kind && one.confining_pressure == record.confining_pressure;
-      });
+      const TestGroup wanted = group_of(test.record);
+      auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, wanted); });
       if (group == groups.end())
-        group = groups.insert(groups.end(), {record.kind, record.confining_pressure, {}});
+        group = groups.insert(groups.end(), wanted);
       group->tests.push_back(&test);
     }
-  std::stable_sort(groups.begin(), groups.end(), [](const TestGroup& a, const TestGroup& b) {
-    return std::pair(a.kind, a.confining_pressure) < std::pair(b.kind, b.confining_pressure);
-  });
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const TestGroup& a, const TestGroup& b) { return comes_before(a, b); });
   return groups;
 }
 
 std::vector<TestGroup> shown(const std::vector<TestGroup>& groups)
 {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (const auto& group : groups)
-    if (group.kind == TestKind::triaxial_compression)
-      {
-        lowest = std::min(lowest, group.confining_pressure);
-        highest = std::max(highest, group.confining_pressure);
-      }
   std::vector<TestGroup> result;
   for (const auto& group : groups)
-    if (group.kind != TestKind::triaxial_compression || group.confining_pressure == lowest ||
-        group.confining_pressure == highest)
-      result.push_back(group);
+    {
+      const auto is_beyond = [&](const double sign) {
+        return std::any_of(groups.begin(), groups.end(), [&](const TestGroup& other) {
+          return other.kind == group.kind && sign * (other.confining_pressure - group.confining_pressure) > 0.0;
+        });
+      };
+      if (!is_beyond(-1.0) || !is_beyond(1.0))
+        result.push_back(group);
+    }
   return result;
 }
 
@@ -91,7 +104,7 @@ std::vector<double> values(const TestGroup& group, Figure TestResults::*figure)
 
 Band band(const TestGroup& group, const std::function<double(const CurveSample&)>& quantity, const bool laboratory)
 {
-  const double sign = laboratory_sign(group.kind);
+  const double sign = group.kind.sign;
   double end = std::numeric_limits<double>::infinity();
   std::vector<const std::vector<CurveSample>*> curves;
   for (const auto* test : group.tests)

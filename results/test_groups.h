@@ -3,21 +3,32 @@
 #include "results/series.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace feldspar
 {
-/// The tests of one kind and pressure in a series: one a seed.
+/// The tests of one kind and under the same pressures in a series: one a seed.
 struct TestGroup
 {
   TestKind kind;
-  double confining_pressure; ///< [Pa]
+  double confining_pressure;                 ///< [Pa]
+  std::optional<double> intermediate_stress; ///< where it is another [Pa]
   std::vector<const FinishedTest*> tests;
 
   std::string title() const; ///< Triaxial compression, 5 MPa
   std::string name() const;  ///< for files: triaxial_compression_5_MPa
+  EnvelopeRole envelope_role() const { return feldspar::envelope_role(kind, intermediate_stress); }
 };
+
+/// The group a test belongs to, without any test in it.
+TestGroup group_of(const TestRecord& record);
+
+bool same_conditions(const TestGroup& a, const TestGroup& b);
+
+/// The order of reports.
+bool comes_before(const TestGroup& a, const TestGroup& b);
 
 /// The groups of a series in the order of kinds and pressures. The series must outlive them.
 std::vector<TestGroup> groups_of(const Series& series);

@@ -131,14 +131,16 @@ void check(const Input& input, const std::filesystem::path& file)
       if (specimen.shape == "periodic")
         refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
                "feldspar rve");
+      for (const TestKind& kind : variant.input.test_list)
+        if (const std::string objection = objection_to_grains(kind, specimen.dimension); !objection.empty())
+          refuse(objection);
       if (!specimen.specimen_file.empty())
         continue; // it brings its own shape
       if (tests.lateral_boundary == LateralBoundary::membrane && specimen.shape != "cylinder")
         refuse("Tests/Lateral boundary = membrane: goes round a cylinder; set Shape = cylinder and Dimension = 3");
       if (tests.intermediate_stress && (specimen.shape != "box" || specimen.dimension != 3))
         refuse("Tests/Intermediate stress: presses on two sides of a box in space; set Shape = box and Dimension = 3");
-      const auto& list = variant.input.test_list;
-      const bool is_confined = std::find(list.begin(), list.end(), TestKind::triaxial_compression) != list.end();
+      const bool is_confined = any_takes_confining_pressure(variant.input.test_list);
       for (const double confinement : variant.input.confinements)
         if (is_confined && tests.intermediate_stress && *tests.intermediate_stress < confinement)
           refuse(

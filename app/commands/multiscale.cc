@@ -78,9 +78,9 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
     refuse("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
-  if (std::find(input.test_list.begin(), input.test_list.end(), TestKind::brazilian) != input.test_list.end())
-    refuse("Tests/List: brazilian: the sample stands between platens; it makes direct_tension, uniaxial_compression "
-           "and triaxial_compression");
+  for (const TestKind& kind : input.test_list)
+    if (const std::string objection = objection_to_finite_elements(kind); !objection.empty())
+      refuse(objection);
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 

@@ -5,6 +5,7 @@
 #include "app/run/output_folder.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
@@ -23,7 +24,7 @@ std::vector<std::string> report_on(const ReportOrder& order)
   std::optional<std::filesystem::path> reference = order.reference;
   for (const auto& folder : order.result_folders)
     {
-      for (auto& series : read_result_folder(folder))
+      for (auto& series : read_result_folder(folder, test_kinds()))
         input.all.push_back(std::move(series));
       if (!reference && std::filesystem::exists(folder / result_file::reference))
         reference = folder / result_file::reference;

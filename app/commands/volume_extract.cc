@@ -82,7 +82,7 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
   write_fields(as_seen(specimen, volume, of_sample, name + "_fields"), folder);
   return fmt::format("{}\n  at {} mm, its axes turned by {}; strain of the sample {:.4g} %; {} broken segments\n",
                      file.string(), describe_position<dim>(volume.position), describe_turn<dim>(volume.orientation),
-                     100.0 * laboratory_sign(planned.test.kind) * of_sample.curve.back().axial_strain,
+                     100.0 * planned.test.kind.sign * of_sample.curve.back().axial_strain,
                      volume.state.n_tension_breaks + volume.state.n_shear_breaks);
 }
 } // namespace

@@ -4,6 +4,7 @@
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
 #include "dem/lab/parameters.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/laws/parameters.h"
 #include "dem/specimen/parameters.h"
 #include "results/kinds.h"
@@ -51,9 +52,9 @@ struct Input
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParticleContactParameters particle_contact;
   DynamicsParameters dynamics;
-  std::vector<TestKind> test_list{TestKind::direct_tension, TestKind::uniaxial_compression};
+  std::vector<TestKind> test_list{direct_tension.kind, uniaxial_compression.kind};
   TestParameters tests;
-  std::vector<double> confinements{5e6, 10e6, 20e6, 30e6, 40e6, 50e6, 60e6}; ///< of triaxial tests [Pa]
+  std::vector<double> confinements{5e6, 10e6, 20e6, 30e6, 40e6, 50e6, 60e6}; ///< of tests that take one [Pa]
   std::uint64_t steps_between_checkpoints = 20000;
   std::vector<std::uint64_t> seeds{1};
   std::string variant_entry;               ///< Section/Entry; empty: no variants

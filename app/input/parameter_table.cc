@@ -224,25 +224,15 @@ private:
   }
 };
 
-std::string write_tests(const std::vector<TestKind>& tests)
-{
-  std::vector<std::string> names;
-  names.reserve(tests.size());
-  for (const TestKind kind : tests)
-    names.push_back(name(kind));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 std::vector<TestKind> read_tests(const std::string_view text)
 {
-  const std::vector<TestKind> known{TestKind::direct_tension, TestKind::uniaxial_compression,
-                                    TestKind::triaxial_compression, TestKind::brazilian};
+  const std::vector<TestKind>& known = test_kinds();
   std::vector<TestKind> tests;
   for (const std::string_view piece : split_at_commas(text))
     {
-      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind k) { return name(k) == piece; });
+      const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind& k) { return k.name == piece; });
       if (kind == known.end())
-        throw InputError(fmt::format("\"{}\" is not a test; list one or more of {}", piece, write_tests(known)));
+        throw InputError(fmt::format("\"{}\" is not a test; list one or more of {}", piece, names(known)));
       if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
         throw InputError(fmt::format("{} is listed twice", piece));
       tests.push_back(*kind);
@@ -256,7 +246,8 @@ std::vector<double> read_confinements(const std::string_view text)
   for (auto p = pressures.begin(); p != pressures.end(); ++p)
     {
       if (*p <= 0.0)
-        throw InputError("must be > 0 MPa each; without confinement it is uniaxial_compression");
+        throw InputError(
+          fmt::format("must be > 0 MPa each; without confinement it is {}", uniaxial_compression.kind.name));
       if (std::find(pressures.begin(), p, *p) != p)
         throw InputError(fmt::format("{} is given twice", format_quantity(*p, "MPa", stress)));
     }
@@ -451,10 +442,9 @@ std::vector<Parameter> make_parameter_table()
     dynamics.number("Time step safety", &D::time_step_safety, {'(', 0.0, 1.0, ']'},
                     "time step over the least root of mass over stiffness"),
 
-    {"Tests", "List", "", "direct_tension, uniaxial_compression, triaxial_compression, brazilian",
-     "the tests to be made, separated by commas",
+    {"Tests", "List", "", names(test_kinds()), "the tests to be made, separated by commas",
      [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
-     [](const Input& input) { return write_tests(input.test_list); }},
+     [](const Input& input) { return names(input.test_list); }},
     {"Tests", "Confinements", "MPa", "> 0 MPa each", "pressures of the triaxial tests, separated by commas",
      [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
      [](const Input& input) { return write_confinements(input.confinements); }},

@@ -5,6 +5,7 @@
 #include "app/run/run_record.h"
 #include "base/input_error.h"
 #include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace feldspar
 {
@@ -57,7 +59,7 @@ std::vector<std::size_t> longest_first(const std::vector<PlannedTest<dim>>& plan
 {
   const auto length = [&](const std::size_t k) {
     const TestCase& test = planned[k].test;
-    return test.kind == TestKind::direct_tension || test.kind == TestKind::brazilian ? -1.0 : test.confining_pressure;
+    return std::pair(test.kind.duration_rank, test.confining_pressure);
   };
   std::vector<std::size_t> order(planned.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -74,7 +76,7 @@ public:
     : progress(shown)
   {
     for (const auto& test : planned)
-      entries.push_back({&test, PeakWatch(test.test.kind)});
+      entries.push_back({&test, PeakWatch(test.test.kind.peak_rule)});
     progress.start("tests");
   }
 
@@ -82,14 +84,14 @@ public:
   {
     const std::lock_guard lock(showing);
     Entry& entry = entries[k];
-    const double sign = laboratory_sign(entry.planned->test.kind);
+    const TestKind& kind = entry.planned->test.kind;
     entry.row = row;
-    if (entry.peak.is_highest(sign * row.axial_stress))
-      entry.strain_at_peak = sign * row.axial_strain;
+    if (entry.peak.is_highest(kind.stress(row)))
+      entry.strain_at_peak = kind.strain(row);
     // Only a curve that has left its peak tells where it will end.
     const double stop = entry.planned->variant->input.tests.stop_strain_over_peak_strain;
-    entry.fraction = sign * row.axial_stress < 0.95 * entry.peak.highest
-                       ? std::min(1.0, sign * row.axial_strain / (stop * entry.strain_at_peak))
+    entry.fraction = kind.stress(row) < 0.95 * entry.peak.highest
+                       ? std::min(1.0, kind.strain(row) / (stop * entry.strain_at_peak))
                        : 0.0;
     entry.running = true;
     draw();
@@ -122,12 +124,11 @@ private:
     for (const auto& entry : entries)
       {
         sum += entry.fraction;
-        const double sign = laboratory_sign(entry.planned->test.kind);
+        const TestKind& kind = entry.planned->test.kind;
         if (entry.running)
-          details.push_back(
-            {entry.fraction, fmt::format("{}: {:.4f} %, {:.1f} MPa, {} cracks", entry.planned->name,
-                                         100.0 * sign * entry.row.axial_strain, sign * entry.row.axial_stress / 1e6,
-                                         entry.row.n_tension_cracks + entry.row.n_shear_cracks)});
+          details.push_back({entry.fraction, fmt::format("{}: {:.4f} %, {:.1f} MPa, {} cracks", entry.planned->name,
+                                                         100.0 * kind.strain(entry.row), kind.stress(entry.row) / 1e6,
+                                                         entry.row.n_tension_cracks + entry.row.n_shear_cracks)});
       }
     progress.update(sum > 0.0 ? sum / double(entries.size()) : std::numeric_limits<double>::quiet_NaN(),
                     fmt::format("{} of {} done", n_finished, entries.size()), details);
@@ -161,12 +162,11 @@ public:
   /// The test as its last good checkpoint has it, else from the start.
   LabTest<dim> open() const
   {
-    const Input& input = planned.variant->input;
     for (const auto& file : {newest, one_before})
       if (std::filesystem::exists(file))
         try
           {
-            LabTest<dim> test(planned.test, *planned.specimen, input.tests, input.dynamics);
+            LabTest<dim> test = from_the_start();
             test.read_checkpoint(file, planned.identity);
             return test;
           }
@@ -176,10 +176,17 @@ public:
                        file == newest && std::filesystem::exists(one_before) ? "the one before it"
                                                                              : "the start of this test");
           }
-    return LabTest<dim>(planned.test, *planned.specimen, input.tests, input.dynamics);
+    return from_the_start();
   }
 
 private:
+  LabTest<dim> from_the_start() const
+  {
+    const Input& input = planned.variant->input;
+    return LabTest<dim>({protocol_of(planned.test.kind), planned.test.confining_pressure}, *planned.specimen,
+                        input.tests, input.dynamics);
+  }
+
   const PlannedTest<dim>& planned;
   std::filesystem::path newest;
   std::filesystem::path one_before;

@@ -3,6 +3,7 @@
 #include "app/input/csv.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -122,8 +123,7 @@ Series read_laboratory_curve(const std::filesystem::path& file)
       test.record.curve.push_back(sample);
     }
   test.record.confining_pressure = steady_pressure(pressures, file);
-  test.record.kind =
-    test.record.confining_pressure > 0.0 ? TestKind::triaxial_compression : TestKind::uniaxial_compression;
+  test.record.kind = test.record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
   const auto peak = peak_row(test.record);
   if (!peak)
     throw InputError(

@@ -181,7 +181,7 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
 {
   for (const Rock& rock : rocks)
     for (const double pressure : input.confinements)
-      if (std::count(input.test_list.begin(), input.test_list.end(), TestKind::triaxial_compression) > 0)
+      if (any_takes_confining_pressure(input.test_list))
         std::visit(
           [&](const auto& packings) {
             if (!packings.realisations.empty())
@@ -228,8 +228,8 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
 {
   SampleTest test = open(planned, input, folder);
   StateWriter state(state_folder(folder, planned), planned.identity);
-  const double sign = laboratory_sign(planned.test.kind);
-  const double strain_between_fields = planned.test.kind == TestKind::direct_tension ? 2.5e-5 : 2.5e-4;
+  const double sign = planned.test.kind.sign;
+  const double strain_between_fields = planned.test.kind.sign > 0.0 ? 2.5e-5 : 2.5e-4;
   const auto draw = [&](const SampleStanding& standing) {
     if (ranks::any(interrupted()))
       throw Interrupted();

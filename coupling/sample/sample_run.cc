@@ -6,6 +6,7 @@
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_body.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stop_rule.h"
 #include "fem/solid/advance.h"
 
@@ -53,9 +54,8 @@ struct SampleTest::Parts
     , wanted(parameters)
     , stop_rule(test.kind)
   {
-    if (test.kind == TestKind::brazilian)
-      throw InputError("Tests/List: brazilian: a multiscale sample stands between platens; it makes direct_tension, "
-                       "uniaxial_compression and triaxial_compression");
+    if (const std::string objection = objection_to_finite_elements(test.kind); !objection.empty())
+      throw InputError(objection);
     record.kind = test.kind;
     record.body = TestBody::finite_elements;
     record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
@@ -135,7 +135,7 @@ struct SampleTest::Parts
       }
   }
 
-  double sign() const { return laboratory_sign(test.kind); }
+  double sign() const { return test.kind.sign; }
 
   /// Pressure all round, the top plate free to follow.
   void seat()
@@ -151,7 +151,7 @@ struct SampleTest::Parts
   /// To the next row.
   void load()
   {
-    const double step = test.kind == TestKind::direct_tension ? sample.tension_step : sample.compression_step;
+    const double step = sign() > 0.0 ? sample.tension_step : sample.compression_step;
     widens = widens || (may_widen() && stress_falls());
     if (!widens)
       {
@@ -167,7 +167,7 @@ struct SampleTest::Parts
   }
 
   /// From the first avalanche or fall of the stress on.
-  bool may_widen() const { return seated && sample.widened_past_peak && test.kind != TestKind::direct_tension; }
+  bool may_widen() const { return seated && sample.widened_past_peak && sign() < 0.0; }
 
   bool stress_falls() const
   {

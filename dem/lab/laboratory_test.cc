@@ -15,21 +15,13 @@ namespace feldspar
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up_test(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
-                           const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+                         const DynamicsParameters& dynamics)
 {
-  switch (test.kind)
-    {
-    case TestKind::direct_tension:
-      return set_up_direct_tension(specimen, wanted, dynamics);
-    case TestKind::uniaxial_compression:
-      return set_up_uniaxial_compression(specimen, wanted, dynamics);
-    case TestKind::triaxial_compression:
-      return set_up_triaxial_compression(specimen, test.confining_pressure, wanted, dynamics);
-    case TestKind::brazilian:
-      return set_up_brazilian(specimen, wanted, dynamics);
-    }
-  throw std::logic_error("a test kind without a protocol");
+  const SetUp<dim> set_up = test.protocol.set_up<dim>();
+  if (set_up == nullptr)
+    throw std::logic_error(fmt::format("{} has no set-up in {} dimensions", test.protocol.kind.name, dim));
+  return set_up(specimen, test.confining_pressure, wanted, dynamics);
 }
 
 template <int dim>
@@ -67,18 +59,19 @@ Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axia
 } // namespace
 
 template <int dim>
-LabTest<dim>::LabTest(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
+LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
                       const DynamicsParameters& dynamics)
   : wanted(parameters)
-  , stop_rule(test.kind)
-  , set_up(set_up_test(test, specimen, parameters, dynamics))
+  , stop_rule(test.protocol.kind)
+  , set_up(set_up_of(test, specimen, parameters, dynamics))
 {
   const Specimen<dim>& tested = set_up.dynamics.specimen();
-  record.kind = test.kind;
+  record.kind = test.protocol.kind;
   record.confining_pressure = test.confining_pressure;
+  record.intermediate_stress = set_up.loading.intermediate_stress;
   record.seed = tested.seed;
-  record.has_servo = bool(set_up.protocol.servo_stress);
-  record.strain_rate = std::abs(set_up.protocol.strain_rate);
+  record.has_servo = bool(set_up.loading.servo_stress);
+  record.strain_rate = std::abs(set_up.loading.strain_rate);
   record.size = in_space<dim>(tested.size);
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
@@ -97,11 +90,11 @@ bool LabTest<dim>::advance()
 {
   const auto clock = std::chrono::steady_clock::now();
   auto& dynamics = set_up.dynamics;
-  const auto& protocol = set_up.protocol;
+  const auto& loading = set_up.loading;
   if (!seated)
     {
-      if (protocol.seat)
-        protocol.seat(dynamics);
+      if (loading.seat)
+        loading.seat(dynamics);
       gauge_positions = dynamics.specimen().grains.position;
       start_gauge();
       time_at_start = dynamics.time();
@@ -110,16 +103,16 @@ bool LabTest<dim>::advance()
       take_snapshot();
     }
 
-  const double next_strain = double(record.curve.size()) * protocol.sampling_strain;
+  const double next_strain = double(record.curve.size()) * loading.sampling_strain;
   const double time_of_last_row = dynamics.time();
   double lateral_stress_over_time = 0.0;
   for (double strain = 0.0; std::abs(strain) < next_strain;)
     {
-      if (protocol.drive)
-        protocol.drive(dynamics);
+      if (loading.drive)
+        loading.drive(dynamics);
       const auto breaks = dynamics.step();
       lateral_stress_over_time += dynamics.time_step() * lateral_stress();
-      strain = protocol.strain_rate * (dynamics.time() - time_at_start);
+      strain = loading.strain_rate * (dynamics.time() - time_at_start);
       for (const auto& event : breaks)
         {
           record.cracks.push_back(crack(dynamics, event, strain));
@@ -140,7 +133,7 @@ bool LabTest<dim>::advance()
 template <int dim>
 double LabTest<dim>::lateral_stress() const
 {
-  return record.has_servo ? set_up.protocol.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
+  return record.has_servo ? set_up.loading.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
 }
 
 template <int dim>
@@ -152,8 +145,8 @@ CurveSample LabTest<dim>::sample() const
   CurveSample row;
   row.step = dynamics.n_steps();
   row.time = dynamics.time() - time_at_start;
-  row.axial_strain = set_up.protocol.strain_rate * row.time;
-  const EndStress stress = set_up.protocol.end_stress(dynamics);
+  row.axial_strain = set_up.loading.strain_rate * row.time;
+  const EndStress stress = set_up.loading.end_stress(dynamics);
   row.axial_stress = 0.5 * (stress.lower + stress.upper);
   row.end_stress_difference = stress.upper - stress.lower;
   row.lateral_stress = lateral_stress();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/parameters.h"
 #include "dem/lab/stop_rule.h"
 #include "dem/lab/strain_gauge.h"
@@ -8,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace feldspar
@@ -19,12 +21,13 @@ struct EndStress
   double upper;
 };
 
-/// What tells one laboratory test from another once its walls or grips stand; it keeps no state of its own.
+/// How a specimen is loaded and measured once its walls or grips stand; keeps no state of its own.
 template <int dim>
-struct Protocol
+struct Loading
 {
   double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
   double sampling_strain = 0.0;              ///< between two rows of the curve
+  std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
   std::function<void(Dynamics<dim>&)> seat;  ///< brings the specimen to where the strain is zero; may be empty
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
   std::function<EndStress(const Dynamics<dim>&)> end_stress;
@@ -36,35 +39,22 @@ template <int dim>
 struct SetUpTest
 {
   Dynamics<dim> dynamics;
-  Protocol<dim> protocol;
+  Loading<dim> loading;
 };
 
-/// Two platens, each at half the strain rate times the height; no side walls. docs/theory.md §4.1.
-template <int dim>
-SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                           const DynamicsParameters& dynamics);
-
-/// Two rigid grips, each at half the strain rate times the free length between them. docs/theory.md §4.2.
-template <int dim>
-SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                     const DynamicsParameters& dynamics);
-
-/// Side walls that hold the pressure, platens as in uniaxial compression. docs/theory.md §4.3.
-template <int dim>
-SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, double confining_pressure,
-                                           const TestParameters& wanted, const DynamicsParameters& dynamics);
-
-/// A disc cut out of the specimen, pressed together by pads of its own grains. docs/theory.md §4.4.
-template <int dim>
-SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                const DynamicsParameters& dynamics);
+/// A protocol under the pressure that it takes [Pa]; compression positive, 0 where it takes none.
+struct LaboratoryCase
+{
+  const LaboratoryProtocol& protocol;
+  double confining_pressure = 0.0;
+};
 
 /// A laboratory test that can be left and taken up again: run row by row of its curve.
 template <int dim>
 class LabTest
 {
 public:
-  LabTest(const TestCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+  LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the stop rule has

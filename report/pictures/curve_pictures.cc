@@ -83,8 +83,6 @@ private:
 
 using Quantity = std::function<double(const CurveSample&)>;
 
-double axial_stress(const CurveSample& row) { return row.axial_stress; }
-
 /// Mean strain at the peak: beyond it the gauge measures broken pieces.
 double strain_at_peak(const TestGroup& group)
 {
@@ -101,7 +99,7 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
                       const std::string& line, const std::string& label)
 {
   const auto& group = of.group;
-  const double sign = laboratory_sign(group.kind);
+  const double sign = group.kind.sign;
   const std::string series_colour = colour(*of.series, of.n);
   if (group.tests.size() > 1)
     for (const auto* test : group.tests)
@@ -111,13 +109,14 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
         std::string rows;
         for (std::size_t k = 0; k < curve.size() && sign * curve[k].axial_strain <= end; k += stride)
           fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", sign * strain(curve[k]) / milli,
-                         sign * curve[k].axial_stress / mega);
+                         group.kind.stress(curve[k]) / mega);
         if (!rows.empty())
           plot.add(1, fmt::format("{} using 1:2 with lines lw 0.5 lc rgb '{}' notitle", plot.add_data(rows),
                                   "#90" + series_colour.substr(1)));
       }
 
-  const Band stress = band(group, axial_stress, true);
+  const Band stress = band(
+    group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
   const Band strains = band(group, strain, true);
   std::string rows;
   std::string there;
@@ -150,8 +149,8 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
         same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->label + ", " : std::string();
       add_stress_curve(
         plot, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, "", beginning + "axial");
-      if (of.group.kind == TestKind::brazilian)
-        continue; // its strains are not uniform
+      if (!of.group.kind.has_uniform_stress)
+        continue; // nor uniform strains
       const double peak = strain_at_peak(of.group);
       const double end = peak > 0.0 ? peak : 1.0;
       add_stress_curve(
@@ -163,7 +162,8 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
     }
   if (plot.empty())
     return std::nullopt;
-  const bool pulls = same.front().group.kind == TestKind::direct_tension;
+  const TestKind& kind = same.front().group.kind;
+  const bool pulls = kind.sign > 0.0;
   return Picture{
     .name = name + "_stress",
     .caption =
@@ -174,7 +174,7 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
     .height = height,
     .script =
       plot.script(frame(pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive",
-                        pulls ? "axial stress [MPa], tension positive" : "axial stress [MPa], compression positive") +
+                        fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")) +
                   "set xzeroaxis; set yzeroaxis lw 0.8 lc rgb '#b0b0b0'\nset yrange [0:*]\nset key maxcols 3\n")};
 }
 
@@ -271,14 +271,14 @@ std::optional<Picture> crack_rate_picture(const SameTests& same, const std::stri
   for (const auto& of : same)
     for (const auto* test : of.group.tests)
       if (!test->record.curve.empty())
-        end = std::max(end, laboratory_sign(of.group.kind) * test->record.curve.back().axial_strain);
+        end = std::max(end, of.group.kind.sign * test->record.curve.back().axial_strain);
   Plot plot;
   const bool one = std::count_if(same.begin(), same.end(), [](const auto& of) { return of.counts_cracks(); }) == 1;
   for (const auto& of : same)
     {
       if (!of.counts_cracks() || !(end > 0.0))
         continue;
-      const double sign = laboratory_sign(of.group.kind);
+      const double sign = of.group.kind.sign;
       const double bin = end / n_bins;
       std::array<double, n_bins> hits{};
       std::array<double, n_bins> energy{};
@@ -338,16 +338,14 @@ std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
   for (std::size_t n = 0; n < all.size(); ++n)
     for (const auto& group : groups_of(all[n]))
       {
-        auto found = std::find_if(programme.begin(), programme.end(), [&](const auto& entry) {
-          return entry.first.kind == group.kind && entry.first.confining_pressure == group.confining_pressure;
-        });
+        auto found = std::find_if(programme.begin(), programme.end(),
+                                  [&](const auto& entry) { return same_conditions(entry.first, group); });
         if (found == programme.end())
           found = programme.insert(programme.end(), {group, {}});
         found->second.push_back({&all[n], n, group});
       }
-  std::stable_sort(programme.begin(), programme.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.kind, a.first.confining_pressure) < std::pair(b.first.kind, b.first.confining_pressure);
-  });
+  std::stable_sort(programme.begin(), programme.end(),
+                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   for (const auto& [group, same] : programme)
     every.push_back(group);
   const auto on_page = shown(every);

@@ -33,10 +33,18 @@ std::vector<StrengthPoint> strength_points(const Series& series)
     if (const auto strength = statistics(values(group, &TestResults::peak_stress)))
       {
         const double deviation = strength->standard_deviation.value_or(0.0);
-        if (group.kind == TestKind::direct_tension || group.kind == TestKind::brazilian)
-          points.push_back({-strength->mean, 0.0, deviation, true});
-        else
-          points.push_back({group.confining_pressure, strength->mean, deviation, false});
+        switch (group.envelope_role())
+          {
+          case EnvelopeRole::tension:
+          case EnvelopeRole::indirect_tension:
+            points.push_back({-strength->mean, 0.0, deviation, true});
+            break;
+          case EnvelopeRole::compression:
+            points.push_back({group.confining_pressure, strength->mean, deviation, false});
+            break;
+          case EnvelopeRole::none:
+            break;
+          }
       }
   return points;
 }
@@ -331,7 +339,7 @@ std::vector<Picture> shear_share_picture(const std::vector<Series>& all)
     {
       std::string rows;
       for (const auto& group : groups_of(all[n]))
-        if (group.kind == TestKind::uniaxial_compression || group.kind == TestKind::triaxial_compression)
+        if (group.envelope_role() == EnvelopeRole::compression)
           if (const auto share = statistics(values(group, &TestResults::shear_share_at_peak)))
             fmt::format_to(std::back_inserter(rows), "{} {} {}\n", group.confining_pressure / mega,
                            share->mean / percent, share->standard_deviation.value_or(0.0) / percent);

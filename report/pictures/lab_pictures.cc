@@ -18,10 +18,7 @@ namespace
 {
 using namespace plot;
 
-std::string title_of(const FinishedTest& test)
-{
-  return TestGroup{test.record.kind, test.record.confining_pressure, {}}.title();
-}
+std::string title_of(const FinishedTest& test) { return group_of(test.record).title(); }
 
 /// A name for the data of a test that gnuplot accepts.
 std::string block(const char* what, const FinishedTest& test)
@@ -38,11 +35,11 @@ std::string block(const char* what, const FinishedTest& test)
 
 std::string curve_data(const FinishedTest& test)
 {
-  const double sign = laboratory_sign(test.record.kind);
+  const double sign = test.record.kind.sign;
   std::string text = fmt::format("{} << EOD\n", block("curve", test));
   for (const auto& row : test.record.curve)
     fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", sign * row.axial_strain * 100.0,
-                   sign * row.axial_stress / mega, row.n_tension_cracks, row.n_shear_cracks);
+                   test.record.kind.stress(row) / mega, row.n_tension_cracks, row.n_shear_cracks);
   return text + "EOD\n";
 }
 
@@ -81,14 +78,15 @@ std::string curve_plot(const FinishedTest& test)
   std::string text = fmt::format("set title {} noenhanced\n"
                                  "set size noratio\n"
                                  "set xlabel 'axial strain [%]'\n"
-                                 "set ylabel 'axial stress [MPa]'\n"
+                                 "set ylabel '{} [MPa]'\n"
                                  "set y2label 'broken segments'\n"
                                  "set xtics autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
                                  "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
                                  "set border 11; set lmargin 10; set rmargin 10\n"
                                  "set bmargin 6\n"
                                  "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
-                                 gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)));
+                                 gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)),
+                                 test.record.kind.channel.name);
   const std::string data = block("curve", test);
   text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
                       "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",

@@ -1,25 +1,55 @@
 #include "report/sections/comparison.h"
 
+#include "results/test_groups.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace feldspar
 {
 namespace
 {
-/// One value a seed, from the figure of one kind of test.
-std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, const TestKind kind,
+bool gives_tensile_strength(const TestRecord& record) { return record.envelope_role() == EnvelopeRole::tension; }
+
+bool is_uniaxial_compression(const TestRecord& record)
+{
+  return record.envelope_role() == EnvelopeRole::compression && !record.kind.takes_confining_pressure;
+}
+
+/// One value a seed, from a figure of the tests that `is_wanted` picks.
+std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, bool (&is_wanted)(const TestRecord&),
                                         Figure TestResults::*figure)
 {
   std::map<std::uint64_t, double> values;
   for (const auto& test : tests)
-    if (test.record.kind == kind && (test.results.*figure).value)
+    if (is_wanted(test.record) && (test.results.*figure).value)
       values[test.record.seed] = *(test.results.*figure).value;
   return values;
+}
+
+std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
+
+std::string strength_row(const TestGroup& group)
+{
+  std::string text(group.kind.strength);
+  if (group.kind.takes_confining_pressure)
+    text += fmt::format(" at {} MPa confinement", megapascals(group.confining_pressure));
+  if (group.intermediate_stress)
+    text += fmt::format(", {} MPa intermediate stress", megapascals(*group.intermediate_stress));
+  return text;
+}
+
+/// The name of the strength in a reference file. A point of compression is one however it was measured.
+std::string strength_key(const TestGroup& group)
+{
+  if (group.envelope_role() == EnvelopeRole::compression)
+    return fmt::format("strength_at_{}_MPa", megapascals(group.confining_pressure));
+  return fmt::format("{}_strength_MPa", group.name());
 }
 } // namespace
 
@@ -47,8 +77,8 @@ std::optional<bool> ComparisonRow::surely_in_range() const
 
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
 {
-  constexpr auto pulled = TestKind::direct_tension;
-  constexpr auto crushed = TestKind::uniaxial_compression;
+  const auto& pulled = gives_tensile_strength;
+  const auto& crushed = is_uniaxial_compression;
   std::vector<ComparisonRow> rows;
   const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
                        const std::map<std::uint64_t, double>& values, const std::string& key,
@@ -91,18 +121,24 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
       by_seed(tests, crushed, &TestResults::crack_initiation_stress_lateral), "crack_initiation_stress_lateral_MPa");
   add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
       "crack_damage_stress_MPa");
-  std::map<double, std::map<std::uint64_t, double>> confined;
+
+  // Then the strengths by the other tests, each under each of its pressures.
+  std::vector<std::pair<TestGroup, std::map<std::uint64_t, double>>> others;
   for (const auto& test : tests)
-    if (test.record.kind == TestKind::triaxial_compression && test.results.peak_stress.value)
-      confined[std::round(test.record.confining_pressure)][test.record.seed] = *test.results.peak_stress.value;
-  for (const auto& [pressure, strengths] : confined)
-    {
-      const std::string megapascals = fmt::format("{:g}", pressure / 1e6);
-      add(fmt::format("strength at {} MPa confinement", megapascals), "MPa", 1, 1e6, strengths,
-          "strength_at_" + megapascals + "_MPa");
-    }
-  if (const auto disc = by_seed(tests, TestKind::brazilian, &TestResults::peak_stress); !disc.empty())
-    add("Brazilian tensile strength", "MPa", 2, 1e6, disc, "brazilian_strength_MPa");
+    if (!gives_tensile_strength(test.record) && !is_uniaxial_compression(test.record) && test.results.peak_stress.value)
+      {
+        TestGroup group = group_of(test.record);
+        group.confining_pressure = std::round(group.confining_pressure); // as references name it
+        auto found = std::find_if(others.begin(), others.end(),
+                                  [&](const auto& other) { return same_conditions(other.first, group); });
+        if (found == others.end())
+          found = others.insert(others.end(), {group, {}});
+        found->second[test.record.seed] = *test.results.peak_stress.value;
+      }
+  std::stable_sort(others.begin(), others.end(),
+                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  for (const auto& [group, strengths] : others)
+    add(strength_row(group), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
   return rows;
 }
 

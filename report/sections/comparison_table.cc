@@ -122,8 +122,9 @@ Table measured_table(const Findings& findings, const std::size_t n)
               {}};
   // The model was hardly pressed with just the pressure of the laboratory.
   const auto is_alike = [&](const TestGroup& group) {
-    return group.kind == curve.kind && std::abs(group.confining_pressure - curve.confining_pressure) <=
-                                         0.05 * std::max(group.confining_pressure, curve.confining_pressure);
+    return group.kind == curve.kind && group.intermediate_stress == curve.intermediate_stress &&
+           std::abs(group.confining_pressure - curve.confining_pressure) <=
+             0.05 * std::max(group.confining_pressure, curve.confining_pressure);
   };
   std::vector<TestGroup> beside;
   for (const auto& series : findings.all)

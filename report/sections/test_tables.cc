@@ -28,7 +28,7 @@ Table strength_table(const Findings& findings)
           return found ? mean_and_deviation(*found, unit, decimals) : none;
         };
         const auto strength = statistics(values(group, &TestResults::peak_stress));
-        const int decimals = group.kind == TestKind::direct_tension || group.kind == TestKind::brazilian ? 2 : 1;
+        const int decimals = group.kind.strength_decimals;
         table.rows.push_back({group.title(), series.label, fmt::format("{}", strength ? strength->n : 0),
                               over_seeds(&TestResults::peak_stress, mega, decimals),
                               strength ? interval(*strength, mega, decimals) : none,

@@ -10,17 +10,25 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
 {
   std::map<double, std::vector<double>> by_confinement;
   std::vector<double> direct;
-  std::vector<double> brazilian;
+  std::vector<double> indirect;
   for (const auto& test : tests)
     if (test.results.peak_stress.value && (!variant || test.variant == *variant))
       {
         const double strength = *test.results.peak_stress.value;
-        if (test.record.kind == TestKind::direct_tension)
-          direct.push_back(strength);
-        else if (test.record.kind == TestKind::brazilian)
-          brazilian.push_back(strength);
-        else
-          by_confinement[test.record.confining_pressure].push_back(strength);
+        switch (test.record.envelope_role())
+          {
+          case EnvelopeRole::tension:
+            direct.push_back(strength);
+            break;
+          case EnvelopeRole::indirect_tension:
+            indirect.push_back(strength);
+            break;
+          case EnvelopeRole::compression:
+            by_confinement[test.record.confining_pressure].push_back(strength);
+            break;
+          case EnvelopeRole::none:
+            break;
+          }
       }
 
   StrengthData data;
@@ -28,7 +36,7 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
     data.points.push_back({sigma_3, statistics(strengths)->mean});
   if (by_confinement.contains(0.0))
     data.uniaxial_compressive_strength = statistics(by_confinement[0.0])->mean;
-  if (const auto mean = statistics(direct.empty() ? brazilian : direct))
+  if (const auto mean = statistics(direct.empty() ? indirect : direct))
     data.tensile_strength = mean->mean;
   return data;
 }

@@ -9,8 +9,9 @@
 
 namespace feldspar
 {
-/// The strengths of a programme as envelopes are fitted to them: means over the seeds of its uniaxial and triaxial
-/// tests, and of direct tension (of Brazilian tests where there is none). `variant`: of its tests alone.
+/// The strengths of a programme as envelopes are fitted to them: means over the seeds of the tests that are points of
+/// compression, and of those of tension (of indirect tension where there are none). Other tests are left out.
+/// `variant`: of its tests alone.
 StrengthData strength_data(const std::vector<FinishedTest>& tests,
                            const std::optional<std::string>& variant = std::nullopt);
 } // namespace feldspar

@@ -258,17 +258,17 @@ void write_curve(const FinishedTest& test, const std::filesystem::path& file)
   std::string text;
   append_names(text, curve_columns());
   for (const auto& row : test.record.curve)
-    append_row(text, curve_columns(), row, laboratory_sign(test.record.kind));
+    append_row(text, curve_columns(), row, test.record.kind.sign);
   write_whole_file(file, text);
 }
 
-std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind kind)
+std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind)
 {
   TableReader table(file);
   const auto places = places_of(table, curve_columns());
   std::vector<CurveSample> curve;
   while (table.next())
-    curve.push_back(row_of(table, curve_columns(), places, laboratory_sign(kind)));
+    curve.push_back(row_of(table, curve_columns(), places, kind.sign));
   return curve;
 }
 
@@ -280,7 +280,7 @@ void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem:
     for (const auto& crack : test.record.cracks)
       {
         fmt::format_to(std::back_inserter(text), "{},{},", test.name, kind_name(crack.kind));
-        append_row(text, crack_columns(), crack, laboratory_sign(test.record.kind));
+        append_row(text, crack_columns(), crack, test.record.kind.sign);
       }
   write_whole_file(file, text);
 }
@@ -298,7 +298,7 @@ void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& t
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
         TestRecord& record = found->second->record;
-        Crack crack = row_of(table, crack_columns(), places, laboratory_sign(record.kind));
+        Crack crack = row_of(table, crack_columns(), places, record.kind.sign);
         crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
         record.cracks.push_back(crack);
       }

@@ -91,7 +91,7 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
   const std::size_t n_grains = record.grains_at_end.size();
   const std::size_t n_cracks = record.cracks.size();
   const std::string file = test.name + ".h5";
-  const double sign = laboratory_sign(record.kind);
+  const double sign = record.kind.sign;
 
   write_hdf5(folder / file, [&](Hdf5Writer& root) {
     std::vector<double> radius;

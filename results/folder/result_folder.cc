@@ -23,13 +23,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_characters_of_name = 100; ///< of a test; pictures add to it
 
-std::optional<TestKind> kind_named(const std::string_view wanted)
+std::optional<TestKind> kind_named(const std::string_view wanted, const std::vector<TestKind>& known)
 {
-  for (const TestKind kind :
-       {TestKind::direct_tension, TestKind::uniaxial_compression, TestKind::triaxial_compression, TestKind::brazilian})
-    if (name(kind) == wanted)
-      return kind;
-  return std::nullopt;
+  const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind& one) { return one.name == wanted; });
+  return kind == known.end() ? std::nullopt : std::optional(*kind);
 }
 
 Json read_summary(const std::filesystem::path& folder)
@@ -46,7 +43,7 @@ Json read_summary(const std::filesystem::path& folder)
   return json;
 }
 
-FinishedTest test_of(const Json& json, const TestKind kind)
+FinishedTest test_of(const Json& json, const TestKind& kind)
 {
   FinishedTest test;
   test.record.kind = kind;
@@ -64,6 +61,8 @@ FinishedTest test_of(const Json& json, const TestKind kind)
     for (std::size_t c = 0; c < std::min<std::size_t>(size->size(), 3); ++c)
       if ((*size)[c].is_number())
         test.record.size[c] = (*size)[c].get<double>();
+  if (const auto stress = json.find("intermediate_stress_Pa"); stress != json.end() && stress->is_number())
+    test.record.intermediate_stress = stress->get<double>();
   for (const auto& entry : result_table())
     {
       const std::string key(entry.name);
@@ -158,7 +157,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
   write_summary(made_by, tests, envelopes, folder / result_file::summary);
 }
 
-std::vector<Series> read_result_folder(const std::filesystem::path& folder)
+std::vector<Series> read_result_folder(const std::filesystem::path& folder, const std::vector<TestKind>& kinds)
 {
   const Json json = read_summary(folder);
   std::vector<std::string> problems;
@@ -173,7 +172,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder)
   const std::string summary = printable((folder / result_file::summary).string());
   for (const auto& entry : json["tests"])
     {
-      const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind")) : std::nullopt;
+      const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind"), kinds) : std::nullopt;
       const std::string name = entry.is_object() ? text_of(entry, "name") : "";
       if (!kind)
         problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out", summary));

@@ -30,7 +30,8 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
                          const RunEnvelopes& envelopes, const std::filesystem::path& folder);
 
 /// Reads it back: one series, or one for each variant. A table that is missing or cannot be read leaves its place empty
-/// and becomes a problem of the series, as does a summary of another layout, as far as it can be read. Throws InputError
-/// where there is no summary.json at all or where nothing in it is a test.
-std::vector<Series> read_result_folder(const std::filesystem::path& folder);
+/// and becomes a problem of the series, as does a summary of another layout, as far as it can be read, and a test of
+/// another kind than the given ones. Throws InputError where there is no summary.json at all or where nothing in it is
+/// a test.
+std::vector<Series> read_result_folder(const std::filesystem::path& folder, const std::vector<TestKind>& kinds);
 } // namespace feldspar

@@ -39,11 +39,13 @@ void write_figure(Json& json, const std::string& key, const Figure& figure)
 Json describe(const FinishedTest& test)
 {
   Json json;
-  json["kind"] = name(test.record.kind);
+  json["kind"] = test.record.kind.name;
   json["name"] = test.name;
   json["group"] = test.group;
   json["body"] = name(test.record.body);
   json["seed"] = test.record.seed;
+  if (test.record.intermediate_stress)
+    json["intermediate_stress_Pa"] = number(*test.record.intermediate_stress);
   if (!test.variant.empty())
     json["variant"] = test.variant;
   json["interrupted"] = test.record.interrupted;

@@ -1,5 +1,6 @@
 // The files for ParaView, opened by the XDMF library.
 
+#include "dem/lab/protocols/protocols.h"
 #include "results/folder/result_folder.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
@@ -108,8 +109,7 @@ void expect_cracks(const std::vector<Points>& series, const TestRecord& record)
     {
       EXPECT_EQ(at_time.names(), (std::set<std::string>{"is shear", "normal", "released energy", "size", "step"}));
       const auto row = std::find_if(record.curve.begin(), record.curve.end(), [&](const CurveSample& sample) {
-        return std::abs(100.0 * laboratory_sign(record.kind) * sample.axial_strain - at_time.time) <
-               1e-12 * at_time.time;
+        return std::abs(100.0 * record.kind.sign * sample.axial_strain - at_time.time) < 1e-12 * at_time.time;
       });
       ASSERT_NE(row, record.curve.end()) << at_time.time;
       const auto n = std::size_t(std::count_if(record.cracks.begin(), record.cracks.end(),
@@ -137,7 +137,7 @@ void expect_fields(const TemporaryFolder& folder, const bool ends_at_the_last_ro
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const fs::path out = folder.path() / "out";
-  const auto series = read_result_folder(out);
+  const auto series = read_result_folder(out, test_kinds());
   ASSERT_FALSE(series.front().tests.empty());
   for (const auto& test : series.front().tests)
     {

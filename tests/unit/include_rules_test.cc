@@ -48,7 +48,7 @@ const std::vector<Room> rooms = {
   {"coupling/sample",
    {"base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh", "fem/materials", "fem/solid",
     "coupling/rve"},
-   {"dem/lab/parameters.h", "dem/lab/stop_rule.h"}},
+   {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stop_rule.h"}},
   {"report/pictures", {"base", "results", "results/fits", "results/folder"}},
   {"report/page", {"base", "results", "results/folder", "report/pictures"}},
   {"report/sections", {"base", "results", "results/fits", "results/folder", "report/pictures", "report/page"}},

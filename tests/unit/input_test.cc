@@ -3,6 +3,7 @@
 #include "app/input/input_structure.h"
 #include "app/input/parameter_table.h"
 #include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -234,7 +235,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.dynamics.damping, 0.0);
   EXPECT_EQ(input.dynamics.time_step_safety, 0.5);
 
-  EXPECT_EQ(input.test_list, std::vector{TestKind::uniaxial_compression});
+  EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
   EXPECT_EQ(input.tests.compression_strain_rate, 0.5);
   EXPECT_EQ(input.tests.tension_strain_rate, 0.082);
   EXPECT_EQ(input.tests.compression_sampling_strain, 2e-5);

@@ -1,4 +1,5 @@
 #include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
 #include "results/evaluation.h"
 #include "tests/unit/small_specimen.h"
 
@@ -17,7 +18,7 @@ namespace
 TestRecord known_compression()
 {
   TestRecord record;
-  record.kind = TestKind::uniaxial_compression;
+  record.kind = uniaxial_compression.kind;
   record.size = {0.05, 0.1, 0.0};
   record.bulk_density = 2700.0;
   const double strain_at_50 = 50e6 / 70e9;
@@ -71,7 +72,7 @@ TEST(LabResults, AreThoseOfAKnownCurve)
 TestRecord kinked_compression()
 {
   TestRecord record;
-  record.kind = TestKind::uniaxial_compression;
+  record.kind = uniaxial_compression.kind;
   const auto add = [&](const double strain, const double expansion, const double stress) {
     CurveSample row;
     row.axial_strain = row.gauge_axial_strain = -strain;
@@ -114,7 +115,7 @@ TEST(LabResults, SayWhenLateralStrainTellsNoCrackInitiation)
   for (auto& row : record.curve) // grows ever more slowly against the stress: never behind a straight line
     row.gauge_lateral_strain = std::sqrt(row.gauge_lateral_strain);
   EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("never lags behind"), std::string::npos);
-  record.kind = TestKind::direct_tension;
+  record.kind = direct_tension.kind;
   for (auto& row : record.curve)
     row.axial_stress *= -1.0;
   EXPECT_NE(evaluate(record).crack_initiation_stress_lateral.reason.find("compression only"), std::string::npos);
@@ -151,7 +152,7 @@ TEST(Energies, OfALaboratoryTestBalanceAndADoubledTermShows)
 {
   TestParameters wanted;
   wanted.stop_stress_over_peak = 0.8; // past the peak, where everything is at work
-  LabTest<2> test({TestKind::uniaxial_compression}, small_specimen(), wanted, {});
+  LabTest<2> test({uniaxial_compression}, small_specimen(), wanted, {});
   while (test.advance())
     ;
   const Energies energies = test.last_row().energies;
@@ -176,8 +177,8 @@ TEST(Energies, KineticEnergyIsThatOfTheMotionAndTheSteadyStartIsCounted)
     set_off += 0.5 * grains.mass[i] * std::pow(grains.position[1][i] - 0.5 * specimen.size[1], 2);
   TestParameters wanted; // 1/s
   wanted.stop_strain = 3e-4;
-  LabTest<2> uniaxial({TestKind::uniaxial_compression}, specimen, wanted, {});
-  LabTest<2> triaxial({TestKind::triaxial_compression, 10e6}, specimen, wanted, {});
+  LabTest<2> uniaxial({uniaxial_compression}, specimen, wanted, {});
+  LabTest<2> triaxial({triaxial_compression, 10e6}, specimen, wanted, {});
   for (LabTest<2>* test : {&uniaxial, &triaxial})
     {
       while (test->advance())
@@ -202,7 +203,7 @@ TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
     TestParameters wanted;
     wanted.compression_sampling_strain = sampling_strain;
     wanted.stop_strain = 4e-4;
-    LabTest<2> test({TestKind::triaxial_compression, 10e6}, specimen, wanted, {});
+    LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
     while (test.advance())
       ;
     return test.finish(false).curve;
@@ -231,9 +232,9 @@ TEST(Seating, TakesTheTransitsAskedForAndWastesLessTheLongerItTakes)
     {
       TestParameters wanted;
       wanted.seating_transits = n_transits;
-      const auto seated = set_up_triaxial_compression(specimen, 30e6, wanted, {});
+      const auto seated = triaxial_compression.set_up_2d(specimen, 30e6, wanted, {});
       auto dynamics = seated.dynamics;
-      seated.protocol.seat(dynamics);
+      seated.loading.seat(dynamics);
       EXPECT_GE(dynamics.time(), 1.5 * n_transits * transit);
       // Raised too fast, the pressure takes longer to come to rest.
       EXPECT_LT(dynamics.time(), (n_transits < 10.0 ? 4.0 : 1.51) * n_transits * transit);
@@ -248,7 +249,7 @@ TEST(StopRules, AreKept)
 {
   const auto specimen = small_specimen();
   const auto run = [&](const TestParameters& wanted) {
-    LabTest<2> test({TestKind::direct_tension}, specimen, wanted, {});
+    LabTest<2> test({direct_tension}, specimen, wanted, {});
     while (test.advance())
       ;
     return test.last_row();

@@ -1,6 +1,7 @@
 // What the report says and reads: compression positive where the laboratory has it so.
 
 #include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
 #include "report/page/table.h"
 #include "report/sections/comparison.h"
 #include "report/sections/trust.h"
@@ -46,7 +47,7 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
   test.group = "uniaxial_compression";
   test.name = fmt::format("uniaxial_compression_seed_{}", seed);
   TestRecord& record = test.record;
-  record.kind = TestKind::uniaxial_compression;
+  record.kind = uniaxial_compression.kind;
   record.seed = seed;
   record.size = {0.05, 0.1, 0.0};
   record.bulk_density = 2700.0;
@@ -101,13 +102,13 @@ TEST(ResultFolder, IsReadBackAsItWasWritten)
   failed.group = "direct_tension";
   failed.name = "direct_tension_seed_3";
   failed.record.seed = 3;
-  failed.record.kind = TestKind::direct_tension;
+  failed.record.kind = direct_tension.kind;
   failed.record.failure = "the grips slipped";
   failed.results = evaluate(failed.record);
   const std::vector<FinishedTest> written{compression(3), compression(4, 1.1), failed};
   const Provenance made_by{"0.1", "abc", "rock.prm", {{"Seeds", "Seeds", "3, 4"}}, "a processor", 2};
   write_result_folder(made_by, written, fit_each_rock(written), folder.path());
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].label, folder.path().filename().string());
   EXPECT_TRUE(all[0].problems.empty()) << all[0].problems.front();
@@ -149,7 +150,7 @@ TEST(ResultFolder, OfVariantsIsASeriesForEach)
   fast.name += "_variant_2";
   fast.variant = "Tests/Compression strain rate = 1 1/s";
   write_result_folder({}, {slow, fast}, {}, folder.path());
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].label, slow.variant);
   EXPECT_EQ(all[1].tests.at(0).name, fast.name);
@@ -161,7 +162,7 @@ TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
   folder.write("summary.json", R"({"schema_version": 0, "tests": [
     {"kind": "uniaxial_compression", "name": "uniaxial_compression_seed_1", "seed": 1, "peak_stress_Pa": 150e6},
     {"kind": "shaken", "name": "shaken_seed_1"}, 7]})");
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].tests.size(), 1u);
   EXPECT_EQ(*all[0].tests[0].results.peak_stress.value, 150e6);
@@ -181,7 +182,7 @@ TEST(ResultFolder, ThatIsNoneIsRefused)
   const auto refused = [&](const std::string& words) {
     try
       {
-        read_result_folder(folder.path());
+        read_result_folder(folder.path(), test_kinds());
         ADD_FAILURE() << words;
       }
     catch (const InputError& error)
@@ -208,7 +209,7 @@ TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
   folder.write("curves/uniaxial_compression_seed_3.csv", "step,time_s\n1,2\n");
   folder.write("curves/uniaxial_compression_seed_4.csv",
                content(folder.path() / "curves/uniaxial_compression_seed_4.csv") + "1,2,3\n");
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all[0].problems.size(), 2u);
   EXPECT_NE(all[0].problems[0].find("uniaxial_compression_seed_3.csv:1: there is no column axial_strain"),
             std::string::npos)
@@ -231,7 +232,7 @@ TEST(ResultFolder, KnowsTestsOnFiniteElementsAndWhatTheyCannotHave)
   write_result_folder({}, {test}, {}, folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "grains"));
 
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].kind, SeriesKind::finite_elements);
   EXPECT_TRUE(all[0].problems.empty()); // that there are no grains is none
@@ -372,7 +373,7 @@ TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
       summary.insert(summary.find("\n  ],"), "," + one);
     }
   folder.write("summary.json", summary);
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   EXPECT_EQ(all.at(0).tests.size(), 1u);
   ASSERT_EQ(all[0].problems.size(), 5u);
   EXPECT_NE(all[0].problems[1].find("a test was left out for its name, \"a\\nsystem \"touch marker\"\""),
@@ -410,7 +411,7 @@ TEST(ResultFolder, WritesWhatIsNotUtf8AsItIsShown)
   test.record.failure = "gr\xfcn.txt: no such file";
   write_result_folder({"0.1", "abc", "gr\xfcn.prm", {{"Report", "Reference file", "\xff.json"}}, "", 1}, {test}, {},
                       folder.path());
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   EXPECT_EQ(all.at(0).made_by.input_file, "gr\\xfcn.prm");
   EXPECT_EQ(all[0].made_by.input.at(0).value, "\\xff.json");
 }

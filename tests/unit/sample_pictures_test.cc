@@ -2,6 +2,7 @@
 
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
 #include "report/pictures/volume_pictures.h"
 #include "results/folder/result_folder.h"
 #include "tests/temporary_folder.h"
@@ -56,7 +57,7 @@ FinishedTest test_with(const SampleFields& fields)
 {
   FinishedTest test;
   test.name = "direct_tension_seed_1";
-  test.record.kind = TestKind::direct_tension;
+  test.record.kind = direct_tension.kind;
   test.record.body = TestBody::finite_elements;
   test.record.seed = 1;
   test.record.curve.resize(31);
@@ -300,7 +301,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   test.record.curve.clear();
   test.volumes = {volume()};
   write_result_folder({}, {test}, {}, folder.path());
-  const auto all = read_result_folder(folder.path());
+  const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.at(0).tests.at(0).volumes.size(), 1u);
   const PointVolume& read = all[0].tests[0].volumes[0];
   const PointVolume& was = test.volumes[0];
@@ -316,7 +317,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   EXPECT_EQ(read.cracks[0].centroid, was.cracks[0].centroid);
   // A folder that lost them says so, and the test is there without them.
   std::filesystem::remove(folder.path() / "points/direct_tension_seed_1_cell_3_point_1_grains.csv");
-  const auto without = read_result_folder(folder.path());
+  const auto without = read_result_folder(folder.path(), test_kinds());
   EXPECT_TRUE(without.at(0).tests.at(0).volumes.empty());
   const auto& problems = without[0].problems;
   EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {

@@ -2,6 +2,7 @@
 
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/membrane.h"
+#include "dem/lab/protocols/protocols.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
@@ -70,9 +71,9 @@ TestRecord run(LabTest<3>& test)
 TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 {
   const auto specimen = small_cylinder();
-  LabTest<3> tension({TestKind::direct_tension}, specimen, quick(), {});
+  LabTest<3> tension({direct_tension}, specimen, quick(), {});
   const auto pulled = evaluate(run(tension));
-  LabTest<3> compression({TestKind::uniaxial_compression}, specimen, quick(), {});
+  LabTest<3> compression({uniaxial_compression}, specimen, quick(), {});
   const auto record = run(compression);
   const auto crushed = evaluate(record);
   ASSERT_TRUE(pulled.peak_stress.value && crushed.peak_stress.value) << pulled.peak_stress.reason;
@@ -96,12 +97,12 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
 {
   const auto specimen = small_cylinder();
   TestParameters wanted = quick();
-  LabTest<3> uniaxial({TestKind::uniaxial_compression}, specimen, wanted, {});
+  LabTest<3> uniaxial({uniaxial_compression}, specimen, wanted, {});
   const double alone = *evaluate(run(uniaxial)).peak_stress.value;
   for (const auto boundary : {LateralBoundary::wall, LateralBoundary::membrane})
     {
       wanted.lateral_boundary = boundary;
-      LabTest<3> test({TestKind::triaxial_compression, 20e6}, specimen, wanted, {});
+      LabTest<3> test({triaxial_compression, 20e6}, specimen, wanted, {});
       const auto record = run(test);
       const auto results = evaluate(record);
       ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
@@ -121,8 +122,11 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   auto wanted = quick();
   wanted.intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
-  auto set_up = set_up_triaxial_compression<3>(small_cylinder(1, 1e3, "box"), 10e6, wanted, {});
-  set_up.protocol.seat(set_up.dynamics);
+  const auto box = small_cylinder(1, 1e3, "box");
+  auto set_up = triaxial_compression.set_up_3d(box, 10e6, wanted, {});
+  EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).intermediate_stress, 30e6);
+  EXPECT_FALSE(LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).intermediate_stress); // the same
+  set_up.loading.seat(set_up.dynamics);
   const Tensor<3> stress = set_up.dynamics.mean_stress();
   // Pressures on the walls are within 0.5 %; what the walls cut off the body is of the order of its overlaps.
   EXPECT_NEAR(stress(0, 0), -10e6, 0.03 * 30e6);
@@ -141,7 +145,7 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
   const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
-  LabTest<3> test({TestKind::brazilian}, specimen, quick(), {});
+  LabTest<3> test({brazilian}, specimen, quick(), {});
   const auto record = run(test);
   const auto results = evaluate(record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
@@ -159,7 +163,7 @@ TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
   TestParameters wanted = quick();
   wanted.lateral_boundary = LateralBoundary::membrane;
   const tests::TemporaryFolder folder;
-  const TestCase test_case{TestKind::triaxial_compression, 10e6};
+  const LaboratoryCase test_case{triaxial_compression, 10e6};
   LabTest<3> whole(test_case, specimen, wanted, {});
   for (int k = 0; k < 8; ++k)
     whole.advance();

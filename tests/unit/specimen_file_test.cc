@@ -1,5 +1,6 @@
 #include "base/input_error.h"
 #include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
 #include "tests/unit/small_specimen.h"
 
@@ -76,8 +77,8 @@ TEST_F(SpecimenFile, CheckpointsGoOnToTheSameBits)
     for (int n = 0; n < n_rows && test.advance(); ++n)
       ;
   };
-  for (const TestCase& wanted : {TestCase{TestKind::direct_tension}, TestCase{TestKind::uniaxial_compression},
-                                 TestCase{TestKind::triaxial_compression, 20e6}})
+  for (const LaboratoryCase& wanted : {LaboratoryCase{direct_tension}, LaboratoryCase{uniaxial_compression},
+                                       LaboratoryCase{triaxial_compression, 20e6}})
     {
       LabTest<2> whole(wanted, specimen, {}, {});
       run(whole, 60);

@@ -1,5 +1,6 @@
 #include "dem/genesis/genesis.h"
 #include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ struct Variant
   double platen_friction = 0.0;
 };
 
-TestRecord test(const TestCase& wanted_test, const std::uint64_t seed, const Variant& variant = {})
+TestRecord test(const LaboratoryCase& wanted_test, const std::uint64_t seed, const Variant& variant = {})
 {
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = variant.coordination_number;
@@ -46,7 +47,7 @@ class Beishan : public testing::TestWithParam<std::uint64_t>
 
 TEST_P(Beishan, InTension)
 {
-  const auto record = test({TestKind::direct_tension}, GetParam());
+  const auto record = test({direct_tension}, GetParam());
   const auto results = evaluate(record);
   EXPECT_GT(*results.peak_stress.value, 8e6); // the independent program
   EXPECT_LT(*results.peak_stress.value, 11e6);
@@ -83,7 +84,7 @@ TEST(BeishanInCompression, OverThreeSeeds)
   for (const std::uint64_t seed : {1, 2, 3})
     {
       SCOPED_TRACE(seed);
-      const auto results = evaluate(test({TestKind::uniaxial_compression}, seed));
+      const auto results = evaluate(test({uniaxial_compression}, seed));
       EXPECT_GT(*results.peak_stress.value, 125e6); // the independent program
       EXPECT_LT(*results.peak_stress.value, 185e6);
       EXPECT_GT(*results.poissons_ratio_initial.value, 0.07);
@@ -100,8 +101,8 @@ TEST(BeishanInCompression, OverThreeSeeds)
 
 TEST(BeishanTriaxial, ConfinementTurnsSplittingIntoShearAndSofteningIntoFlow)
 {
-  const auto low = evaluate(test({TestKind::triaxial_compression, 5e6}, 2));
-  const auto high = evaluate(test({TestKind::triaxial_compression, 60e6}, 2));
+  const auto low = evaluate(test({triaxial_compression, 5e6}, 2));
+  const auto high = evaluate(test({triaxial_compression, 60e6}, 2));
   // The independent program's means over seeds, 255 and 523 MPa; a single seed within 20 %, twice the seeds' scatter.
   EXPECT_NEAR(*low.peak_stress.value, 255e6, 0.2 * 255e6);
   EXPECT_NEAR(*high.peak_stress.value, 523e6, 0.2 * 523e6);
@@ -118,30 +119,29 @@ TEST(BeishanTriaxial, ConfinementTurnsSplittingIntoShearAndSofteningIntoFlow)
 TEST(BeishanVariant, RoughPlatensAreStronger)
 {
   // Friction hinders the ends from widening; the independent program: by some 40 %.
-  EXPECT_GT(peak(test({TestKind::uniaxial_compression}, 2, {.platen_friction = 0.5})),
-            1.1 * peak(test({TestKind::uniaxial_compression}, 2)));
+  EXPECT_GT(peak(test({uniaxial_compression}, 2, {.platen_friction = 0.5})),
+            1.1 * peak(test({uniaxial_compression}, 2)));
 }
 
 TEST(BeishanBrazilian, GivesAboutTheStrengthOfDirectTension)
 {
   // 2P/(πDt) assumes an elastic disc and line loads; discs of rock and of grains come within some tens of percent.
-  const double disc = peak(test({TestKind::brazilian}, 2));
-  const double direct = peak(test({TestKind::direct_tension}, 2));
+  const double disc = peak(test({brazilian}, 2));
+  const double direct = peak(test({direct_tension}, 2));
   EXPECT_NEAR(disc, direct, 0.3 * direct);
 }
 
 TEST(BeishanVariant, OneSegmentIsMoreThanTwiceAsStrongInCompression)
 {
   // A face of one segment breaks whole or not at all: what bends does not unzip.
-  EXPECT_GT(peak(test({TestKind::uniaxial_compression}, 1, {.n_segments = 1})),
-            2.0 * peak(test({TestKind::uniaxial_compression}, 1)));
+  EXPECT_GT(peak(test({uniaxial_compression}, 1, {.n_segments = 1})), 2.0 * peak(test({uniaxial_compression}, 1)));
 }
 
 TEST(BeishanVariant, ACoordinationNumberOf48AboutDoublesTheCompressiveStrength)
 {
   // The independent program: 161 MPa at 4.2, 350 MPa at 4.8.
-  const double ratio = peak(test({TestKind::uniaxial_compression}, 1, {.coordination_number = 4.8})) /
-                       peak(test({TestKind::uniaxial_compression}, 1));
+  const double ratio =
+    peak(test({uniaxial_compression}, 1, {.coordination_number = 4.8})) / peak(test({uniaxial_compression}, 1));
   EXPECT_GT(ratio, 1.7);
   EXPECT_LT(ratio, 2.7);
 }
@@ -153,8 +153,8 @@ TEST(BeishanVariant, TensionIsQuasiStatic)
   double slow = 0.0;
   for (const std::uint64_t seed : {1, 2, 3})
     {
-      usual += peak(test({TestKind::direct_tension}, seed)) / 3.0;
-      slow += peak(test({TestKind::direct_tension}, seed, {.rate_factor = 0.5})) / 3.0;
+      usual += peak(test({direct_tension}, seed)) / 3.0;
+      slow += peak(test({direct_tension}, seed, {.rate_factor = 0.5})) / 3.0;
     }
   EXPECT_NEAR(slow, usual, 0.03 * usual);
 }

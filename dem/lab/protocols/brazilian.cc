@@ -1,6 +1,7 @@
 #include "base/input_error.h"
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
 
@@ -94,11 +95,10 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, con
   disc.report.coordination_number = 2.0 * double(disc.joints.size()) / double(disc.grains.size());
   return disc;
 }
-} // namespace
 
 template <int dim>
-SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const Specimen<dim> lying = laid_down(specimen);
@@ -124,16 +124,26 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, const TestParamet
   const auto lower = test.dynamics.add_grip(std::move(lower_pad), upwards);
   const auto upper = test.dynamics.add_grip(std::move(upper_pad), -upwards);
 
-  test.protocol.strain_rate = -wanted.brazilian_strain_rate;
-  test.protocol.sampling_strain = wanted.brazilian_sampling_strain;
+  test.loading.strain_rate = -wanted.brazilian_strain_rate;
+  test.loading.sampling_strain = wanted.brazilian_sampling_strain;
   // σ_t = 2P/(πDt), the tension across the loaded diameter of an elastic disc.
   const double load_to_stress = 2.0 / (std::numbers::pi * diameter * length);
-  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{load_to_stress * state.grip_force(lower)[axis], -load_to_stress * state.grip_force(upper)[axis]};
   };
   return test;
 }
+} // namespace
 
-template SetUpTest<2> set_up_brazilian<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
-template SetUpTest<3> set_up_brazilian<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
+constinit const LaboratoryProtocol brazilian = complete({
+  .kind = {.name = "brazilian",
+           .title = "Brazilian test",
+           .strength = "Brazilian tensile strength",
+           .sign = -1.0,
+           .peak_rule = PeakRule::first_before_a_fall,
+           .envelope_role = EnvelopeRole::indirect_tension,
+           .strength_decimals = 2},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
 } // namespace feldspar

@@ -1,14 +1,17 @@
 #include "base/input_error.h"
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
 
 namespace feldspar
 {
+namespace
+{
 template <int dim>
-SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                     const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -32,15 +35,26 @@ SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, const TestPa
   const auto lower = test.dynamics.add_grip(std::move(lower_grains), -upwards);
   const auto upper = test.dynamics.add_grip(std::move(upper_grains), upwards);
 
-  test.protocol.strain_rate = wanted.tension_strain_rate;
-  test.protocol.sampling_strain = wanted.tension_sampling_strain;
+  test.loading.strain_rate = wanted.tension_strain_rate;
+  test.loading.sampling_strain = wanted.tension_sampling_strain;
   const double area = specimen.volume() / height;
-  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area};
   };
   return test;
 }
+} // namespace
 
-template SetUpTest<2> set_up_direct_tension<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
-template SetUpTest<3> set_up_direct_tension<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
+constinit const LaboratoryProtocol direct_tension = complete({
+  .kind = {.name = "direct_tension",
+           .title = "Direct tension",
+           .strength = "tensile strength",
+           .sign = 1.0,
+           .envelope_role = EnvelopeRole::tension,
+           .has_uniform_stress = true,
+           .runs_on_finite_elements = true,
+           .strength_decimals = 2},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
 } // namespace feldspar

@@ -2,6 +2,7 @@
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 namespace feldspar
 {
@@ -42,6 +44,7 @@ template <int dim>
 struct Surroundings
 {
   std::vector<Press<dim>> sides; ///< the first holds the confining pressure; none with a membrane
+  std::optional<double> intermediate_stress = std::nullopt; ///< where a side holds another [Pa]
   std::function<double(const Dynamics<dim>&)> end_area;
 };
 
@@ -87,9 +90,9 @@ Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const 
       const auto area = [=](State state) {
         return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
       };
-      const bool is_intermediate = axis == 1 && wanted.intermediate_stress;
-      around.sides.push_back(
-        {{pair.low, pair.high}, area, is_intermediate ? *wanted.intermediate_stress : confining_pressure});
+      if (axis == 1 && wanted.intermediate_stress && *wanted.intermediate_stress != confining_pressure)
+        around.intermediate_stress = wanted.intermediate_stress;
+      around.sides.push_back({{pair.low, pair.high}, area, around.intermediate_stress.value_or(confining_pressure)});
     }
   around.end_area = [=](State state) {
     return distance(state, pairs[0]) * (dim == 2 ? thickness : distance(state, pairs.back()));
@@ -112,11 +115,10 @@ void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double 
       dynamics.apply_forces(forces);
     }
 }
-} // namespace
 
 template <int dim>
-SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
-                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double confining_pressure, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -146,7 +148,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
   };
 
   // All walls press, raised over some transits of a wave so as not to hit the specimen.
-  test.protocol.seat = [=](Dynamics<dim>& state) {
+  test.loading.seat = [=](Dynamics<dim>& state) {
     const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
     const double ramp = wanted.seating_transits * height / wave_speed;
     constexpr double tolerance = 0.005;
@@ -181,21 +183,22 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     start_steadily(state, -wanted.compression_strain_rate);
     close(state, platens, closing_speed);
   };
-  test.protocol.drive = [=](Dynamics<dim>& state) {
+  test.loading.drive = [=](Dynamics<dim>& state) {
     for (const auto& side : around.sides)
       hold(state, side, 1.0);
     if (membrane_is_due(state))
       press_membrane(state, ends, confining_pressure);
   };
 
-  test.protocol.strain_rate = -wanted.compression_strain_rate;
-  test.protocol.sampling_strain = wanted.compression_sampling_strain;
-  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+  test.loading.intermediate_stress = around.intermediate_stress;
+  test.loading.strain_rate = -wanted.compression_strain_rate;
+  test.loading.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
     const double end_area = around.end_area(state);
     return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
   };
   if (!membrane)
-    test.protocol.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
+    test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
       double force = 0.0;
       for (const std::size_t wall : side.walls)
         force += state.wall_force(wall) / double(side.walls.size());
@@ -203,9 +206,19 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     };
   return test;
 }
+} // namespace
 
-template SetUpTest<2> set_up_triaxial_compression<2>(const Specimen<2>&, double, const TestParameters&,
-                                                     const DynamicsParameters&);
-template SetUpTest<3> set_up_triaxial_compression<3>(const Specimen<3>&, double, const TestParameters&,
-                                                     const DynamicsParameters&);
+constinit const LaboratoryProtocol triaxial_compression = complete({
+  .kind = {.name = "triaxial_compression",
+           .title = "Triaxial compression",
+           .strength = "strength",
+           .sign = -1.0,
+           .envelope_role = EnvelopeRole::compression,
+           .has_uniform_stress = true,
+           .takes_confining_pressure = true,
+           .runs_on_finite_elements = true,
+           .duration_rank = 1},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
 } // namespace feldspar

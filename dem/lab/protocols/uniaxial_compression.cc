@@ -1,28 +1,40 @@
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
 
 namespace feldspar
 {
+namespace
+{
 template <int dim>
-SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, const TestParameters& wanted,
-                                           const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
 {
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.compression_strain_rate);
   const auto platens = add_platens(test.dynamics, 0.0, specimen.size[dim - 1], wanted.platen_friction);
   close(test.dynamics, platens, wanted.compression_strain_rate * specimen.size[dim - 1]);
 
-  test.protocol.strain_rate = -wanted.compression_strain_rate;
-  test.protocol.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.strain_rate = -wanted.compression_strain_rate;
+  test.loading.sampling_strain = wanted.compression_sampling_strain;
   const double area = specimen.volume() / specimen.size[dim - 1];
-  test.protocol.end_stress = [=](const Dynamics<dim>& state) {
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{-state.wall_force(platens.lower) / area, -state.wall_force(platens.upper) / area};
   };
   return test;
 }
+} // namespace
 
-template SetUpTest<2> set_up_uniaxial_compression<2>(const Specimen<2>&, const TestParameters&,
-                                                     const DynamicsParameters&);
-template SetUpTest<3> set_up_uniaxial_compression<3>(const Specimen<3>&, const TestParameters&,
-                                                     const DynamicsParameters&);
+constinit const LaboratoryProtocol uniaxial_compression = complete({
+  .kind = {.name = "uniaxial_compression",
+           .title = "Uniaxial compression",
+           .strength = "uniaxial compressive strength",
+           .sign = -1.0,
+           .envelope_role = EnvelopeRole::compression,
+           .has_uniform_stress = true,
+           .runs_on_finite_elements = true,
+           .duration_rank = 1},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
 } // namespace feldspar

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "results/kinds.h"
+
+#include <stdexcept>
+
+namespace feldspar
+{
+struct DynamicsParameters;
+struct TestParameters;
+template <int dim>
+struct Specimen;
+template <int dim>
+struct SetUpTest;
+
+/// Stands a specimen between walls or grips; the pressure [Pa] is 0 for a test that takes none. Throws InputError for a
+/// specimen on which the test cannot be made.
+template <int dim>
+using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure, const TestParameters&,
+                                 const DynamicsParameters&);
+
+/// A laboratory test: all there is to know about it. docs/theory.md §4.
+struct LaboratoryProtocol
+{
+  TestKind kind;
+  SetUp<2> set_up_2d = nullptr; ///< null where the test is not made in the plane
+  SetUp<3> set_up_3d = nullptr;
+
+  template <int dim>
+  SetUp<dim> set_up() const
+  {
+    if constexpr (dim == 2)
+      return set_up_2d;
+    else
+      return set_up_3d;
+  }
+};
+
+/// The protocol itself if it says what every test must; a constant made of another does not compile.
+constexpr LaboratoryProtocol complete(const LaboratoryProtocol& protocol)
+{
+  const TestKind& kind = protocol.kind;
+  if (kind.name.empty() || kind.title.empty() || kind.strength.empty())
+    throw std::logic_error("a laboratory test needs a name, a title and a name of its strength");
+  if (kind.sign != 1.0 && kind.sign != -1.0)
+    throw std::logic_error("a laboratory test pulls, sign = 1, or presses, sign = -1");
+  if (protocol.set_up_2d == nullptr && protocol.set_up_3d == nullptr)
+    throw std::logic_error("a laboratory test needs a set-up");
+  return protocol;
+}
+} // namespace feldspar

@@ -1,0 +1,68 @@
+#include "dem/lab/protocols/protocols.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+namespace feldspar
+{
+namespace
+{
+std::string names_of(const std::function<bool(const LaboratoryProtocol&)>& is_wanted)
+{
+  std::vector<TestKind> kinds;
+  for (const LaboratoryProtocol* protocol : laboratory_protocols())
+    if (is_wanted(*protocol))
+      kinds.push_back(protocol->kind);
+  return names(kinds);
+}
+} // namespace
+
+const std::vector<const LaboratoryProtocol*>& laboratory_protocols()
+{
+  static const std::vector<const LaboratoryProtocol*> all{&direct_tension, &uniaxial_compression, &triaxial_compression,
+                                                          &brazilian};
+  return all;
+}
+
+const std::vector<TestKind>& test_kinds()
+{
+  static const std::vector<TestKind> kinds = [] {
+    std::vector<TestKind> all;
+    for (const LaboratoryProtocol* protocol : laboratory_protocols())
+      all.push_back(protocol->kind);
+    return all;
+  }();
+  return kinds;
+}
+
+const LaboratoryProtocol& protocol_of(const TestKind& kind)
+{
+  const auto& all = laboratory_protocols();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* one) { return one->kind == kind; });
+  if (found == all.end())
+    throw std::logic_error(fmt::format("\"{}\" is in no list of laboratory tests", kind.name));
+  return **found;
+}
+
+std::string objection_to_finite_elements(const TestKind& kind)
+{
+  if (kind.runs_on_finite_elements)
+    return "";
+  return fmt::format("Tests/List: {}: the sample stands between platens; it makes {}", kind.name,
+                     names_of([](const auto& one) { return one.kind.runs_on_finite_elements; }));
+}
+
+std::string objection_to_grains(const TestKind& kind, const unsigned int dimension)
+{
+  const auto is_made = [=](const LaboratoryProtocol& one) {
+    return dimension == 2 ? one.set_up_2d != nullptr : one.set_up_3d != nullptr;
+  };
+  if (is_made(protocol_of(kind)))
+    return "";
+  return fmt::format("Tests/List: {}: is not made on specimens in {} dimensions; those that are: {}", kind.name,
+                     dimension, names_of(is_made));
+}
+} // namespace feldspar

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "dem/lab/laboratory_protocol.h"
+#include "results/kinds.h"
+
+#include <string>
+#include <vector>
+
+/// The laboratory tests: each is one constant in the file of its name. To add one: its file, its line here and in the
+/// list of protocols.cc, its file in CMakeLists.txt.
+namespace feldspar
+{
+/// Two rigid grips, each at half the strain rate times the free length between them. docs/theory.md §4.2.
+extern const LaboratoryProtocol direct_tension;
+/// Two platens, each at half the strain rate times the height; no side walls. docs/theory.md §4.1.
+extern const LaboratoryProtocol uniaxial_compression;
+/// Side walls that hold the pressure, platens as in uniaxial compression. docs/theory.md §4.3.
+extern const LaboratoryProtocol triaxial_compression;
+/// A disc cut out of the specimen, pressed together by pads of its own grains. docs/theory.md §4.4.
+extern const LaboratoryProtocol brazilian;
+
+/// All of them.
+const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
+
+/// Their kinds, in the same order.
+const std::vector<TestKind>& test_kinds();
+
+/// The protocol of a kind. Throws std::logic_error for a kind that is not in the list.
+const LaboratoryProtocol& protocol_of(const TestKind& kind);
+
+/// Why this test cannot be made on finite elements, and which can, in the words of an error of the input; empty if it
+/// can.
+std::string objection_to_finite_elements(const TestKind& kind);
+/// The same of specimens of grains.
+std::string objection_to_grains(const TestKind& kind, unsigned int dimension);
+} // namespace feldspar

@@ -1,0 +1,27 @@
+#include "base/input_error.h"
+#include "coupling/sample/sample_run.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+TEST(SampleTest, RefusesAKindThatDoesNotSayItRunsOnFiniteElements)
+{
+  const TestKind torsion{.name = "torsion", .title = "Torsion", .strength = "", .sign = -1.0};
+  try
+    {
+      SampleTest({torsion}, {}, {}, ContinuumParameters{});
+      FAIL() << "a test of any kind was taken for compression";
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_EQ(error.what(), std::string("Tests/List: torsion: the sample stands between platens; it makes "
+                                          "direct_tension, uniaxial_compression, triaxial_compression"));
+    }
+}
+} // namespace
+} // namespace feldspar
