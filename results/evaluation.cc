@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -275,22 +274,11 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
 
 void evaluate_fragments(const TestRecord& record, TestResults& results)
 {
-  std::map<std::uint32_t, std::pair<std::uint64_t, double>> fragments; // grains, and volume
-  double all = 0.0;
-  for (const auto& grain : record.grains_at_end)
-    {
-      auto& [n_grains, size] = fragments[grain.fragment];
-      ++n_grains;
-      const double volume = std::pow(grain.radius, record.dimension());
-      size += volume;
-      all += volume;
-    }
   results.n_fragments = results.largest_fragment_share = unknown("there are no grains to be counted");
-  if (fragments.empty())
+  if (!record.fragments)
     return;
-  const auto n = std::count_if(fragments.begin(), fragments.end(), [](const auto& f) { return f.second.first > 1; });
-  results.n_fragments = known(double(n));
-  results.largest_fragment_share = known(fragments.begin()->second.second / all);
+  results.n_fragments = known(double(record.fragments->n));
+  results.largest_fragment_share = known(record.fragments->largest_share);
 }
 } // namespace
 

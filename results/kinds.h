@@ -38,9 +38,9 @@ enum class EnvelopeRole
 /// constant in dem/lab/protocols/. A property that a kind does not name is one that it does not have.
 struct TestKind
 {
-  std::string_view name;     ///< in input and result files: direct_tension
-  std::string_view title;    ///< in headings: Direct tension
-  std::string_view strength; ///< in rows of tables: tensile strength
+  std::string_view name = {};     ///< in input and result files: direct_tension
+  std::string_view title = {};    ///< in headings: Direct tension
+  std::string_view strength = {}; ///< in rows of tables: tensile strength
   double sign = 0.0; ///< +1 pulls, -1 presses: turns tension-positive figures into those of the laboratory curve
   Channel channel = axial_stress; ///< whose peak is the strength
   PeakRule peak_rule = PeakRule::highest;

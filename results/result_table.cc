@@ -57,6 +57,13 @@ ResultEntry of_specimen(const std::string_view name, T SpecimenReport::*member, 
   return number(
     name, [member](auto& test) -> auto& { return test.record.specimen.*member; }, reason_for_nan);
 }
+
+template <typename T>
+ResultEntry of_run(const std::string_view name, T RunBookkeeping::*member, const std::string& reason_for_nan = "")
+{
+  return number(
+    name, [member](auto& test) -> auto& { return test.bookkeeping.*member; }, reason_for_nan);
+}
 } // namespace
 
 const std::vector<ResultEntry>& result_table()
@@ -103,9 +110,9 @@ const std::vector<ResultEntry>& result_table()
     result("p_wave_transits_to_peak", &TestResults::p_wave_transits_to_peak),
     result("servo_error", &TestResults::servo_error),
     result("servo_error_largest", &TestResults::servo_error_largest),
-    of_test("steps", &TestRecord::steps),
-    of_test("time_step_s", &TestRecord::time_step, without_time),
-    of_test("wall_time_s", &TestRecord::wall_time)};
+    of_run("steps", &RunBookkeeping::steps),
+    of_run("time_step_s", &RunBookkeeping::time_step, without_time),
+    of_run("wall_time_s", &RunBookkeeping::wall_time)};
   return table;
 }
 } // namespace feldspar

@@ -97,7 +97,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   write_result_folder(provenance(input, input_file), tests, envelopes, folder);
   std::filesystem::create_directories(folder / "fields");
   for (const auto& test : tests)
-    write_fields(test, folder / "fields");
+    write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / "fields");
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);

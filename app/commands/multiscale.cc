@@ -51,7 +51,7 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
     else if (!test.record.ended_early.empty())
       text += fmt::format("{}: {}\n", test.name, test.record.ended_early);
   for (const auto& test : tests)
-    if (const RankBalance& of_ranks = test.record.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
+    if (const RankBalance& of_ranks = test.bookkeeping.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
       text += fmt::format(
         "{}: longest over mean time of the ranks {:.2f}, had no cell moved {:.2f}; cells were dealt out "
         "anew {} times\n",

@@ -79,7 +79,8 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
   const std::string name = fmt::format("{}_cell_{}_point_{}", planned.name, place.cell, place.point);
   const auto file = folder / (name + ".h5");
   write_volume(specimen, volume.state, file);
-  write_fields(as_seen(specimen, volume, of_sample, name + "_fields"), folder);
+  const VolumeView seen = as_seen(specimen, volume, of_sample);
+  write_fields(name + "_fields", of_sample.kind, seen.cracks, seen.appearance, folder);
   return fmt::format("{}\n  at {} mm, its axes turned by {}; strain of the sample {:.4g} %; {} broken segments\n",
                      file.string(), describe_position<dim>(volume.position), describe_turn<dim>(volume.orientation),
                      100.0 * planned.test.kind.sign * of_sample.curve.back().axial_strain,
@@ -100,7 +101,7 @@ int extract_volume(const std::filesystem::path& folder, const std::string& cell_
       if (!std::filesystem::exists(state_folder(folder, one)))
         continue;
       const SampleTest test = open(one, record.input, folder);
-      const TestRecord of_sample = test.finish(false); // to its last step, as the volume is
+      const TestRecord of_sample = test.finish(false).record; // to its last step, as the volume is
       if (of_sample.curve.empty())
         continue;
       const std::string text = dimension_of_volumes(record.input.sample.geometry) == 2

@@ -194,9 +194,10 @@ private:
 
 /// Of a test that could not be made.
 template <int dim>
-TestRecord record_of_failure(const PlannedTest<dim>& planned, const std::string& why)
+TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
 {
-  TestRecord record;
+  TestOutcome outcome;
+  TestRecord& record = outcome.record;
   record.kind = planned.test.kind;
   record.confining_pressure = planned.test.confining_pressure;
   record.seed = planned.specimen->seed;
@@ -205,13 +206,13 @@ TestRecord record_of_failure(const PlannedTest<dim>& planned, const std::string&
   record.bulk_density = planned.specimen->bulk_density;
   record.interrupted = true;
   record.failure = why;
-  return record;
+  return outcome;
 }
 
 /// Runs a test from where it stands to its end or to Ctrl-C.
 template <int dim>
-TestRecord run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
-               const std::function<void(const CurveSample&)>& show)
+TestOutcome run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
+                const std::function<void(const CurveSample&)>& show)
 {
   LabTest<dim> test = checkpoints.open();
   const std::uint64_t interval = planned.variant->input.steps_between_checkpoints;
@@ -246,31 +247,27 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     const std::size_t k = order[position];
     if (interrupted())
       return;
-    FinishedTest test;
-    test.group = planned[k].group;
-    test.name = planned[k].name;
-    test.variant = planned[k].variant->label;
+    TestOutcome outcome;
     try
       {
-        test.record = run(planned[k], Checkpoints<dim>(checkpoint_folder, planned[k]),
-                          [&](const CurveSample& row) { board.update(k, row); });
+        outcome = run(planned[k], Checkpoints<dim>(checkpoint_folder, planned[k]),
+                      [&](const CurveSample& row) { board.update(k, row); });
       }
     catch (const InputError& error)
       {
         // One test that cannot be made must not cost the others.
-        test.record = record_of_failure(planned[k], error.what());
+        outcome = failure(planned[k], error.what());
       }
-    test.results = evaluate(test.record);
     board.finish(k);
-    slots[k] = std::move(test);
+    slots[k] = finished(std::move(outcome), planned[k].group, planned[k].name, planned[k].variant->label);
   });
 
-  std::vector<FinishedTest> finished;
+  std::vector<FinishedTest> tests;
   for (auto& slot : slots)
     if (slot)
-      finished.push_back(std::move(*slot));
-  progress.finish(fmt::format("{} of {} done", finished.size(), planned.size()));
-  return finished;
+      tests.push_back(std::move(*slot));
+  progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+  return tests;
 }
 
 template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

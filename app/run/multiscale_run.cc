@@ -265,14 +265,10 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
     {
       failure = error.what();
     }
-  FinishedTest finished;
-  finished.record = test.finish(was_interrupted);
-  finished.record.failure = failure;
-  finished.group = planned.group;
-  finished.name = planned.name;
-  finished.results = evaluate(finished.record);
+  TestOutcome outcome = test.finish(was_interrupted);
+  outcome.record.failure = failure;
   if (!was_interrupted && failure.empty())
-    finished.volumes = point_volumes(planned, test, finished.record);
-  return finished;
+    outcome.appearance.volumes = point_volumes(planned, test, outcome.record);
+  return finished(std::move(outcome), planned.group, planned.name, "");
 }
 } // namespace feldspar

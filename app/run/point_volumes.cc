@@ -110,8 +110,7 @@ std::vector<PointVolume> volumes(const Packings<dim>& packings, const SampleTest
       const auto volume = brought<dim>(test, packings, number);
       if (!volume)
         continue;
-      FinishedTest seen =
-        as_seen(packings.specimens[packings.realisation_of(*volume->network)], *volume, record, choices[k].which);
+      VolumeView seen = as_seen(packings.specimens[packings.realisation_of(*volume->network)], *volume, record);
       const std::size_t n = test.n_points_per_cell();
       PointVolume shown;
       shown.which = choices[k].which;
@@ -120,8 +119,8 @@ std::vector<PointVolume> volumes(const Packings<dim>& packings, const SampleTest
       for (int c = 0; c < dim; ++c)
         shown.position[std::size_t(c)] = volume->position[c];
       shown.n_segments = volume->network->n_segments();
-      shown.grains = std::move(seen.record.grains_at_end);
-      shown.cracks = std::move(seen.record.cracks);
+      shown.grains = std::move(seen.appearance.grains_at_end);
+      shown.cracks = std::move(seen.cracks);
       all.push_back(std::move(shown));
     }
   return all;

@@ -54,17 +54,6 @@ void write_curve(const FinishedVolume<dim>& volume, const std::filesystem::path&
   write_whole_file(file, text);
 }
 
-/// Centroid of a joint's segment, in the cell's box or just outside [m].
-template <int dim>
-Vector<dim> centroid(const Network<dim>& network, const PathCrack<dim>& crack)
-{
-  const Link<dim>& link = network.links()[crack.joint];
-  Vector<dim> place = network.positions()[link.grain_1] + link.arm_1 * link.axes.row(0).transpose();
-  for (int c = 0; c < dim - 1; ++c)
-    place += link.half_length * network.elements()[crack.segment].offset[c] * link.axes.row(c + 1).transpose();
-  return place;
-}
-
 template <int dim>
 void write_cracks(const std::vector<FinishedVolume<dim>>& volumes, const std::filesystem::path& file)
 {
@@ -82,15 +71,12 @@ void write_cracks(const std::vector<FinishedVolume<dim>>& volumes, const std::fi
                        crack.joint, crack.segment, crack.increment);
         for (int k = 0; k < n_voigt<dim>; ++k)
           fmt::format_to(std::back_inserter(text), ",{}", outside(volume.record.samples[crack.increment], k));
-        const Vector<dim> place = centroid(*volume.network, crack);
-        const Link<dim>& link = volume.network->links()[crack.joint];
+        const auto place = segment_place(*volume.network, crack.joint, crack.segment);
         for (int c = 0; c < dim; ++c)
-          fmt::format_to(std::back_inserter(text), ",{}", place[c]);
+          fmt::format_to(std::back_inserter(text), ",{}", place.centroid[c]);
         for (int c = 0; c < dim; ++c)
-          fmt::format_to(std::back_inserter(text), ",{}", link.axes(0, c));
-        const double area = volume.network->segment_area(link, crack.segment);
-        fmt::format_to(std::back_inserter(text), ",{},{}\n",
-                       dim == 2 ? area / volume.network->thickness() : std::sqrt(area), crack.released_energy);
+          fmt::format_to(std::back_inserter(text), ",{}", place.normal[c]);
+        fmt::format_to(std::back_inserter(text), ",{},{}\n", place.size, crack.released_energy);
       }
   write_whole_file(file, text);
 }

@@ -1,16 +1,14 @@
 #include "app/run/volume_view.h"
 
 #include "dem/specimen/fragments.h"
-
-#include <Eigen/Geometry>
+#include "dem/storage/segment_place.h"
 
 #include <utility>
 
 namespace feldspar
 {
 template <int dim>
-FinishedTest as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& volume, const TestRecord& of_sample,
-                     const std::string& name)
+VolumeView as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& volume, const TestRecord& of_sample)
 {
   Specimen<dim> broken = specimen;
   Joints<dim>& joints = broken.joints;
@@ -33,9 +31,7 @@ FinishedTest as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& vol
     return rest + strain * (rest - 0.5 * specimen.size) + fluctuation;
   };
 
-  FinishedTest seen;
-  seen.name = name;
-  seen.record.kind = of_sample.kind;
+  VolumeView seen;
   const auto fragment = fragments(joints, n_grains);
   for (const bool now : {false, true})
     {
@@ -53,39 +49,26 @@ FinishedTest as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& vol
           for (std::size_t c = 0; c < dim; ++c)
             snapshot.position[c].push_back(position[Eigen::Index(c)]);
           if (now)
-            seen.record.grains_at_end.push_back(
+            seen.appearance.grains_at_end.push_back(
               {in_space<dim>(placed(rest)), in_space<dim>(position), specimen.grains.radius[i], fragment[i]});
         }
       snapshot.fragment = now ? fragment : std::vector<std::uint32_t>(n_grains, 0);
       snapshot.n_broken_segments = now ? n_broken : std::vector<std::uint32_t>(n_grains, 0);
-      seen.record.snapshots.push_back(std::move(snapshot));
+      seen.appearance.snapshots.push_back(std::move(snapshot));
     }
   for (Crack crack : of_sample.cracks)
     if (crack.joint == volume.number)
       {
         const std::size_t joint = crack.segment / joints.n_segments;
         const std::size_t i = crack.segment % joints.n_segments;
-        const Vector<dim> normal = at<dim>(joints.normal, joint);
-        const auto& element = joints.elements[i];
-        Vector<dim> from_contact;
-        if constexpr (dim == 2)
-          from_contact = element.offset[0] * Vector<dim>(-normal[1], normal[0]);
-        else
-          {
-            const Vector<dim> tangent = at<dim>(joints.tangent, joint);
-            from_contact = element.offset[0] * tangent + element.offset[1] * normal.cross(tangent);
-          }
-        const double arm =
-          0.5 * (joints.rest_distance[joint] + joints.opening[joint]) + joints.half_radius_difference[joint];
-        crack.centroid = in_space<dim>(placed(at<dim>(specimen.grains.position, joints.grain_1[joint]) + arm * normal +
-                                              joints.half_length[joint] * from_contact));
+        crack.centroid = in_space<dim>(placed(segment_place<dim>(specimen.grains, joints, joint, i).centroid));
         crack.joint = joint;
         crack.segment = std::uint32_t(i);
-        seen.record.cracks.push_back(crack);
+        seen.cracks.push_back(crack);
       }
   return seen;
 }
 
-template FinishedTest as_seen<2>(const Specimen<2>&, const SampleVolume<2>&, const TestRecord&, const std::string&);
-template FinishedTest as_seen<3>(const Specimen<3>&, const SampleVolume<3>&, const TestRecord&, const std::string&);
+template VolumeView as_seen<2>(const Specimen<2>&, const SampleVolume<2>&, const TestRecord&);
+template VolumeView as_seen<3>(const Specimen<3>&, const SampleVolume<3>&, const TestRecord&);
 } // namespace feldspar

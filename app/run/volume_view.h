@@ -2,15 +2,20 @@
 
 #include "coupling/sample/sample_volume.h"
 #include "dem/specimen/specimen.h"
-#include "results/run.h"
+#include "results/appearance.h"
 
-#include <string>
+#include <vector>
 
 namespace feldspar
 {
-/// The volume at a point as a test on a specimen would leave it, at rest and as it is, turned and moved to where it
-/// stands in the sample. Its cracks are those of its point in `of_sample`.
+/// The representative volume at a point as a test on a specimen would leave its grains and cracks.
+struct VolumeView
+{
+  TestAppearance appearance; ///< at rest and as it is
+  std::vector<Crack> cracks; ///< where they are at rest
+};
+
+/// Turned and moved to where the volume stands in the sample; its cracks are those of its point in `of_sample`.
 template <int dim>
-FinishedTest as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& volume, const TestRecord& of_sample,
-                     const std::string& name);
+VolumeView as_seen(const Specimen<dim>& specimen, const SampleVolume<dim>& volume, const TestRecord& of_sample);
 } // namespace feldspar

@@ -84,6 +84,14 @@ Tensor<dim> fabric(const Network<dim>& network)
 }
 
 template <int dim>
+SegmentPlace<dim> segment_place(const Network<dim>& network, const std::size_t joint, const std::size_t segment)
+{
+  const Link<dim>& link = network.links()[joint];
+  return segment_place<dim>(network.positions()[link.grain_1], link.arm_1, link.axes, link.half_length,
+                            network.elements()[segment]);
+}
+
+template <int dim>
 CrackMeasures<dim> crack_measures(const Network<dim>& network, const NetworkState<dim>& state)
 {
   double all = 0.0;
@@ -163,6 +171,7 @@ template Tensor<2> boundary_stress<2>(const Network<2>&, const std::vector<Motio
 template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const std::vector<Motion<2>>&,
                                         const NetworkState<2>&, const std::vector<Motion<2>>&, double);
 template Tensor<2> fabric<2>(const Network<2>&);
+template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::size_t);
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
 template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
 template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
@@ -172,6 +181,7 @@ template Tensor<3> boundary_stress<3>(const Network<3>&, const std::vector<Motio
 template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const std::vector<Motion<3>>&,
                                         const NetworkState<3>&, const std::vector<Motion<3>>&, double);
 template Tensor<3> fabric<3>(const Network<3>&);
+template SegmentPlace<3> segment_place<3>(const Network<3>&, std::size_t, std::size_t);
 template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);
 template std::size_t n_fragments<3>(const Network<3>&, const NetworkState<3>&);
 template IsotropicConstants isotropic_constants<3>(const Stiffness<3>&);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "coupling/rve/equilibrium.h"
+#include "dem/storage/segment_place.h"
 
+#include <cstddef>
 #include <vector>
 
 /// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §10.5.
@@ -31,6 +33,10 @@ double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>
 /// Mean of n ⊗ n over the joints; its trace is 1 (Oda 1982).
 template <int dim>
 Tensor<dim> fabric(const Network<dim>& network);
+
+/// Of a segment of a joint, with its grains at rest, in the cell's box or just outside.
+template <int dim>
+SegmentPlace<dim> segment_place(const Network<dim>& network, std::size_t joint, std::size_t segment);
 
 /// What has broken.
 template <int dim>

@@ -168,11 +168,10 @@ std::vector<PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
   const Network<dim>& network = accepted.network();
   for (const BreakEvent<dim>& event : events_accepted)
     {
-      const Link<dim>& link = network.links()[network.link_of_segment(event.segment)];
-      const double area = network.segment_area(link, event.segment - link.first_segment);
-      cracks.push_back({event.in_tension ? CrackKind::tension : CrackKind::shear, event.segment,
-                        turn * link.axes.row(0).transpose(), dim == 2 ? area / network.thickness() : std::sqrt(area),
-                        event.released_energy});
+      const std::uint32_t joint = network.link_of_segment(event.segment);
+      const auto place = segment_place(network, joint, event.segment - network.links()[joint].first_segment);
+      cracks.push_back({event.in_tension ? CrackKind::tension : CrackKind::shear, event.segment, turn * place.normal,
+                        place.size, event.released_energy});
     }
   return cracks;
 }

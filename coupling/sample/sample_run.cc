@@ -35,6 +35,7 @@ struct SampleTest::Parts
   std::optional<fem::FieldOutput> fields;
   StopRule stop_rule;
   TestRecord record;
+  RunBookkeeping bookkeeping;
   std::function<void()> step_done;
   std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
   bool widens = false;                   ///< lateral strain is what is controlled
@@ -58,9 +59,9 @@ struct SampleTest::Parts
       throw InputError(objection);
     record.kind = test.kind;
     record.body = TestBody::finite_elements;
-    record.strain_rate = record.time_step = std::numeric_limits<double>::quiet_NaN();
+    record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
     record.confining_pressure = test.confining_pressure;
-    record.solver_work.emplace();
+    bookkeeping.solver_work.emplace();
   }
 
   void take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_a_volume)
@@ -92,12 +93,12 @@ struct SampleTest::Parts
     archive.value("lateral_strain_at_seating", lateral_strain_at_seating);
     archive.value("n_tension", n_tension);
     archive.value("n_shear", n_shear);
-    archive.value("steps", record.steps);
-    archive.value("wall_time", record.wall_time);
-    archive.value("n_solves", record.solver_work->n_solves);
-    archive.value("n_iterations", record.solver_work->n_iterations);
-    archive.value("n_cascades", record.solver_work->n_cascades);
-    archive.value("seconds_in_points", record.solver_work->seconds_in_points);
+    archive.value("steps", bookkeeping.steps);
+    archive.value("wall_time", bookkeeping.wall_time);
+    archive.value("n_solves", bookkeeping.solver_work->n_solves);
+    archive.value("n_iterations", bookkeeping.solver_work->n_iterations);
+    archive.value("n_cascades", bookkeeping.solver_work->n_cascades);
+    archive.value("seconds_in_points", bookkeeping.solver_work->seconds_in_points);
     archive.text("ended_early", record.ended_early);
     transfer_flag(archive, "came_apart", record.came_apart);
     archive.bytes("curve", record.curve);
@@ -114,10 +115,10 @@ struct SampleTest::Parts
     archive.value("wanted_lateral_strain", wanted_width);
     transfer_flag(archive, "avalanche", avalanche);
     archive.value("n_cuts_for_breaks", n_cuts_for_breaks);
-    archive.value("rank_mean_s", record.ranks.mean);
-    archive.value("rank_longest_s", record.ranks.longest);
-    archive.value("rank_longest_unmoved_s", record.ranks.longest_unmoved);
-    archive.value("n_moves", record.ranks.n_moves);
+    archive.value("rank_mean_s", bookkeeping.ranks.mean);
+    archive.value("rank_longest_s", bookkeeping.ranks.longest);
+    archive.value("rank_longest_unmoved_s", bookkeeping.ranks.longest_unmoved);
+    archive.value("n_moves", bookkeeping.ranks.n_moves);
     fem::StepControl::Standing standing_of_steps;
     if (steps)
       standing_of_steps = steps->standing();
@@ -191,9 +192,9 @@ struct SampleTest::Parts
       {
         body->limit_events(avalanche ? standing.n_segments : most_events);
         const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
-        ++record.solver_work->n_solves;
-        record.solver_work->n_iterations += report.n_iterations;
-        record.solver_work->n_cascades += report.n_cascades;
+        ++bookkeeping.solver_work->n_solves;
+        bookkeeping.solver_work->n_iterations += report.n_iterations;
+        bookkeeping.solver_work->n_cascades += report.n_cascades;
         if (report.converged)
           {
             body->accept();
@@ -231,8 +232,8 @@ struct SampleTest::Parts
   void share_work()
   {
     const fem::Balance balance = body->rebalance();
-    record.solver_work->seconds_in_points += balance.mean * ranks::number();
-    RankBalance& ranks = record.ranks;
+    bookkeeping.solver_work->seconds_in_points += balance.mean * ranks::number();
+    RankBalance& ranks = bookkeeping.ranks;
     ranks.mean += balance.mean;
     ranks.longest += balance.longest;
     ranks.longest_unmoved += balance.longest_unmoved;
@@ -244,12 +245,12 @@ struct SampleTest::Parts
   /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
   void gather_cracks()
   {
-    ++record.steps;
+    ++bookkeeping.steps;
     std::vector<Crack> broken = body->cracks_of_last_step();
     const double strain = seated ? axial_strain() : 0.0;
     for (Crack& crack : broken)
       {
-        crack.step = record.steps;
+        crack.step = bookkeeping.steps;
         crack.axial_strain = strain;
       }
     const auto n_of = [&](const CrackKind kind) {
@@ -271,7 +272,7 @@ struct SampleTest::Parts
   {
     const bool is_first = record.curve.empty();
     CurveSample row;
-    row.step = record.steps;
+    row.step = bookkeeping.steps;
     row.axial_strain = axial_strain();
     row.axial_stress = is_first ? -test.confining_pressure : body->platen_stress("top");
     row.end_stress_difference = is_first ? 0.0 : body->platen_stress("top") + body->platen_stress("bottom");
@@ -342,7 +343,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
     }
   parts->watch = nullptr;
   parts->step_done = nullptr;
-  record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  parts->bookkeeping.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return !parts->ended;
 }
 
@@ -380,17 +381,18 @@ std::size_t SampleTest::n_points_per_cell() const { return parts->body->n_points
 
 std::size_t SampleTest::n_fields_written() const { return parts->fields ? parts->fields->n_written() : 0; }
 
-TestRecord SampleTest::finish(const bool interrupted) const
+TestOutcome SampleTest::finish(const bool interrupted) const
 {
-  TestRecord record = parts->record;
+  TestOutcome outcome{parts->record, {}, parts->bookkeeping};
+  TestRecord& record = outcome.record;
   record.interrupted = interrupted;
   const std::uint64_t last = record.curve.empty() ? 0 : record.curve.back().step;
   if (interrupted) // perhaps within a row
     {
-      record.steps = last;
+      outcome.bookkeeping.steps = last;
       std::erase_if(record.cracks, [=](const Crack& crack) { return crack.step > last; });
     }
-  return record;
+  return outcome;
 }
 
 namespace
@@ -460,7 +462,7 @@ std::vector<fem::StoredCell> read_cells(Hdf5Reader& root)
 void SampleTest::write_state(const std::filesystem::path& folder, const std::string& identity) const
 {
   fem::StoredSolid solid = parts->body->stored();
-  write_checkpoint(folder, parts->record.steps, identity, [&](Hdf5Writer& root) {
+  write_checkpoint(folder, parts->bookkeeping.steps, identity, [&](Hdf5Writer& root) {
     if (ranks::is_first())
       {
         std::string fields_written = parts->fields ? parts->fields->stored() : "";

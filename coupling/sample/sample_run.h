@@ -4,7 +4,7 @@
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_volume.h"
 #include "dem/lab/parameters.h"
-#include "results/record.h"
+#include "results/test_outcome.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -77,7 +77,7 @@ public:
   std::size_t n_fields_written() const;
 
   /// The test up to its last row.
-  TestRecord finish(bool interrupted) const;
+  TestOutcome finish(bool interrupted) const;
 
   /// The whole state at the last step, as a checkpoint in `folder` (coupling/sample/checkpoints.h), so that a test read back on as
   /// many ranks runs on to the same bits. `identity` tells whose state it is. Throws OutputError.

@@ -1,10 +1,8 @@
 #include "dem/lab/laboratory_test.h"
 
 #include "base/hdf5_archive.h"
-#include "dem/laws/contact_motion.h"
 #include "dem/specimen/fragments.h"
-
-#include <Eigen/Geometry>
+#include "dem/storage/segment_place.h"
 
 #include <chrono>
 #include <cmath>
@@ -28,31 +26,16 @@ template <int dim>
 Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
 {
   const auto& joints = dynamics.specimen().joints;
-  const Vector<dim> normal = at<dim>(joints.normal, event.joint);
-  const double arm =
-    arms(joints.rest_distance[event.joint] + joints.opening[event.joint], joints.half_radius_difference[event.joint])
-      .one;
-  const double half_length = joints.half_length[event.joint];
-  const FaceElement<dim>& element = joints.elements[event.segment];
-  Vector<dim> from_contact;
-  if constexpr (dim == 2)
-    from_contact = half_length * element.offset[0] * Vector<dim>(-normal[1], normal[0]);
-  else
-    {
-      const Vector<dim> tangent = at<dim>(joints.tangent, event.joint);
-      from_contact = half_length * (element.offset[0] * tangent + element.offset[1] * normal.cross(tangent));
-    }
-
+  const auto place = segment_place<dim>(dynamics.specimen().grains, joints, event.joint, event.segment);
   Crack result;
   result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
   result.joint = joints.number[event.joint];
   result.segment = event.segment;
   result.step = dynamics.n_steps();
   result.axial_strain = axial_strain;
-  result.centroid = in_space<dim>(at<dim>(dynamics.specimen().grains.position, joints.grain_1[event.joint]) +
-                                  arm * normal + from_contact);
-  result.normal = in_space<dim>(normal);
-  result.size = half_length * (dim == 2 ? element.area : std::sqrt(element.area));
+  result.centroid = in_space<dim>(place.centroid);
+  result.normal = in_space<dim>(place.normal);
+  result.size = place.size;
   result.released_energy = event.released_energy;
   return result;
 }
@@ -125,7 +108,7 @@ bool LabTest<dim>::advance()
   record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
   if ((record.curve.size() - 1) % rows_between_snapshots == 0)
     take_snapshot();
-  record.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
   return !ended;
 }
@@ -177,29 +160,32 @@ void LabTest<dim>::take_snapshot()
     now.position[c] = specimen.grains.position[c];
   now.fragment = fragments(specimen.joints, specimen.grains.size());
   now.n_broken_segments = n_broken_segments;
-  record.snapshots.push_back(std::move(now));
-  if (record.snapshots.size() < most_snapshots)
+  snapshots.push_back(std::move(now));
+  if (snapshots.size() < most_snapshots)
     return;
   std::vector<Snapshot> kept;
-  for (std::size_t k = 0; k < record.snapshots.size(); k += 2)
-    kept.push_back(std::move(record.snapshots[k]));
-  record.snapshots = std::move(kept);
+  for (std::size_t k = 0; k < snapshots.size(); k += 2)
+    kept.push_back(std::move(snapshots[k]));
+  snapshots = std::move(kept);
   rows_between_snapshots *= 2;
 }
 
 template <int dim>
-TestRecord LabTest<dim>::finish(const bool interrupted) const
+TestOutcome LabTest<dim>::finish(const bool interrupted) const
 {
-  TestRecord result = record;
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
-  result.interrupted = interrupted;
-  result.steps = set_up.dynamics.n_steps();
-  result.time_step = set_up.dynamics.time_step();
+  TestOutcome result{record, {}, {}};
   const auto fragment = fragments(specimen.joints, specimen.grains.size());
+  auto& grains = result.appearance.grains_at_end;
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
-    result.grains_at_end.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
-                                    in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i],
-                                    fragment[i]});
+    grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
+                      in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i], fragment[i]});
+  result.appearance.snapshots = snapshots;
+  result.record.fragments = fragments_of(grains, dim);
+  result.record.interrupted = interrupted;
+  result.bookkeeping.steps = set_up.dynamics.n_steps();
+  result.bookkeeping.time_step = set_up.dynamics.time_step();
+  result.bookkeeping.wall_time = wall_time;
   return result;
 }
 
@@ -213,7 +199,7 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.bytes("cracks", record.cracks);
   for (std::size_t c = 0; c < gauge_positions.size(); ++c)
     archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
-  archive.value("wall_time", record.wall_time);
+  archive.value("wall_time", wall_time);
   archive.value("time_at_start", time_at_start);
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
@@ -227,12 +213,12 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("strain_at_peak", stop_rule.strain_at_peak);
   archive.array("n_broken_segments", n_broken_segments);
   archive.value("rows_between_snapshots", rows_between_snapshots);
-  std::uint64_t n_snapshots = record.snapshots.size();
+  std::uint64_t n_snapshots = snapshots.size();
   archive.value("n_snapshots", n_snapshots);
-  record.snapshots.resize(n_snapshots);
+  snapshots.resize(n_snapshots);
   for (std::size_t k = 0; k < n_snapshots; ++k)
     {
-      Snapshot& snapshot = record.snapshots[k];
+      Snapshot& snapshot = snapshots[k];
       auto group = archive.subgroup(fmt::format("snapshot_{}", k));
       group.value("step", snapshot.step);
       group.value("axial_strain", snapshot.axial_strain);

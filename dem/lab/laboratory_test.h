@@ -5,7 +5,7 @@
 #include "dem/lab/parameters.h"
 #include "dem/lab/stop_rule.h"
 #include "dem/lab/strain_gauge.h"
-#include "results/record.h"
+#include "results/test_outcome.h"
 
 #include <filesystem>
 #include <functional>
@@ -66,7 +66,7 @@ public:
   const CurveSample& last_row() const { return record.curve.back(); }
 
   /// The test as it stands, whether it has ended or not.
-  TestRecord finish(bool interrupted) const;
+  TestOutcome finish(bool interrupted) const;
 
   /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.
   void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
@@ -85,6 +85,8 @@ private:
   StopRule stop_rule;
   SetUpTest<dim> set_up;
   TestRecord record;
+  std::vector<Snapshot> snapshots;
+  double wall_time = 0.0; ///< [s]
   StrainGauge<dim> gauge;
   bool seated = false;
   bool ended = false;

@@ -48,10 +48,11 @@ struct Frame
 };
 
 /// Around the specimen, with room for what bulges but not for what flew away.
-Frame frame_of(const TestRecord& record)
+Frame frame_of(const FinishedTest& test)
 {
+  const TestRecord& record = test.record;
   Frame frame;
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : test.appearance.grains_at_end)
     for (std::size_t c = 0; c < 2; ++c)
       {
         const double centre = grain.start[c == 0 ? 0 : vertical(record)];
@@ -121,11 +122,11 @@ std::string stage_rows(const TestRecord& record, const CrackKind kind, const Sta
 }
 
 /// Equivalent diameter of each fragment: of the circle or sphere of its grains' volume [m].
-std::map<std::uint32_t, double> fragment_diameters(const TestRecord& record)
+std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
 {
-  const std::size_t axis = vertical(record);
+  const std::size_t axis = vertical(test.record);
   std::map<std::uint32_t, double> diameters;
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : test.appearance.grains_at_end)
     diameters[grain.fragment] += volume(grain, axis);
   for (auto& [number, diameter] : diameters)
     diameter = 2.0 * std::pow(diameter, axis == 2 ? 1.0 / 3.0 : 0.5);
@@ -241,18 +242,18 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
   const TestRecord& record = test.record;
   if (record.body == TestBody::finite_elements)
     return damage_map(test, title);
-  if (record.grains_at_end.empty() || record.curve.empty())
+  if (test.appearance.grains_at_end.empty() || record.curve.empty())
     return {};
   const std::size_t axis = vertical(record);
   const auto all_stages = stages(record);
-  const Frame frame = frame_of(record);
+  const Frame frame = frame_of(test);
   std::string data;
   std::string plots;
   for (std::size_t s = 0; s < all_stages.size(); ++s)
     {
       const bool at_end = s + 1 == all_stages.size();
       std::string grains;
-      for (const auto& grain : record.grains_at_end)
+      for (const auto& grain : test.appearance.grains_at_end)
         {
           const auto& centre = at_end ? grain.position : grain.start;
           fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g}\n", centre[0] / milli, centre[axis] / milli,
@@ -283,11 +284,11 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
 std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
-  if (record.grains_at_end.empty())
+  if (test.appearance.grains_at_end.empty())
     return {};
   const std::size_t axis = vertical(record);
-  const Frame frame = frame_of(record);
-  const auto diameters = fragment_diameters(record);
+  const Frame frame = frame_of(test);
+  const auto diameters = fragment_diameters(test);
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0.0;
   for (const auto& [number, diameter] : diameters)
@@ -299,7 +300,7 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
   const bool is_broken = largest > 0.0;
   std::string body;
   std::string loose;
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : test.appearance.grains_at_end)
     fmt::format_to(std::back_inserter(grain.fragment > 0 ? loose : body), "{:.6g} {:.6g} {:.6g} {:.4g}\n",
                    grain.position[0] / milli, grain.position[axis] / milli, grain.radius / milli,
                    diameters.at(grain.fragment) / milli);

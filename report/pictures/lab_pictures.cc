@@ -50,7 +50,7 @@ std::string map_data(const FinishedTest& test)
   for (const bool loose : {false, true})
     {
       text += fmt::format("{} << EOD\n", block(loose ? "loose" : "grains", test));
-      for (const auto& grain : test.record.grains_at_end)
+      for (const auto& grain : test.appearance.grains_at_end)
         if ((grain.fragment > 0) == loose)
           fmt::format_to(std::back_inserter(text), "{} {} {}\n", grain.position[0] / milli, grain.position[1] / milli,
                          grain.radius / milli);
@@ -111,7 +111,7 @@ std::string map_plot(const FinishedTest& test, const char upwards)
                 "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
                 gnuplot_text(fmt::format("{}, seed {}: cracks at the end", title_of(test), test.record.seed)), upwards,
                 -0.08 * size[0] / milli, 1.08 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
-  const auto n_loose = std::count_if(test.record.grains_at_end.begin(), test.record.grains_at_end.end(),
+  const auto n_loose = std::count_if(test.appearance.grains_at_end.begin(), test.appearance.grains_at_end.end(),
                                      [](const GrainPicture& grain) { return grain.fragment > 0; });
   text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'main body'", block("grains", test),
                       light_grey);
@@ -166,7 +166,7 @@ std::vector<Picture> overview_picture(const Series& series)
         !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
       {
         const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
-        test.record = plane_view(std::move(test.record));
+        test = plane_view(std::move(test));
         data += curve_data(test) + map_data(test);
         curves += curve_plot(test);
         maps += map_plot(test, upwards);

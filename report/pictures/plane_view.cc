@@ -5,20 +5,22 @@
 
 namespace feldspar
 {
-TestRecord plane_view(TestRecord record)
+FinishedTest plane_view(FinishedTest test)
 {
+  TestRecord& record = test.record;
+  auto& grains = test.appearance.grains_at_end;
   if (record.dimension() == 2)
-    return record;
+    return test;
   const double depth = record.size[1];
   const auto outside_slice = [depth](const std::array<double, 3>& point) {
     return std::abs(point[1] - 0.5 * depth) > 0.125 * depth;
   };
-  std::erase_if(record.grains_at_end, [&](const GrainPicture& grain) { return outside_slice(grain.position); });
+  std::erase_if(grains, [&](const GrainPicture& grain) { return outside_slice(grain.position); });
   std::erase_if(record.cracks, [&](const Crack& crack) { return outside_slice(crack.centroid); });
   // The ones in front are drawn last.
-  std::sort(record.grains_at_end.begin(), record.grains_at_end.end(),
+  std::sort(grains.begin(), grains.end(),
             [](const GrainPicture& a, const GrainPicture& b) { return a.position[1] > b.position[1]; });
-  for (auto& grain : record.grains_at_end)
+  for (auto& grain : grains)
     grain.position = {grain.position[0], grain.position[2], 0.0};
   for (auto& crack : record.cracks)
     {
@@ -29,6 +31,6 @@ TestRecord plane_view(TestRecord record)
                                   : std::array<double, 3>{1.0, 0.0, 0.0};
     }
   record.size = {record.size[0], record.size[2], 0.0};
-  return record;
+  return test;
 }
 } // namespace feldspar

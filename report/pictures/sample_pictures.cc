@@ -54,7 +54,7 @@ std::string percent_text(const double share) { return fmt::format("{:.2g} %", 10
 
 std::vector<Picture> sample_picture(const FinishedTest& test, const std::string& title)
 {
-  const SampleFields& fields = test.fields;
+  const SampleFields& fields = test.appearance.fields;
   if (fields.nodes.empty() || !fields.has(share_field) || !fields.has("cell"))
     return {};
   const double scale = visible_scale(fields);
@@ -102,9 +102,9 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
 
   std::string letters;
   const double radius = 0.022 * (high[1] - low[1]) / milli;
-  for (std::size_t k = 0; k < test.volumes.size(); ++k)
+  for (std::size_t k = 0; k < test.appearance.volumes.size(); ++k)
     {
-      const PlanePoint at = view.place(test.volumes[k]);
+      const PlanePoint at = view.place(test.appearance.volumes[k]);
       letters += fmt::format("set object {0} circle at {1:.6g},{2:.6g} size {3:.4g} front fc rgb '#ffffff' fs solid 1 "
                              "border lc rgb '{4}' lw 1\nset label '{5}' at {1:.6g},{2:.6g} center front tc rgb '{4}'\n",
                              pieces.size() + k + 1, at[0] / milli, at[1] / milli, radius, black, letter_of_volume(k));
@@ -144,7 +144,7 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
     }
   else if (fields.has(localised_field))
     caption += ". Nowhere have half of a cell's points localised";
-  if (!test.volumes.empty())
+  if (!test.appearance.volumes.empty())
     {
       caption += ". Letters: the representative volumes drawn below";
       if (fields.dimension == 3)

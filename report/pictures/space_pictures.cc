@@ -138,14 +138,14 @@ std::string spheres_behind(const std::vector<GrainPicture>& grains, const Box& b
   return rows;
 }
 
-Json fragment_panel(const TestRecord& record, const Box& box)
+Json fragment_panel(const std::vector<GrainPicture>& grains, const Box& box)
 {
-  const auto n_grains = numbers_of_grains(record.grains_at_end);
+  const auto n_grains = numbers_of_grains(grains);
   const auto n_single = std::count_if(n_grains.begin(), n_grains.end(),
                                       [](const auto& entry) { return entry.first > 0 && entry.second == 1; });
   return {{"title", "grains at the end, cut open"},
           {"box", box.millimetres()},
-          {"spheres", spheres_behind(record.grains_at_end, box)},
+          {"spheres", spheres_behind(grains, box)},
           {"discs", ""},
           {"legend",
            {{"grey: largest piece", black},
@@ -158,14 +158,15 @@ Json fragment_panel(const TestRecord& record, const Box& box)
 std::vector<Picture> space_picture(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
-  if (record.dimension() == 2 || record.grains_at_end.empty())
+  const auto& grains = test.appearance.grains_at_end;
+  if (record.dimension() == 2 || grains.empty())
     return {};
-  const Box box(record.grains_at_end);
+  const Box box(grains);
   Json panels = Json::array();
   if (const auto peak = peak_row(record))
     panels.push_back(crack_panel(record, box, "cracks at the peak", record.curve[*peak].step));
   panels.push_back(crack_panel(record, box, "cracks at the end", std::numeric_limits<std::uint64_t>::max()));
-  panels.push_back(fragment_panel(record, box));
+  panels.push_back(fragment_panel(grains, box));
   return {
     {.name = test.name + "_space",
      .caption = fmt::format("{}, seed {}: every broken element as a disc, at the peak and at the end; the grains "

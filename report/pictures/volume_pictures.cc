@@ -34,7 +34,7 @@ std::string standing_of(const PointVolume& volume, const SampleFields& fields)
 
 std::vector<Picture> volume_picture(const FinishedTest& test, const std::string& title)
 {
-  const auto& volumes = test.volumes;
+  const auto& volumes = test.appearance.volumes;
   if (volumes.empty() || std::any_of(volumes.begin(), volumes.end(), [](const auto& v) { return v.grains.empty(); }))
     return {};
   std::vector<std::string> headings;
@@ -47,7 +47,7 @@ std::vector<Picture> volume_picture(const FinishedTest& test, const std::string&
                 title, test.record.seed);
   const std::string alternative = fmt::format("Grains and cracks of {} representative volumes of {} (seed {}).",
                                               volumes.size(), title, test.record.seed);
-  if (test.fields.dimension == 3 || test.fields.has("crack_orientation_zz_per_m"))
+  if (test.appearance.fields.dimension == 3 || test.appearance.fields.has("crack_orientation_zz_per_m"))
     {
       Picture picture = space_picture_of_volumes(volumes, headings);
       picture.name = name;

@@ -20,7 +20,7 @@ using namespace text;
 /// Where the representative volumes (RVEs) that are drawn stand, with what broke in them.
 std::vector<Table> volume_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
 {
-  if (test.volumes.empty())
+  if (test.appearance.volumes.empty())
     return {};
   Table table{
     "volumes_" + test.name + ending,
@@ -30,14 +30,15 @@ std::vector<Table> volume_tables(const FinishedTest& test, const std::string& ti
       title, test.record.seed),
     {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
     {}};
-  for (std::size_t k = 0; k < test.volumes.size(); ++k)
+  for (std::size_t k = 0; k < test.appearance.volumes.size(); ++k)
     {
-      const PointVolume& volume = test.volumes[k];
+      const PointVolume& volume = test.appearance.volumes[k];
       const auto n_shear = std::count_if(volume.cracks.begin(), volume.cracks.end(),
                                          [](const Crack& crack) { return crack.kind == CrackKind::shear; });
-      table.rows.push_back({fmt::format("{}, {}", letter_of_volume(k), volume.which), standing_of(volume, test.fields),
-                            volume.place(), fmt::format("{}", volume.cracks.size()),
-                            number(100.0 * broken_share(volume), 2), fmt::format("{}", n_shear)});
+      table.rows.push_back({fmt::format("{}, {}", letter_of_volume(k), volume.which),
+                            standing_of(volume, test.appearance.fields), volume.place(),
+                            fmt::format("{}", volume.cracks.size()), number(100.0 * broken_share(volume), 2),
+                            fmt::format("{}", n_shear)});
     }
   return {table};
 }
@@ -48,7 +49,7 @@ const FinishedTest* with_fields(const TestGroup& group)
   if (const auto* test = typical(group))
     return test;
   const auto found = std::find_if(group.tests.begin(), group.tests.end(),
-                                  [](const FinishedTest* test) { return !test->fields.nodes.empty(); });
+                                  [](const FinishedTest* test) { return !test->appearance.fields.nodes.empty(); });
   return found == group.tests.end() ? nullptr : *found;
 }
 } // namespace
@@ -93,7 +94,7 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
             if (block.pictures.empty())
               continue;
             block.tables = volume_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));
-            if (test->volumes.empty())
+            if (test->appearance.volumes.empty())
               block.paragraphs.push_back(
                 "The grains of single representative volumes are not in this result folder: it is of before "
                 "they were kept, or the test did not come to its end.");

@@ -48,7 +48,7 @@ const std::vector<Measure>& measures()
   static const std::vector<Measure> all{
     {"energy imbalance over boundary work", " %", percent, 2, Side::at_most, 1 * percent,
      [](const FinishedTest& test) -> std::optional<double> {
-       if (test.record.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
+       if (test.bookkeeping.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
          return std::nullopt;
        return test.results.energy_imbalance_over_work;
      }},
@@ -163,8 +163,8 @@ Table specimen_table(const Series& series)
             if (!first)
               first = &test;
             ++n;
-            steps += test.record.steps;
-            time += test.record.wall_time;
+            steps += test.bookkeeping.steps;
+            time += test.bookkeeping.wall_time;
           }
       const SpecimenReport& report = first->record.specimen;
       const auto number = [](const double value, const int decimals) {

@@ -253,12 +253,12 @@ Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
 }
 } // namespace
 
-void write_curve(const FinishedTest& test, const std::filesystem::path& file)
+void write_curve(const TestRecord& record, const std::filesystem::path& file)
 {
   std::string text;
   append_names(text, curve_columns());
-  for (const auto& row : test.record.curve)
-    append_row(text, curve_columns(), row, test.record.kind.sign);
+  for (const auto& row : record.curve)
+    append_row(text, curve_columns(), row, record.kind.sign);
   write_whole_file(file, text);
 }
 
@@ -272,43 +272,87 @@ std::vector<CurveSample> read_curve(const std::filesystem::path& file, const Tes
   return curve;
 }
 
-void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+namespace
+{
+std::string header_of_cracks()
 {
   std::string text = "test,kind,";
   append_names(text, crack_columns());
-  for (const auto& test : tests)
-    for (const auto& crack : test.record.cracks)
-      {
-        fmt::format_to(std::back_inserter(text), "{},{},", test.name, kind_name(crack.kind));
-        append_row(text, crack_columns(), crack, test.record.kind.sign);
-      }
-  write_whole_file(file, text);
+  return text;
 }
 
-void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
+void append_cracks(std::string& text, const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind)
+{
+  for (const auto& crack : cracks)
+    {
+      fmt::format_to(std::back_inserter(text), "{},{},", name, kind_name(crack.kind));
+      append_row(text, crack_columns(), crack, kind.sign);
+    }
+}
+
+/// Cracks of one test.
+struct CracksOfTest
+{
+  std::string_view name;
+  TestKind kind;
+  std::vector<Crack>* cracks;
+};
+
+void read_cracks_into(const std::filesystem::path& file, const std::vector<CracksOfTest>& tests)
 {
   TableReader table(file);
   const std::size_t name = table.place("test");
   const std::size_t kind = table.place("kind");
   const auto places = places_of(table, crack_columns());
-  std::map<std::string_view, FinishedTest*> by_name;
-  for (auto& test : tests)
+  std::map<std::string_view, const CracksOfTest*> by_name;
+  for (const auto& test : tests)
     by_name[test.name] = &test;
   while (table.next())
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
-        TestRecord& record = found->second->record;
-        Crack crack = row_of(table, crack_columns(), places, record.kind.sign);
+        Crack crack = row_of(table, crack_columns(), places, found->second->kind.sign);
         crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
-        record.cracks.push_back(crack);
+        found->second->cracks->push_back(crack);
       }
 }
+} // namespace
 
-void write_grains(const FinishedTest& test, const std::filesystem::path& file)
+void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
+{
+  std::string text = header_of_cracks();
+  for (const auto& test : tests)
+    append_cracks(text, test.record.cracks, test.name, test.record.kind);
+  write_whole_file(file, text);
+}
+
+void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
+                  const std::filesystem::path& file)
+{
+  std::string text = header_of_cracks();
+  append_cracks(text, cracks, name, kind);
+  write_whole_file(file, text);
+}
+
+void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
+{
+  std::vector<CracksOfTest> all;
+  for (auto& test : tests)
+    all.push_back({test.name, test.record.kind, &test.record.cracks});
+  read_cracks_into(file, all);
+}
+
+std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind)
+{
+  std::vector<Crack> cracks;
+  read_cracks_into(file, {{name, kind, &cracks}});
+  return cracks;
+}
+
+void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file)
 {
   std::string text;
   append_names(text, grain_columns());
-  for (const auto& grain : test.record.grains_at_end)
+  for (const auto& grain : grains)
     append_row(text, grain_columns(), grain, 1.0);
   write_whole_file(file, text);
 }

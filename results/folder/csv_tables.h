@@ -3,6 +3,7 @@
 #include "results/run.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 /// The tables of a result folder: written after a run, read when a report is made of it. Readers know columns by their
@@ -11,7 +12,7 @@ namespace feldspar
 {
 /// The curve of a test, a row per sample. Stress and strain are positive in the sense of the test: tension in a tension
 /// test, compression in a compression test.
-void write_curve(const FinishedTest& test, const std::filesystem::path& file);
+void write_curve(const TestRecord& record, const std::filesystem::path& file);
 std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind);
 
 /// The cracks of all tests, in the order in which they came.
@@ -19,7 +20,12 @@ void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem:
 /// Puts each crack into the test of its name; those of other names are left out.
 void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
 
+/// The same of a part of a test, under a name of its own.
+void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
+                  const std::filesystem::path& file);
+std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
+
 /// The grains of a test, where they were and where they came to.
-void write_grains(const FinishedTest& test, const std::filesystem::path& file);
+void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file);
 std::vector<GrainPicture> read_grains(const std::filesystem::path& file);
 } // namespace feldspar

@@ -83,25 +83,25 @@ std::vector<double> interleaved(const std::array<std::vector<double>, 3>& compon
 }
 } // namespace
 
-void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
+void write_fields(const std::string& name, const TestKind& kind, const std::vector<Crack>& all_cracks,
+                  const TestAppearance& appearance, const std::filesystem::path& folder)
 {
-  const TestRecord& record = test.record;
-  if (record.snapshots.empty())
+  if (appearance.snapshots.empty())
     return;
-  const std::size_t n_grains = record.grains_at_end.size();
-  const std::size_t n_cracks = record.cracks.size();
-  const std::string file = test.name + ".h5";
-  const double sign = record.kind.sign;
+  const std::size_t n_grains = appearance.grains_at_end.size();
+  const std::size_t n_cracks = all_cracks.size();
+  const std::string file = name + ".h5";
+  const double sign = kind.sign;
 
   write_hdf5(folder / file, [&](Hdf5Writer& root) {
     std::vector<double> radius;
-    for (const auto& grain : record.grains_at_end)
+    for (const auto& grain : appearance.grains_at_end)
       radius.push_back(grain.radius);
     root.array("radius_m", radius);
-    const std::vector<double> start = interleaved(record.snapshots.front().position);
-    for (std::size_t k = 0; k < record.snapshots.size(); ++k)
+    const std::vector<double> start = interleaved(appearance.snapshots.front().position);
+    for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)
       {
-        const Snapshot& snapshot = record.snapshots[k];
+        const Snapshot& snapshot = appearance.snapshots[k];
         auto group = root.subgroup(fmt::format("snapshot_{}", k));
         std::vector<double> position = interleaved(snapshot.position);
         std::vector<double> displacement(position.size());
@@ -117,7 +117,7 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
     auto cracks = root.subgroup("cracks");
     std::vector<double> centroid, normal, size, energy;
     std::vector<std::uint32_t> is_shear, step;
-    for (const auto& crack : record.cracks)
+    for (const auto& crack : all_cracks)
       {
         centroid.insert(centroid.end(), crack.centroid.begin(), crack.centroid.end());
         normal.insert(normal.end(), crack.normal.begin(), crack.normal.end());
@@ -135,9 +135,9 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
   });
 
   std::string grain_grids, crack_grids;
-  for (std::size_t k = 0; k < record.snapshots.size(); ++k)
+  for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)
     {
-      const Snapshot& snapshot = record.snapshots[k];
+      const Snapshot& snapshot = appearance.snapshots[k];
       const double time = 100.0 * sign * snapshot.axial_strain + 0.0;
       const auto of_grains = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
         return data_item(fmt::format("{}:/snapshot_{}/{}", file, k, array), shape(n_grains, n_components), is_real);
@@ -150,9 +150,9 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
       grain_grids += grains.finish();
 
       const auto until =
-        std::upper_bound(record.cracks.begin(), record.cracks.end(), snapshot.step,
+        std::upper_bound(all_cracks.begin(), all_cracks.end(), snapshot.step,
                          [](const std::uint64_t step, const Crack& crack) { return step < crack.step; });
-      const auto n = std::size_t(until - record.cracks.begin());
+      const auto n = std::size_t(until - all_cracks.begin());
       if (n == 0)
         continue; // an empty grid is none to ParaView
       const auto of_cracks = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
@@ -166,8 +166,8 @@ void write_fields(const FinishedTest& test, const std::filesystem::path& folder)
       cracks.attribute("step", false, of_cracks("step", 1, false));
       crack_grids += cracks.finish();
     }
-  write_whole_file(folder / (test.name + "_grains.xdmf"), time_series("grains", grain_grids));
+  write_whole_file(folder / (name + "_grains.xdmf"), time_series("grains", grain_grids));
   if (!crack_grids.empty())
-    write_whole_file(folder / (test.name + "_cracks.xdmf"), time_series("cracks", crack_grids));
+    write_whole_file(folder / (name + "_cracks.xdmf"), time_series("cracks", crack_grids));
 }
 } // namespace feldspar

@@ -88,13 +88,9 @@ std::string name_of(const PointVolume& volume, const std::string& test)
 /// By the tables that tests have.
 void write_volume(const PointVolume& volume, const FinishedTest& of, const std::filesystem::path& folder)
 {
-  FinishedTest alone;
-  alone.name = name_of(volume, of.name);
-  alone.record.kind = of.record.kind;
-  alone.record.grains_at_end = volume.grains;
-  alone.record.cracks = volume.cracks;
-  write_grains(alone, folder / (alone.name + "_grains.csv"));
-  write_cracks({alone}, folder / (alone.name + "_cracks.csv"));
+  const std::string name = name_of(volume, of.name);
+  write_grains(volume.grains, folder / (name + "_grains.csv"));
+  write_cracks(volume.cracks, name, of.record.kind, folder / (name + "_cracks.csv"));
 }
 
 PointVolume read_volume(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
@@ -113,12 +109,9 @@ PointVolume read_volume(const Json& json, const FinishedTest& of, const std::fil
       throw InputError(fmt::format("{}: a volume of {} is not described as this program does it",
                                    (folder.parent_path() / result_file::summary).string(), of.name));
     }
-  std::vector<FinishedTest> alone(1);
-  alone.front().name = name_of(volume, of.name);
-  alone.front().record.kind = of.record.kind;
-  volume.grains = read_grains(folder / (alone.front().name + "_grains.csv"));
-  read_cracks(folder / (alone.front().name + "_cracks.csv"), alone);
-  volume.cracks = std::move(alone.front().record.cracks);
+  const std::string name = name_of(volume, of.name);
+  volume.grains = read_grains(folder / (name + "_grains.csv"));
+  volume.cracks = read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind);
   return volume;
 }
 
@@ -143,14 +136,14 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
   std::filesystem::create_directories(folder / result_file::curves);
   if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
     std::filesystem::create_directories(folder / result_file::grains);
-  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.volumes.empty(); }))
+  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.appearance.volumes.empty(); }))
     std::filesystem::create_directories(folder / result_file::points);
   for (const auto& test : tests)
     {
-      write_curve(test, folder / result_file::curves / (test.name + ".csv"));
+      write_curve(test.record, folder / result_file::curves / (test.name + ".csv"));
       if (test.record.body == TestBody::grains)
-        write_grains(test, folder / result_file::grains / (test.name + ".csv"));
-      for (const auto& volume : test.volumes)
+        write_grains(test.appearance.grains_at_end, folder / result_file::grains / (test.name + ".csv"));
+      for (const auto& volume : test.appearance.volumes)
         write_volume(volume, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
@@ -194,17 +187,18 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       const std::string table = test.name + ".csv";
       try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       if (test.record.body == TestBody::grains)
-        try_to(problems, [&] { test.record.grains_at_end = read_grains(folder / result_file::grains / table); });
+        try_to(problems, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
-        try_to(problems, [&] { test.fields = read_sample_fields(folder / result_file::fields, test.name); });
+        try_to(problems, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
   for (const auto& entry : json["tests"])
     if (entry.is_object() && entry.contains("volumes") && entry["volumes"].is_array())
       for (auto& test : tests)
         if (test.name == text_of(entry, "name"))
           for (const auto& volume : entry["volumes"])
-            try_to(problems, [&] { test.volumes.push_back(read_volume(volume, test, folder / result_file::points)); });
+            try_to(problems,
+                   [&] { test.appearance.volumes.push_back(read_volume(volume, test, folder / result_file::points)); });
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);

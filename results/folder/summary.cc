@@ -55,13 +55,13 @@ Json describe(const FinishedTest& test)
     json["ended_early"] = test.record.ended_early;
   if (test.record.came_apart)
     json["came_apart"] = true;
-  if (test.record.solver_work)
-    json["solver_work"] = {{"solves", test.record.solver_work->n_solves},
-                           {"iterations", test.record.solver_work->n_iterations},
-                           {"cascades", test.record.solver_work->n_cascades},
-                           {"seconds_in_points", test.record.solver_work->seconds_in_points}};
+  if (const auto& work = test.bookkeeping.solver_work)
+    json["solver_work"] = {{"solves", work->n_solves},
+                           {"iterations", work->n_iterations},
+                           {"cascades", work->n_cascades},
+                           {"seconds_in_points", work->seconds_in_points}};
   json["size_m"] = test.record.size;
-  if (const RankBalance& ranks = test.record.ranks; ranks.mean > 0.0)
+  if (const RankBalance& ranks = test.bookkeeping.ranks; ranks.mean > 0.0)
     json["ranks"] = {{"mean_s", ranks.mean},
                      {"longest_s", ranks.longest},
                      {"longest_unmoved_s", ranks.longest_unmoved},
@@ -70,7 +70,7 @@ Json describe(const FinishedTest& test)
     {
       write_figure(json, std::string(entry.name), entry.value(test));
     }
-  for (const auto& volume : test.volumes)
+  for (const auto& volume : test.appearance.volumes)
     json["volumes"].push_back({{"which", volume.which},
                                {"cell", volume.cell},
                                {"point", volume.point},

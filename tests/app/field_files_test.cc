@@ -72,19 +72,20 @@ std::vector<Points> read_time_series(const fs::path& file)
 }
 
 /// Both tables of the result folder and these files hold what the test left behind, to the last digit.
-void expect_grains(const std::vector<Points>& series, const TestRecord& record, const bool ends_at_the_last_row)
+void expect_grains(const std::vector<Points>& series, const TestAppearance& appearance, const bool ends_at_the_last_row)
 {
+  const auto& grains = appearance.grains_at_end;
   ASSERT_GE(series.size(), 2u);
   EXPECT_EQ(series.front().time, 0.0);
   for (std::size_t k = 0; k < series.size(); ++k)
     {
       const Points& at_time = series[k];
-      ASSERT_EQ(at_time.n_points, record.grains_at_end.size());
+      ASSERT_EQ(at_time.n_points, grains.size());
       EXPECT_EQ(at_time.names(), (std::set<std::string>{"broken elements", "displacement", "fragment", "radius"}));
       EXPECT_TRUE(k == 0 || at_time.time > series[k - 1].time);
       for (std::size_t i = 0; i < at_time.n_points; ++i)
         {
-          const auto& grain = record.grains_at_end[i];
+          const auto& grain = grains[i];
           EXPECT_EQ(at_time.attributes.at("radius")[i], grain.radius);
           for (std::size_t c = 0; c < 3; ++c)
             // x - x_0 is rounded once, x_0 + (x - x_0) again: twice half a unit of the last place.
@@ -92,8 +93,8 @@ void expect_grains(const std::vector<Points>& series, const TestRecord& record, 
                         2e-16 * std::abs(grain.start[c]) + 1e-19);
         }
     }
-  for (std::size_t i = 0; ends_at_the_last_row && i < record.grains_at_end.size(); ++i)
-    EXPECT_EQ(series.back().attributes.at("fragment")[i], record.grains_at_end[i].fragment);
+  for (std::size_t i = 0; ends_at_the_last_row && i < grains.size(); ++i)
+    EXPECT_EQ(series.back().attributes.at("fragment")[i], grains[i].fragment);
   EXPECT_GT(*std::max_element(series.back().attributes.at("broken elements").begin(),
                               series.back().attributes.at("broken elements").end()),
             0.0);
@@ -142,7 +143,8 @@ void expect_fields(const TemporaryFolder& folder, const bool ends_at_the_last_ro
   for (const auto& test : series.front().tests)
     {
       SCOPED_TRACE(test.name);
-      expect_grains(read_time_series(out / "fields" / (test.name + "_grains.xdmf")), test.record, ends_at_the_last_row);
+      expect_grains(read_time_series(out / "fields" / (test.name + "_grains.xdmf")), test.appearance,
+                    ends_at_the_last_row);
       expect_cracks(read_time_series(out / "fields" / (test.name + "_cracks.xdmf")), test.record);
     }
 }

@@ -183,7 +183,7 @@ TEST(Energies, KineticEnergyIsThatOfTheMotionAndTheSteadyStartIsCounted)
     {
       while (test->advance())
         ;
-      const auto record = test->finish(false);
+      const auto record = test->finish(false).record;
       // Seating leaves the grains a tenth of that speed of their own, which adds twice as much to the square.
       const double tolerance = test == &uniaxial ? 1e-12 : 0.25;
       EXPECT_NEAR(record.curve.front().energies.kinetic, set_off, tolerance * set_off);
@@ -206,7 +206,7 @@ TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
     LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
     while (test.advance())
       ;
-    return test.finish(false).curve;
+    return test.finish(false).record.curve;
   };
   const auto fine = curve(1e-5);
   const auto coarse = curve(2e-5);

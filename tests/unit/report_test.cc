@@ -51,9 +51,7 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
   record.seed = seed;
   record.size = {0.05, 0.1, 0.0};
   record.bulk_density = 2700.0;
-  record.steps = 1000;
-  record.time_step = 1e-7;
-  record.wall_time = 2.5;
+  test.bookkeeping = {.steps = 1000, .time_step = 1e-7, .wall_time = 2.5};
   record.specimen.n_grains = 2;
   record.specimen.n_joints = 1;
   record.specimen.resolution = 30.0;
@@ -83,8 +81,9 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
                              {0.6, 0.8, 0.0},
                              3e-4,
                              0.1 / 3.0});
-  record.grains_at_end = {{{0.01, 0.02, 0.0}, {0.011, 0.02, 0.0}, 0.00062, 0},
-                          {{0.03, 0.02, 0.0}, {0.034, 0.02, 0.0}, 0.001, 1}};
+  test.appearance.grains_at_end = {{{0.01, 0.02, 0.0}, {0.011, 0.02, 0.0}, 0.00062, 0},
+                                   {{0.03, 0.02, 0.0}, {0.034, 0.02, 0.0}, 0.001, 1}};
+  record.fragments = fragments_of(test.appearance.grains_at_end, record.dimension());
   test.results = evaluate(record);
   return test;
 }
@@ -225,7 +224,7 @@ TEST(ResultFolder, KnowsTestsOnFiniteElementsAndWhatTheyCannotHave)
 {
   FinishedTest test = compression(3);
   test.record.body = TestBody::finite_elements;
-  test.record.grains_at_end.clear();
+  test.appearance.grains_at_end.clear();
   test.record.ended_early = "no equilibrium was found";
   test.results = evaluate(test.record);
   const TemporaryFolder folder;

@@ -61,7 +61,7 @@ FinishedTest test_with(const SampleFields& fields)
   test.record.body = TestBody::finite_elements;
   test.record.seed = 1;
   test.record.curve.resize(31);
-  test.fields = fields;
+  test.appearance.fields = fields;
   return test;
 }
 
@@ -119,7 +119,7 @@ TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
 {
   auto test = test_with(blocks(2));
-  test.fields.n_rows = 12;
+  test.appearance.fields.n_rows = 12;
   EXPECT_NE(sample_picture(test, "Direct tension").at(0).caption.find("at row 12 of 31"), std::string::npos);
 }
 
@@ -202,7 +202,7 @@ PointVolume volume()
 TEST(SamplePicture, MarksTheVolumesThatAreDrawn)
 {
   auto test = test_with(blocks(2));
-  test.volumes = {volume()};
+  test.appearance.volumes = {volume()};
   const auto sample = sample_picture(test, "Direct tension").at(0);
   EXPECT_NE(sample.script.find("set label 'A' at 15,12.6 "), std::string::npos); // lifted by 0.06 mm, ten times
   const auto volumes = volume_picture(test, "Direct tension").at(0);
@@ -213,8 +213,8 @@ TEST(SamplePicture, MarksTheVolumesThatAreDrawn)
   const auto tension = rows_of(volumes.script, "$tension0").at(0);
   EXPECT_NEAR(tension.at(2), 0.0, 1e-12);
   EXPECT_NEAR(std::abs(tension.at(3)), 0.5, 1e-9);
-  EXPECT_EQ(broken_share(test.volumes[0]), 0.01);
-  EXPECT_EQ(standing_of(test.volumes[0], test.fields), "(15.0, 12.0) mm");
+  EXPECT_EQ(broken_share(test.appearance.volumes[0]), 0.01);
+  EXPECT_EQ(standing_of(test.appearance.volumes[0], test.appearance.fields), "(15.0, 12.0) mm");
 }
 
 /// As deal.II writes it, two times.
@@ -299,12 +299,12 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   const TemporaryFolder folder;
   auto test = test_with({});
   test.record.curve.clear();
-  test.volumes = {volume()};
+  test.appearance.volumes = {volume()};
   write_result_folder({}, {test}, {}, folder.path());
   const auto all = read_result_folder(folder.path(), test_kinds());
-  ASSERT_EQ(all.at(0).tests.at(0).volumes.size(), 1u);
-  const PointVolume& read = all[0].tests[0].volumes[0];
-  const PointVolume& was = test.volumes[0];
+  ASSERT_EQ(all.at(0).tests.at(0).appearance.volumes.size(), 1u);
+  const PointVolume& read = all[0].tests[0].appearance.volumes[0];
+  const PointVolume& was = test.appearance.volumes[0];
   EXPECT_EQ(read.which, was.which);
   EXPECT_EQ(read.place(), "3:1");
   EXPECT_EQ(read.position, was.position);
@@ -318,7 +318,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   // A folder that lost them says so, and the test is there without them.
   std::filesystem::remove(folder.path() / "points/direct_tension_seed_1_cell_3_point_1_grains.csv");
   const auto without = read_result_folder(folder.path(), test_kinds());
-  EXPECT_TRUE(without.at(0).tests.at(0).volumes.empty());
+  EXPECT_TRUE(without.at(0).tests.at(0).appearance.volumes.empty());
   const auto& problems = without[0].problems;
   EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
     return problem.find("point_1_grains.csv: missing or empty") != std::string::npos;

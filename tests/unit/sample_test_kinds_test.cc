@@ -11,7 +11,7 @@ namespace
 {
 TEST(SampleTest, RefusesAKindThatDoesNotSayItRunsOnFiniteElements)
 {
-  const TestKind torsion{.name = "torsion", .title = "Torsion", .strength = "", .sign = -1.0};
+  const TestKind torsion{.name = "torsion", .title = "Torsion", .sign = -1.0};
   try
     {
       SampleTest({torsion}, {}, {}, ContinuumParameters{});

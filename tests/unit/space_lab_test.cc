@@ -61,7 +61,7 @@ TestParameters quick()
   return wanted;
 }
 
-TestRecord run(LabTest<3>& test)
+TestOutcome run(LabTest<3>& test)
 {
   while (test.advance())
     ;
@@ -72,9 +72,11 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 {
   const auto specimen = small_cylinder();
   LabTest<3> tension({direct_tension}, specimen, quick(), {});
-  const auto pulled = evaluate(run(tension));
+  const auto pulled = evaluate(run(tension).record);
   LabTest<3> compression({uniaxial_compression}, specimen, quick(), {});
-  const auto record = run(compression);
+  const auto outcome = run(compression);
+  const auto& record = outcome.record;
+  const auto& snapshots = outcome.appearance.snapshots;
   const auto crushed = evaluate(record);
   ASSERT_TRUE(pulled.peak_stress.value && crushed.peak_stress.value) << pulled.peak_stress.reason;
   // Below the strength of its bonds in tension; several times stronger in compression, as rock is.
@@ -84,10 +86,10 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
   EXPECT_LT(crushed.energy_imbalance, 0.01);
   EXPECT_GT(*crushed.youngs_modulus_initial.value, 10e9);
   // What the pictures need: of every grain, from the start to the end.
-  ASSERT_GT(record.snapshots.size(), 4u);
-  EXPECT_EQ(record.snapshots.front().position[2], specimen.grains.position[2]);
+  ASSERT_GT(snapshots.size(), 4u);
+  EXPECT_EQ(snapshots.front().position[2], specimen.grains.position[2]);
   std::size_t n_broken = 0;
-  for (const auto n : record.snapshots.back().n_broken_segments)
+  for (const auto n : snapshots.back().n_broken_segments)
     n_broken += n;
   EXPECT_GT(n_broken, 0u);
   EXPECT_LE(n_broken, 2 * record.cracks.size()); // each crack lies at two grains
@@ -98,12 +100,12 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
   const auto specimen = small_cylinder();
   TestParameters wanted = quick();
   LabTest<3> uniaxial({uniaxial_compression}, specimen, wanted, {});
-  const double alone = *evaluate(run(uniaxial)).peak_stress.value;
+  const double alone = *evaluate(run(uniaxial).record).peak_stress.value;
   for (const auto boundary : {LateralBoundary::wall, LateralBoundary::membrane})
     {
       wanted.lateral_boundary = boundary;
       LabTest<3> test({triaxial_compression, 20e6}, specimen, wanted, {});
-      const auto record = run(test);
+      const auto record = run(test).record;
       const auto results = evaluate(record);
       ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
       EXPECT_GT(*results.peak_stress.value, alone + 20e6);
@@ -124,8 +126,9 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   wanted.stop_strain = 1e-4;
   const auto box = small_cylinder(1, 1e3, "box");
   auto set_up = triaxial_compression.set_up_3d(box, 10e6, wanted, {});
-  EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).intermediate_stress, 30e6);
-  EXPECT_FALSE(LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).intermediate_stress); // the same
+  EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 30e6);
+  EXPECT_FALSE(
+    LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).record.intermediate_stress); // the same
   set_up.loading.seat(set_up.dynamics);
   const Tensor<3> stress = set_up.dynamics.mean_stress();
   // Pressures on the walls are within 0.5 %; what the walls cut off the body is of the order of its overlaps.
@@ -146,14 +149,15 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
   flat_joint.installation_gap_ratio = 0.05;
   const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
   LabTest<3> test({brazilian}, specimen, quick(), {});
-  const auto record = run(test);
+  const auto outcome = run(test);
+  const auto& record = outcome.record;
   const auto results = evaluate(record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
   EXPECT_GT(*results.peak_stress.value, 2e6);
   EXPECT_LT(*results.peak_stress.value, 60e6);
   // Lying across: half as long as wide, about the middle of the specimen's height, and only that part is tested.
   EXPECT_LT(record.specimen.n_grains, specimen.grains.size());
-  for (const auto& grain : record.grains_at_end)
+  for (const auto& grain : outcome.appearance.grains_at_end)
     EXPECT_LT(std::abs(grain.position[1] - 0.004), 0.0026);
 }
 
@@ -177,10 +181,10 @@ TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
     }
   const auto one = whole.finish(true);
   const auto two = again.finish(true);
-  EXPECT_EQ(one.curve.back().axial_stress, two.curve.back().axial_stress);
-  EXPECT_EQ(one.curve.back().energies.boundary_work, two.curve.back().energies.boundary_work);
-  ASSERT_EQ(one.snapshots.size(), two.snapshots.size());
-  EXPECT_EQ(one.snapshots.back().position, two.snapshots.back().position);
+  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
+  EXPECT_EQ(one.record.curve.back().energies.boundary_work, two.record.curve.back().energies.boundary_work);
+  ASSERT_EQ(one.appearance.snapshots.size(), two.appearance.snapshots.size());
+  EXPECT_EQ(one.appearance.snapshots.back().position, two.appearance.snapshots.back().position);
 }
 } // namespace
 } // namespace feldspar

@@ -89,11 +89,11 @@ TEST_F(SpecimenFile, CheckpointsGoOnToTheSameBits)
       run(resumed, 60);
       const auto a = whole.finish(true);
       const auto b = resumed.finish(true);
-      ASSERT_EQ(a.curve.size(), b.curve.size());
-      EXPECT_EQ(a.cracks.size(), b.cracks.size());
-      EXPECT_EQ(a.curve.back().axial_stress, b.curve.back().axial_stress);
-      EXPECT_EQ(a.curve.back().energies.damping, b.curve.back().energies.damping);
-      EXPECT_EQ(a.grains_at_end.back().position, b.grains_at_end.back().position);
+      ASSERT_EQ(a.record.curve.size(), b.record.curve.size());
+      EXPECT_EQ(a.record.cracks.size(), b.record.cracks.size());
+      EXPECT_EQ(a.record.curve.back().axial_stress, b.record.curve.back().axial_stress);
+      EXPECT_EQ(a.record.curve.back().energies.damping, b.record.curve.back().energies.damping);
+      EXPECT_EQ(a.appearance.grains_at_end.back().position, b.appearance.grains_at_end.back().position);
 
       LabTest<2> other(wanted, specimen, {}, {});
       EXPECT_THROW(other.read_checkpoint(file, "another one"), InputError);

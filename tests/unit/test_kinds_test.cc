@@ -22,7 +22,7 @@ namespace feldspar::tests
 {
 namespace
 {
-constexpr TestKind torsion{.name = "torsion", .title = "Torsion", .strength = ""};
+constexpr TestKind torsion{.name = "torsion", .title = "Torsion"};
 
 /// Rises to `peak` [Pa] in 30 rows and falls to half of it in 10, in the sense of the kind.
 FinishedTest finished(const TestKind& kind, const double peak, const double confining_pressure = 0.0)

@@ -36,7 +36,7 @@ TestRecord test(const LaboratoryCase& wanted_test, const std::uint64_t seed, con
   LabTest<2> running(wanted_test, specimen, wanted, {});
   while (running.advance())
     ;
-  return running.finish(false);
+  return running.finish(false).record;
 }
 
 double peak(const TestRecord& record) { return *evaluate(record).peak_stress.value; }

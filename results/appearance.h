@@ -1,0 +1,60 @@
+#pragma once
+
+#include "results/record.h"
+#include "results/sample_fields.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The looks of a test, for pictures; no figure is read off them later.
+namespace feldspar
+{
+/// A grain as the pictures need it.
+struct GrainPicture
+{
+  std::array<double, 3> start;    ///< when the loading began [m]
+  std::array<double, 3> position; ///< at the end [m]
+  double radius;                  ///< [m]
+  std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
+};
+
+/// The grains at one row of the curve.
+struct Snapshot
+{
+  std::uint64_t step = 0;
+  double axial_strain = 0.0;
+  double axial_stress = 0.0;                    ///< [Pa]
+  std::array<std::vector<double>, 3> position;  ///< of each grain [m]; the last is empty in the plane
+  std::vector<std::uint32_t> fragment;          ///< of each grain, as in GrainPicture
+  std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints since the start
+};
+
+/// The representative volume at a point of a sample, as it was when the test ended.
+struct PointVolume
+{
+  std::string which; ///< most damaged, median, intact
+  unsigned int cell; ///< as in the fields, from 0
+  unsigned int point;
+  std::array<double, 3> position{}; ///< as the nodes of the mesh are given; in r-z r, θ and z [m]
+  std::uint64_t n_segments;
+  std::vector<GrainPicture> grains; ///< along the axes of the sample [m]
+  std::vector<Crack> cracks;        ///< where they are at rest
+
+  std::string place() const { return std::to_string(cell) + ":" + std::to_string(point); }
+};
+
+/// Of a specimen its grains; of a sample of finite elements its fields and the grains of a few points.
+struct TestAppearance
+{
+  std::vector<GrainPicture> grains_at_end;
+  std::vector<Snapshot> snapshots;  ///< a few, evenly over the curve; the first is the start
+  SampleFields fields;              ///< read back from the folder; never written by who writes a result folder
+  std::vector<PointVolume> volumes; ///< representative volumes of a few points
+};
+
+/// None without grains.
+std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, int dimension);
+} // namespace feldspar
