@@ -1,6 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/input/nearest_name.h"
-#include "app/run/specimen_source.h"
+#include "app/run/interrupt.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"

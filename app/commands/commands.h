@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/run/run.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,25 +10,6 @@
 /// The subcommands. Each returns the exit code; a user's mistake comes as InputError.
 namespace feldspar
 {
-namespace exit_code
-{
-inline constexpr int internal_error = 1;
-inline constexpr int user_error = 2;
-inline constexpr int output_error = 3;  // a full disk
-inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
-} // namespace exit_code
-
-/// What `lab`, `rve`, `multiscale`, `specimen` and `contact` have in common on the command line.
-struct CommonOptions
-{
-  std::filesystem::path input;
-  std::optional<std::filesystem::path> resume; ///< of `lab`, `rve`, `multiscale`: the folder of a run to be taken up
-  std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
-  std::optional<std::filesystem::path> output;
-  bool force = false;
-  bool quiet = false;
-};
-
 int run_lab(const CommonOptions& options);
 
 int run_rve(const CommonOptions& options);

@@ -1,7 +1,7 @@
 #include "app/commands/commands.h"
-#include "app/input/csv.h"
 #include "app/input/input.h"
 #include "app/run/output_folder.h"
+#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/laws/joint_update.h"

@@ -1,12 +1,11 @@
 #include "app/commands/commands.h"
 #include "app/commands/report_command.h"
 #include "app/input/input.h"
+#include "app/input/parameter_table.h"
 #include "app/run/interrupt.h"
 #include "app/run/lab_run.h"
-#include "app/run/output_folder.h"
 #include "app/run/progress.h"
 #include "app/run/provenance.h"
-#include "app/run/run_record.h"
 #include "app/run/specimen_source.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
@@ -61,18 +60,12 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   return text;
 }
 
-void say_how_to_resume(const std::filesystem::path& folder)
-{
-  fmt::print(stderr, "feldspar: interrupted; go on with: feldspar lab --resume {}\n", folder.string());
-}
-
 /// Specimens, tests and report of a run in its folder, from wherever it stands.
 template <int dim>
-int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
-           const bool quiet)
+RunEnd go(const Run& run)
 {
+  const auto& [folder, input_file, input, quiet] = run;
   Progress progress(quiet);
-  watch_for_interrupt();
 
   // Make the rock.
   const auto all_variants = variants(input);
@@ -93,6 +86,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     throw InputError(failed->record.failure);
 
   // Report.
+  const bool was_interrupted = interrupted();
   const RunEnvelopes envelopes = fit_each_rock(tests);
   write_result_folder(provenance(input, input_file), tests, envelopes, folder);
   std::filesystem::create_directories(folder / "fields");
@@ -107,17 +101,14 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   if (!quiet)
     fmt::print("\n{}\n", text);
   fmt::print("{}\n", folder.string());
-  if (interrupted())
-    {
-      say_how_to_resume(folder);
-      return exit_code::interrupted;
-    }
-  std::filesystem::remove_all(folder / "checkpoints");
-  mark_complete(folder);
-  if (failed == tests.end())
-    return 0;
-  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
-  return exit_code::user_error;
+  return {was_interrupted, failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+}
+
+Body body_of(const SpecimenParameters& specimen)
+{
+  if (specimen.dimension == 2)
+    return Body::plane_box;
+  return specimen.shape == "cylinder" ? Body::cylinder : Body::box;
 }
 
 /// What can be told before any work.
@@ -136,10 +127,14 @@ void check(const Input& input, const std::filesystem::path& file)
           refuse(objection);
       if (!specimen.specimen_file.empty())
         continue; // it brings its own shape
-      if (tests.lateral_boundary == LateralBoundary::membrane && specimen.shape != "cylinder")
-        refuse("Tests/Lateral boundary = membrane: goes round a cylinder; set Shape = cylinder and Dimension = 3");
-      if (tests.intermediate_stress && (specimen.shape != "box" || specimen.dimension != 3))
-        refuse("Tests/Intermediate stress: presses on two sides of a box in space; set Shape = box and Dimension = 3");
+      try
+        {
+          check_body(variant.input, body_of(specimen));
+        }
+      catch (const InputError& error)
+        {
+          refuse(error.what());
+        }
       const bool is_confined = any_takes_confining_pressure(variant.input.test_list);
       for (const double confinement : variant.input.confinements)
         if (is_confined && tests.intermediate_stress && *tests.intermediate_stress < confinement)
@@ -154,57 +149,8 @@ void check(const Input& input, const std::filesystem::path& file)
 
 int run_lab(const CommonOptions& options)
 {
-  if (options.input.empty() && !options.resume)
-    throw InputError("lab needs an INPUT, or --resume with the folder of a run; see feldspar lab --help");
-  const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
-    try
-      {
-        return input.specimen.dimension == 2 ? run_in<2>(folder, input, input_file, options.quiet)
-                                             : run_in<3>(folder, input, input_file, options.quiet);
-      }
-    catch (const Interrupted&)
-      {
-        say_how_to_resume(folder);
-        return exit_code::interrupted;
-      }
-    catch (const OutputError& error)
-      {
-        throw OutputError(
-          fmt::format("{}; once it can, go on with: feldspar lab --resume {}", error.what(), folder.string()));
-      }
-  };
-  if (options.resume)
-    {
-      const RunRecord run = read_run_record("lab", *options.resume);
-      if (run.complete)
-        {
-          fmt::print("{}: this run is complete\n", options.resume->string());
-          return 0;
-        }
-      return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
-    }
-
-  const Input input = read_input(options.input);
-  check(input, options.input);
-  const OutputFolder folder(options.output, options.input, options.force);
-  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
-  try
-    {
-      write_run_record("lab", options.input, folder.path());
-    }
-  catch (const OutputError&)
-    {
-      remove_run(folder.path());
-      throw;
-    }
-  try
-    {
-      return run_or_say_how_to_resume(folder.path(), input, options.input);
-    }
-  catch (const InputError&)
-    {
-      remove_run(folder.path()); // a mistake leaves nothing
-      throw;
-    }
+  const RunCommand lab{"lab", check,
+                       [](const Run& run) { return run.input.specimen.dimension == 2 ? go<2>(run) : go<3>(run); }};
+  return run_command(lab, options);
 }
 } // namespace feldspar

@@ -2,11 +2,10 @@
 #include "app/commands/report_command.h"
 #include "app/commands/volume_extract.h"
 #include "app/input/input.h"
+#include "app/input/parameter_table.h"
 #include "app/run/interrupt.h"
 #include "app/run/multiscale_run.h"
-#include "app/run/output_folder.h"
 #include "app/run/provenance.h"
-#include "app/run/run_record.h"
 #include "app/run/specimen_source.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
@@ -84,13 +83,14 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (!input.reference_file.empty())
     read_reference(input.reference_file);
 
-  if (input.tests.lateral_boundary == LateralBoundary::membrane)
-    refuse(
-      "Tests/Lateral boundary = membrane: goes round grains; on the sides of a sample of finite elements a pressure is "
-      "one already");
-  if (input.tests.intermediate_stress)
-    refuse(
-      "Tests/Intermediate stress: presses on a box of grains; a sample of finite elements has one lateral pressure");
+  try
+    {
+      check_body(input, Body::sample);
+    }
+  catch (const InputError& error)
+    {
+      refuse(error.what());
+    }
   if (!has_grains && input.sample.weak_seed != WeakSeed::none)
     refuse("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
   if (!has_grains && !input.tests.stop_strain)
@@ -150,17 +150,11 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
                       unsigned(std::ceil(size.height / (volume * sample.order))))};
 }
 
-void say_how_to_resume(const std::filesystem::path& folder)
-{
-  fmt::print(stderr, "feldspar: interrupted; go on with: feldspar multiscale --resume {}\n", folder.string());
-}
-
 /// Volumes, tests and report of a run in its folder, from wherever it stands.
-int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
-           const bool quiet, std::vector<std::string> remarks)
+RunEnd go(const Run& run, std::vector<std::string> remarks)
 {
+  const auto& [folder, input_file, input, quiet] = run;
   Progress progress(quiet || !ranks::is_first());
-  watch_for_interrupt();
 
   // Make the rock.
   const auto rocks = make_rocks(input, input_file, folder, progress);
@@ -183,7 +177,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
       if (ranks::any(interrupted()))
         break;
       std::string last;
-      tests.push_back(run(one, input, folder, [&](const std::string& text) {
+      tests.push_back(run_test(one, input, folder, [&](const std::string& text) {
         const bool is_row = text.starts_with(':');
         if (is_row)
           last = text;
@@ -216,93 +210,29 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
     if (!quiet)
       fmt::print("\n{}\n", text);
     fmt::print("{}\n", folder.string());
-    if (was_interrupted)
-      say_how_to_resume(folder);
-    else
-      mark_complete(folder);
-    if (!was_interrupted && failed != tests.end())
-      fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
   });
-  if (was_interrupted)
-    return exit_code::interrupted;
-  return failed == tests.end() ? 0 : exit_code::user_error;
+  return {was_interrupted, failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }
-} // namespace
 
-namespace
-{
 int run_on_all_ranks(const CommonOptions& options)
 {
-  if (options.input.empty() && !options.resume)
-    throw InputError("multiscale needs an INPUT, or --resume with the folder of a run; see feldspar multiscale --help");
   if (options.extract)
     {
       if (ranks::number() > 1)
         throw InputError("--extract is the work of one process; start it without mpirun");
       return extract_volume(options.input, *options.extract, options.quiet);
     }
-  const auto run_or_say_how_to_resume = [&](const auto& folder, const Input& input, const auto& input_file) {
-    const auto remarks = check(input, input_file);
-    if (ranks::is_first())
-      for (const auto& remark : remarks)
-        fmt::print(stderr, "feldspar: {}: {}\n", input_file.string(), remark);
-    try
-      {
-        return run_in(folder, input, input_file, options.quiet, remarks);
-      }
-    catch (const Interrupted&)
-      {
-        if (ranks::is_first())
-          say_how_to_resume(folder);
-        return exit_code::interrupted;
-      }
-    catch (const OutputError& error)
-      {
-        throw OutputError(
-          fmt::format("{}; once it can, go on with: feldspar multiscale --resume {}", error.what(), folder.string()));
-      }
-  };
-  if (options.resume)
-    {
-      const RunRecord run = read_run_record("multiscale", *options.resume);
-      if (run.complete)
-        {
-          if (ranks::is_first())
-            fmt::print("{}: this run is complete\n", options.resume->string());
-          return 0;
-        }
-      return run_or_say_how_to_resume(*options.resume, run.input, run.input_file);
-    }
-
-  const Input input = read_input(options.input);
-  check(input, options.input);
-  // The first rank makes the folder and begins the record of the run; the others learn its name.
-  std::optional<OutputFolder> made;
-  std::filesystem::path folder;
-  ranks::first([&] {
-    made.emplace(options.output, options.input, options.force);
-    folder = made->path();
-    remove_run(folder); // with --force: what an earlier run left would be taken for this one's
-    try
-      {
-        write_run_record("multiscale", options.input, folder);
-      }
-    catch (const OutputError&)
-      {
-        remove_run(folder);
-        throw;
-      }
-  });
-  folder = ranks::of_first(folder.string());
-  try
-    {
-      return run_or_say_how_to_resume(folder, input, options.input);
-    }
-  catch (const InputError&)
-    {
-      ranks::first([&] { remove_run(folder); }); // a mistake leaves nothing
-      throw;
-    }
+  std::vector<std::string> remarks;
+  const RunCommand multiscale{"multiscale",
+                              [&](const Input& input, const std::filesystem::path& file) {
+                                remarks = check(input, file);
+                                if (ranks::is_first())
+                                  for (const auto& remark : remarks)
+                                    fmt::print(stderr, "feldspar: {}: {}\n", file.string(), remark);
+                              },
+                              [&](const Run& run) { return go(run, remarks); },
+                              {ranks::is_first(), ranks::first, ranks::of_first}};
+  return run_command(multiscale, options);
 }
 } // namespace
 

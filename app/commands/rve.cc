@@ -1,9 +1,9 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
 #include "app/input/strain_path.h"
+#include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
-#include "app/run/output_folder.h"
 #include "app/run/progress.h"
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
@@ -26,7 +26,6 @@ namespace feldspar
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds time_between_checkpoints{20};
 
 double seconds_since(const Clock::time_point start)
 {
@@ -78,33 +77,21 @@ std::string describe(const std::string& name, const PathSample<dim>& sample)
 template <int dim>
 using Listener = std::function<void(double progress, const PathSample<dim>& sample)>;
 
-/// A path from its checkpoint, if there is one, to its end or to Ctrl-C. `begin` makes the run at the start of its path.
+/// A path from its last checkpoint, if there is one, to its end or to Ctrl-C. `begin` makes the run at the start of its
+/// path.
 template <typename Begin, typename Show>
-auto go_path(const Begin& begin, const std::filesystem::path& checkpoint, const std::string& identity, const Show& show)
+auto go_path(const Begin& begin, const Checkpoints& checkpoints, const Show& show)
 {
-  auto run = begin();
-  if (std::filesystem::exists(checkpoint))
-    try
-      {
-        run.read_checkpoint(checkpoint, identity);
-      }
-    catch (const InputError& error)
-      {
-        fmt::print(stderr, "feldspar: {}; going back to the start of its path\n", error.what());
-        run = begin();
-      }
-  auto last_checkpoint = Clock::now();
+  auto run = checkpoints.open(begin);
+  CheckpointClock clock;
   while (!run.has_ended() && !interrupted())
     {
       run.advance();
       show(run.progress(), run.record().samples.back());
-      if (Clock::now() - last_checkpoint > time_between_checkpoints)
-        {
-          run.write_checkpoint(checkpoint, identity);
-          last_checkpoint = Clock::now();
-        }
+      if (clock.is_due())
+        clock.time([&] { checkpoints.write(run); });
     }
-  run.write_checkpoint(checkpoint, identity);
+  checkpoints.write(run);
   return run;
 }
 
@@ -117,8 +104,7 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
   const Input& input = variant.input;
   const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
   const auto legs = path_legs<dim>(input.strain_path);
-  const auto checkpoint = folder / "checkpoints" / (name + ".h5");
-  const std::string identity = run_identity(input, name);
+  const Checkpoints checkpoints(folder / "checkpoints", name, run_identity(input, name));
   const auto finish = [&](const auto& run) -> FinishedVolume<dim> {
     return {name,    variant.label, specimen.seed, specimen.report,
             network, run.record(),  run.state(),   seconds_since(started)};
@@ -138,21 +124,20 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
                                  .steps_per_millistrain = input.strain_path.steps_per_millistrain,
                                  .dynamics = input.dynamics});
       },
-      checkpoint, identity, show));
+      checkpoints, show));
   return finish(go_path(
     [&] {
       return PathRun<dim>(network, legs,
                           {.largest_step = input.strain_path.largest_step, .equilibrium = input.equilibrium}, start);
     },
-    checkpoint, identity, show));
+    checkpoints, show));
 }
 
 template <int dim>
-int run_in(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
-           const bool quiet)
+RunEnd go(const Run& run)
 {
+  const auto& [folder, input_file, input, quiet] = run;
   Progress progress(quiet);
-  watch_for_interrupt();
 
   // Make the rock.
   const auto all_variants = variants(input);
@@ -166,13 +151,13 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
 
   // Strain it.
   std::filesystem::create_directories(folder / "checkpoints");
-  struct Run
+  struct PlannedPath
   {
     std::size_t variant;
     std::size_t specimen;
     std::string name;
   };
-  std::vector<Run> runs;
+  std::vector<PlannedPath> runs;
   for (std::size_t v = 0; v < all_variants.size(); ++v)
     for (std::size_t s = 0; s < orders.size(); ++s)
       if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
@@ -191,6 +176,7 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   progress.finish(fmt::format("{} volume(s)", volumes.size()));
 
   // Report.
+  const bool was_interrupted = interrupted();
   write_results(provenance(input, input_file), volumes, folder);
   std::string text;
   for (const auto& volume : volumes)
@@ -199,19 +185,9 @@ int run_in(const std::filesystem::path& folder, const Input& input, const std::f
   if (!quiet)
     fmt::print("\n{}", text);
   fmt::print("{}\n", folder.string());
-  if (interrupted())
-    {
-      fmt::print(stderr, "feldspar: interrupted; go on with: feldspar rve --resume {}\n", folder.string());
-      return exit_code::interrupted;
-    }
-  std::filesystem::remove_all(folder / "checkpoints");
-  mark_complete(folder);
   const auto failed = std::find_if(volumes.begin(), volumes.end(),
                                    [](const FinishedVolume<dim>& volume) { return !volume.record.failure.empty(); });
-  if (failed == volumes.end())
-    return 0;
-  fmt::print(stderr, "feldspar: {}: {}\n", failed->name, failed->record.failure);
-  return exit_code::user_error;
+  return {was_interrupted, failed == volumes.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }
 
 /// What can be told before any work.
@@ -237,47 +213,12 @@ void check(const Input& input, const std::filesystem::path& file)
     else
       path_legs<3>(variant.input.strain_path);
 }
-
-int run_in_dimension(const std::filesystem::path& folder, const Input& input, const std::filesystem::path& input_file,
-                     const bool quiet)
-{
-  return input.specimen.dimension == 2 ? run_in<2>(folder, input, input_file, quiet)
-                                       : run_in<3>(folder, input, input_file, quiet);
-}
 } // namespace
 
 int run_rve(const CommonOptions& options)
 {
-  if (options.input.empty() && !options.resume)
-    throw InputError("rve needs an INPUT, or --resume with the folder of a run; see feldspar rve --help");
-  if (options.resume)
-    {
-      const RunRecord run = read_run_record("rve", *options.resume);
-      if (run.complete)
-        {
-          fmt::print("{}: this run is complete\n", options.resume->string());
-          return 0;
-        }
-      return run_in_dimension(*options.resume, run.input, run.input_file, options.quiet);
-    }
-  const Input input = read_input(options.input);
-  check(input, options.input);
-  const OutputFolder folder(options.output, options.input, options.force);
-  remove_run(folder.path()); // with --force: what an earlier run left would be taken for this one's
-  write_run_record("rve", options.input, folder.path());
-  try
-    {
-      return run_in_dimension(folder.path(), input, options.input, options.quiet);
-    }
-  catch (const InputError&)
-    {
-      remove_run(folder.path()); // a mistake leaves nothing
-      throw;
-    }
-  catch (const Interrupted&)
-    {
-      remove_run(folder.path());
-      throw;
-    }
+  const RunCommand rve{"rve", [](const Input& input, const std::filesystem::path& file) { check(input, file); },
+                       [](const Run& run) { return run.input.specimen.dimension == 2 ? go<2>(run) : go<3>(run); }};
+  return run_command(rve, options);
 }
 } // namespace feldspar

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
+#include <vector>
 
 namespace feldspar
 {
@@ -24,7 +26,18 @@ int make_specimens(const CommonOptions& options, const Input& input)
   const auto orders = specimen_orders(all_variants);
   for (const SpecimenOrder& order : orders) // with --force: one that lies there already is another input's
     std::filesystem::remove(folder.path() / (order.name + ".h5"));
-  const auto specimens = provide_specimens<dim>(all_variants, orders, folder.path(), progress);
+  std::vector<Specimen<dim>> specimens;
+  try
+    {
+      specimens = provide_specimens<dim>(all_variants, orders, folder.path(), progress);
+    }
+  catch (const Interrupted&)
+    {
+      if (std::filesystem::is_empty(folder.path()))
+        throw;
+      fmt::print(stderr, "feldspar: interrupted; the finished specimens are kept in {}\n", folder.path().string());
+      return exit_code::interrupted;
+    }
   for (std::size_t k = 0; k < orders.size(); ++k)
     {
       if (!options.quiet)

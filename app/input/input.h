@@ -78,6 +78,9 @@ struct Variant
 /// folder: what relative paths in it are relative to; its own folder if empty.
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {});
 
+/// How many grains genesis will pack.
+double expected_grains(const SpecimenParameters& specimen);
+
 /// One for each value of the variants' entry, or the input itself.
 std::vector<Variant> variants(const Input& input);
 } // namespace feldspar

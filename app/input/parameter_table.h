@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
+#include "base/entries.h"
 
 #include <functional>
 #include <string>
@@ -17,6 +18,7 @@ struct Parameter
   std::string unit; ///< in which it is shown; any other of its dimension may be written
   std::string range;
   std::string_view meaning;
+  EntryFlags flags;
   std::function<void(Input&, std::string_view)> read; ///< throws InputError, which says what is allowed
   std::function<std::string(const Input&)> write;     ///< as it would stand in an input file
   std::string name() const;                           ///< Section/Entry
@@ -34,4 +36,7 @@ std::vector<std::string_view> entry_names(std::string_view section);
 
 /// Null if there is none of that name.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
+
+/// Refuses entries that have no use on this body, unless they keep their defaults. Throws InputError.
+void check_body(const Input& input, Body body);
 } // namespace feldspar

@@ -1,17 +1,16 @@
 #include "app/input/quantity.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 
 #include <fmt/format.h>
 #include <udunits2.h>
 
 #include <array>
-#include <charconv>
 #include <clocale>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <system_error>
 
 namespace feldspar
 {
@@ -31,35 +30,6 @@ std::size_t count_digits(const std::string_view text)
   while (n < text.size() && is_digit(text[n]))
     ++n;
   return n;
-}
-
-/// Whether all of the text is [sign] digits [. digits] [e [sign] digits].
-bool is_decimal_number(std::string_view text)
-{
-  const auto skip_one_of = [&](const std::string_view characters) {
-    const bool found = !text.empty() && characters.find(text.front()) != std::string_view::npos;
-    text.remove_prefix(found);
-    return found;
-  };
-  const auto skip_digits = [&] {
-    const std::size_t n = count_digits(text);
-    text.remove_prefix(n);
-    return n;
-  };
-
-  skip_one_of("+-");
-  std::size_t n_digits = skip_digits();
-  if (skip_one_of("."))
-    n_digits += skip_digits();
-  if (n_digits == 0)
-    return false;
-  if (skip_one_of("eE"))
-    {
-      skip_one_of("+-");
-      if (skip_digits() == 0)
-        return false;
-    }
-  return text.empty();
 }
 
 /// Whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one too.
@@ -91,16 +61,6 @@ bool is_unit_expression(std::string_view text)
         return false;
       text.remove_prefix(1);
     }
-}
-
-double convert_number(const std::string_view text)
-{
-  double value = 0.0;
-  const std::string_view unsigned_text = text.substr(text.starts_with('+')); // from_chars knows no plus
-  const auto end = unsigned_text.data() + unsigned_text.size();
-  if (std::from_chars(unsigned_text.data(), end, value).ec == std::errc::result_out_of_range)
-    throw InputError(fmt::format("\"{}\" is beyond the range of numbers", text));
-  return value;
 }
 
 struct Free
@@ -191,35 +151,14 @@ std::size_t find_space(const std::string_view text, const Dimension& dimension)
   if (text.empty() || (space == std::string_view::npos && is_known_unit(text)))
     throw InputError(fmt::format("a number is missing; {}", advice(dimension)));
   if (!is_decimal_number(number))
-    throw InputError(fmt::format("\"{}\" is not a decimal number; {}", number, advice(dimension)));
+    throw InputError(fmt::format("{} is not a decimal number; {}", in_quotes(number), advice(dimension)));
   if (space == std::string_view::npos)
     throw InputError(fmt::format("a unit is missing; {}", advice(dimension)));
   if (!is_unit_expression(text.substr(space + 1)))
-    throw InputError(fmt::format("\"{}\" is not one unit; {}", text.substr(space + 1), advice(dimension)));
+    throw InputError(fmt::format("{} is not one unit; {}", in_quotes(text.substr(space + 1)), advice(dimension)));
   return space;
 }
 } // namespace
-
-std::string_view trim(const std::string_view text)
-{
-  constexpr std::string_view white = " \t\r\n\v\f";
-  const std::size_t first = text.find_first_not_of(white);
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(white) + 1 - first);
-}
-
-std::vector<std::string_view> split_at_commas(std::string_view text)
-{
-  std::vector<std::string_view> pieces;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(','))
-    {
-      pieces.push_back(trim(text.substr(0, comma)));
-      text.remove_prefix(comma + 1);
-    }
-  pieces.push_back(trim(text));
-  return pieces;
-}
 
 double to_si(const double value, const std::string_view unit, const Dimension& dimension)
 {
@@ -227,24 +166,17 @@ double to_si(const double value, const std::string_view unit, const Dimension& d
   const Owner<ut_unit> from = parse_unit(unit);
   const Owner<ut_unit> si = parse_unit(dimension.si_unit);
   if (!from)
-    throw InputError(fmt::format("\"{}\" is not a known unit; {}", unit, advice(dimension)));
+    throw InputError(fmt::format("{} is not a known unit; {}", in_quotes(unit), advice(dimension)));
   if (!are_of_one_dimension(from.get(), si.get()))
-    throw InputError(fmt::format("\"{}\" is not the unit of {}; {}", unit, dimension.name, advice(dimension)));
+    throw InputError(fmt::format("{} is not the unit of {}; {}", in_quotes(unit), dimension.name, advice(dimension)));
   const Owner<cv_converter> converter(ut_get_converter(from.get(), si.get()));
   return cv_convert_double(converter.get(), value);
-}
-
-double parse_number(const std::string_view text)
-{
-  if (!is_decimal_number(text))
-    throw InputError(text.empty() ? "a number is missing" : fmt::format("\"{}\" is not a decimal number", text));
-  return convert_number(text);
 }
 
 double parse_quantity(const std::string_view text, const Dimension& dimension)
 {
   const std::size_t space = find_space(text, dimension);
-  return to_si(convert_number(text.substr(0, space)), text.substr(space + 1), dimension);
+  return to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension);
 }
 
 std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
@@ -258,7 +190,7 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
   for (const std::string_view number : numbers)
     {
       if (number.find(' ') != std::string_view::npos)
-        throw InputError(fmt::format("\"{}\": the unit stands once, after the last number", number));
+        throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(number)));
       values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
     }
   return values;

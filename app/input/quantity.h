@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/text.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +24,6 @@ inline constexpr Dimension angle{"an angle", "rad", "10 deg"};
 inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
 
-/// One decimal number without a unit; `nan` and `inf` are none.
-double parse_number(std::string_view text);
-
 /// One number, one space and one unit expression; returned in SI.
 double parse_quantity(std::string_view text, const Dimension& dimension);
 
@@ -39,10 +38,4 @@ std::string format_quantity(double si_value, std::string_view unit, const Dimens
 
 /// A number as `0.5`, to 15 digits.
 std::string format_number(double value);
-
-/// Without the white space at both ends.
-std::string_view trim(std::string_view text);
-
-/// The pieces between commas, trimmed.
-std::vector<std::string_view> split_at_commas(std::string_view text);
 } // namespace feldspar

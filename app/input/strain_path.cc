@@ -1,8 +1,9 @@
 #include "app/input/strain_path.h"
 
-#include "app/input/csv.h"
-#include "app/input/quantity.h"
+#include "base/csv.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -50,9 +51,8 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
 
 /// Which columns are stresses. Each component has one column, in the order of Voigt.
 template <int dim>
-std::array<bool, n_voigt<dim>> read_header(const std::string& file, std::string& header)
+std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std::string& header)
 {
-  header = read_csv_header(file);
   const auto columns = split_at_commas(header);
   std::string strains, names;
   for (int k = 0; k < n_voigt<dim>; ++k)
@@ -75,33 +75,36 @@ std::array<bool, n_voigt<dim>> read_header(const std::string& file, std::string&
       good = good && (is_stress[k] || columns[k] == strain_column);
     }
   if (!good)
-    throw InputError(fmt::format("{}:1: the header is \"{}\"; it must be \"{}\", or stress_.._Pa in place of strain_.. "
+    throw InputError(fmt::format("{}:1: the header is {}; it must be \"{}\", or stress_.._Pa in place of strain_.. "
                                  "for some of {}",
-                                 file, header.substr(0, 200), strains, names));
+                                 file, in_quotes(header), strains, names));
   return is_stress;
 }
 
 template <int dim>
 std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
 {
-  std::string header;
+  CsvReader table(file);
   Control<dim> control;
-  control.stress_given = read_header<dim>(file, header);
+  control.stress_given = stress_columns<dim>(file, table.header());
   std::vector<PathLeg<dim>> legs;
-  for (const std::vector<double>& row : read_csv(file, header))
+  while (table.next())
     {
       for (int k = 0; k < n_voigt<dim>; ++k)
         {
-          if (!control.stress_given[k] && std::abs(row[k]) > largest_strain)
+          const double value = table.number(std::size_t(k));
+          if (!control.stress_given[k] && std::abs(value) > largest_strain)
             throw InputError(
               fmt::format("{}: point {}: strain_{} = {}: must lie in [-{}, {}]; the volume is one of small "
                           "strains",
-                          file, legs.size() + 1, voigt_name<dim>(k), row[k], largest_strain, largest_strain));
+                          file, legs.size() + 1, voigt_name<dim>(k), value, largest_strain, largest_strain));
           (control.stress_given[k] ? control.stress[k] : control.strain[k]) =
-            control.stress_given[k] ? row[k] : engineering<dim>(k) * row[k];
+            control.stress_given[k] ? value : engineering<dim>(k) * value;
         }
       legs.push_back({control, false});
     }
+  if (legs.empty())
+    throw InputError(fmt::format("{}: there is no row below the header", file));
   return legs;
 }
 } // namespace

@@ -26,4 +26,10 @@ void watch_for_interrupt()
 }
 
 bool interrupted() { return was_interrupted; }
+
+void end_if_interrupted()
+{
+  if (was_interrupted)
+    throw Interrupted();
+}
 } // namespace feldspar

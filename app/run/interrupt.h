@@ -1,11 +1,22 @@
 #pragma once
 
+#include <exception>
+
 namespace feldspar
 {
+/// The end of work that was asked to end and has nothing to hand over.
+struct Interrupted : std::exception
+{
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
 /// From now on the first Ctrl-C, SIGTERM or SIGUSR1 (which mpirun passes on without ending the run itself) only asks the
 /// run to end; the second ends it at once.
 void watch_for_interrupt();
 
 /// Whether the run was asked to end.
 bool interrupted();
+
+/// Throws Interrupted where the run was asked to end.
+void end_if_interrupted();
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "app/run/lab_run.h"
 
+#include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
@@ -140,58 +141,6 @@ private:
   std::size_t n_finished = 0;
 };
 
-/// The two last checkpoints of a test.
-template <int dim>
-class Checkpoints
-{
-public:
-  Checkpoints(const std::filesystem::path& folder, const PlannedTest<dim>& of_test)
-    : planned(of_test)
-    , newest(folder / (of_test.name + ".h5"))
-    , one_before(folder / (of_test.name + ".previous.h5"))
-  {
-  }
-
-  void write(LabTest<dim>& test) const
-  {
-    if (std::filesystem::exists(newest))
-      std::filesystem::rename(newest, one_before);
-    test.write_checkpoint(newest, planned.identity);
-  }
-
-  /// The test as its last good checkpoint has it, else from the start.
-  LabTest<dim> open() const
-  {
-    for (const auto& file : {newest, one_before})
-      if (std::filesystem::exists(file))
-        try
-          {
-            LabTest<dim> test = from_the_start();
-            test.read_checkpoint(file, planned.identity);
-            return test;
-          }
-        catch (const InputError& error)
-          {
-            fmt::print(stderr, "feldspar: {}; going back to {}\n", error.what(),
-                       file == newest && std::filesystem::exists(one_before) ? "the one before it"
-                                                                             : "the start of this test");
-          }
-    return from_the_start();
-  }
-
-private:
-  LabTest<dim> from_the_start() const
-  {
-    const Input& input = planned.variant->input;
-    return LabTest<dim>({protocol_of(planned.test.kind), planned.test.confining_pressure}, *planned.specimen,
-                        input.tests, input.dynamics);
-  }
-
-  const PlannedTest<dim>& planned;
-  std::filesystem::path newest;
-  std::filesystem::path one_before;
-};
-
 /// Of a test that could not be made.
 template <int dim>
 TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
@@ -211,19 +160,25 @@ TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
 
 /// Runs a test from where it stands to its end or to Ctrl-C.
 template <int dim>
-TestOutcome run(const PlannedTest<dim>& planned, const Checkpoints<dim>& checkpoints,
+TestOutcome run(const PlannedTest<dim>& planned, const std::filesystem::path& checkpoint_folder,
                 const std::function<void(const CurveSample&)>& show)
 {
-  LabTest<dim> test = checkpoints.open();
-  const std::uint64_t interval = planned.variant->input.steps_between_checkpoints;
+  const Input& input = planned.variant->input;
+  const Checkpoints checkpoints(checkpoint_folder, planned.name, planned.identity);
+  LabTest<dim> test = checkpoints.open([&] {
+    return LabTest<dim>({protocol_of(planned.test.kind), planned.test.confining_pressure}, *planned.specimen,
+                        input.tests, input.dynamics);
+  });
+  CheckpointClock clock;
+  const std::uint64_t interval = input.steps_between_checkpoints;
   std::uint64_t next_checkpoint = test.n_steps() + interval;
   while (!test.has_ended() && !interrupted())
     {
       test.advance();
       show(test.last_row());
-      if (test.has_ended() || test.n_steps() >= next_checkpoint || interrupted())
+      if (test.has_ended() || test.n_steps() >= next_checkpoint || clock.is_due() || interrupted())
         {
-          checkpoints.write(test);
+          clock.time([&] { checkpoints.write(test); });
           next_checkpoint = test.n_steps() + interval;
         }
     }
@@ -250,8 +205,7 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     TestOutcome outcome;
     try
       {
-        outcome = run(planned[k], Checkpoints<dim>(checkpoint_folder, planned[k]),
-                      [&](const CurveSample& row) { board.update(k, row); });
+        outcome = run(planned[k], checkpoint_folder, [&](const CurveSample& row) { board.update(k, row); });
       }
     catch (const InputError& error)
       {

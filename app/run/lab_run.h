@@ -12,7 +12,7 @@
 namespace feldspar
 {
 /// Runs the whole programme of an input on its specimens, as many tests at a time as there are threads, longest first.
-/// Each leaves a checkpoint in `folder`/checkpoints every so many steps, by which a later call takes it up; a test that
+/// Each leaves its last two checkpoints in `folder`/checkpoints, by which a later call takes it up; a test that
 /// has ended is not run again. After Ctrl-C comes what is there. Results stand in the order of variants, seeds, tests.
 template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,

@@ -1,8 +1,9 @@
 #include "app/run/laboratory_curve.h"
 
-#include "app/input/csv.h"
 #include "app/input/quantity.h"
+#include "base/csv.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/plot_style.h"
 
@@ -59,7 +60,7 @@ std::array<Place, quantities.size()> places_of(const std::string& header, const 
       if (quantity == quantities.end())
         continue; // a column more does no harm
       if (bracket == column.size() || !column.ends_with(']'))
-        throw refuse(fmt::format("\"{}\" has no unit in square brackets", column));
+        throw refuse(fmt::format("{} has no unit in square brackets", in_quotes(column)));
       const std::string_view unit = trim(column.substr(bracket + 1, column.size() - bracket - 2));
       const bool is_plain = quantity->dimension == &strain && (unit == "-" || unit == "1");
       auto& place = found[std::size_t(quantity - quantities.begin())];
@@ -71,7 +72,7 @@ std::array<Place, quantities.size()> places_of(const std::string& header, const 
         }
       catch (const InputError& error)
         {
-          throw refuse(fmt::format("\"{}\": {}", column, error.what()));
+          throw refuse(fmt::format("{}: {}", in_quotes(column), error.what()));
         }
     }
   std::array<Place, quantities.size()> places{};
@@ -101,17 +102,16 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
 
 Series read_laboratory_curve(const std::filesystem::path& file)
 {
-  const std::string header = read_csv_header(file);
-  const auto places = places_of(header, file);
-  const auto rows = read_csv(file, header);
+  CsvReader table(file);
+  const auto places = places_of(table.header(), file);
 
   FinishedTest test;
   const std::string name = plot::file_name(file.stem().string());
   test.name = test.group = name.empty() ? "measured" : name;
   std::vector<double> pressures;
-  for (const auto& row : rows)
+  while (table.next())
     {
-      const auto value = [&](const std::size_t q) { return places[q].unit * row[places[q].column]; };
+      const auto value = [&](const std::size_t q) { return places[q].unit * table.number(places[q].column); };
       CurveSample sample; // tension positive
       sample.step = test.record.curve.size();
       sample.axial_strain = sample.gauge_axial_strain = -value(0);
@@ -122,6 +122,8 @@ Series read_laboratory_curve(const std::filesystem::path& file)
       pressures.push_back(value(3));
       test.record.curve.push_back(sample);
     }
+  if (pressures.empty())
+    throw InputError(fmt::format("{}: there is no row below the header", file.string()));
   test.record.confining_pressure = steady_pressure(pressures, file);
   test.record.kind = test.record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
   const auto peak = peak_row(test.record);

@@ -1,5 +1,6 @@
 #include "app/run/multiscale_run.h"
 
+#include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/point_volumes.h"
 #include "app/run/run_record.h"
@@ -14,15 +15,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 namespace feldspar
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
 std::vector<std::uint64_t> packing_seeds(const Input& input)
 {
   std::vector<std::uint64_t> seeds;
@@ -44,36 +42,6 @@ SampleTest from_the_start(const PlannedSample& planned, const Input& input)
     planned.rock->packings);
 }
 
-/// Writes the state of a test as often as costs no more than a fiftieth of the time.
-class StateWriter
-{
-public:
-  StateWriter(std::filesystem::path its_folder, std::string its_identity)
-    : folder(std::move(its_folder))
-    , identity(std::move(its_identity))
-  {
-  }
-
-  void step_done(const SampleTest& test)
-  {
-    if (ranks::any(ranks::is_first() && Clock::now() - last_write >= 50 * cost))
-      write(test);
-  }
-
-  void write(const SampleTest& test)
-  {
-    const auto begin = Clock::now();
-    test.write_state(folder, identity);
-    last_write = Clock::now();
-    cost = last_write - begin;
-  }
-
-private:
-  std::filesystem::path folder;
-  std::string identity;
-  Clock::time_point last_write;
-  Clock::duration cost{0};
-};
 template <int dim>
 std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& input_file,
                              const std::filesystem::path& folder, Progress& progress)
@@ -223,11 +191,14 @@ SampleTest open(const PlannedSample& planned, const Input& input, const std::fil
   return from_the_start(planned, input);
 }
 
-FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
-                 const std::function<void(const std::string&)>& show)
+FinishedTest run_test(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
+                      const std::function<void(const std::string&)>& show)
 {
   SampleTest test = open(planned, input, folder);
-  StateWriter state(state_folder(folder, planned), planned.identity);
+  CheckpointClock clock;
+  const auto write_state = [&] {
+    clock.time([&] { test.write_state(state_folder(folder, planned), planned.identity); });
+  };
   const double sign = planned.test.kind.sign;
   const double strain_between_fields = planned.test.kind.sign > 0.0 ? 2.5e-5 : 2.5e-4;
   const auto draw = [&](const SampleStanding& standing) {
@@ -243,7 +214,10 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
     {
       while (!test.has_ended())
         {
-          test.advance(draw, [&] { state.step_done(test); });
+          test.advance(draw, [&] {
+            if (ranks::any(ranks::is_first() && clock.is_due()))
+              write_state();
+          });
           const CurveSample& row = test.last_row();
           const SampleStanding standing = test.standing();
           show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
@@ -253,13 +227,13 @@ FinishedTest run(const PlannedSample& planned, const Input& input, const std::fi
           if (sign * row.axial_strain >= double(test.n_fields_written()) * strain_between_fields || test.has_ended())
             test.write_fields(folder / "fields", planned.name);
           if (test.has_ended())
-            state.write(test);
+            write_state();
         }
     }
   catch (const Interrupted&)
     {
       was_interrupted = true;
-      state.write(test);
+      write_state();
     }
   catch (const InputError& error) // a confinement it cannot bear; other tests may
     {

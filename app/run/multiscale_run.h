@@ -74,6 +74,6 @@ std::filesystem::path state_folder(const std::filesystem::path& folder, const Pl
 SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder);
 
 /// Runs a test to its end, or to Ctrl-C. `show` gets ": …" for every row and ", …" within one.
-FinishedTest run(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
-                 const std::function<void(const std::string&)>& show);
+FinishedTest run_test(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
+                      const std::function<void(const std::string&)>& show);
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "app/input/parameter_table.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
+#include "app/run/memory.h"
 #include "base/input_error.h"
 #include "dem/genesis/genesis.h"
 #include "dem/specimen/specimen_file.h"
@@ -16,12 +17,12 @@ namespace feldspar
 {
 namespace
 {
-/// The entries that genesis reads, and what they say.
+/// The entries that genesis reads, and their values.
 std::string rock(const Input& input)
 {
   std::string text;
   for (const Parameter& parameter : parameter_table())
-    if (parameter.section == "Specimen" || parameter.section == "Flat joint" || parameter.section == "Particle contact")
+    if (parameter.flags.of_specimen)
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
 }
@@ -63,14 +64,14 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
                                              const std::vector<SpecimenOrder>& orders,
                                              const std::filesystem::path& folder, Progress& progress)
 {
+  check_memory(variants, orders);
   std::vector<Specimen<dim>> specimens(orders.size());
   std::vector<double> done(orders.size(), 0.0);
   std::mutex showing;
   progress.start("genesis");
   for_each_job(orders.size(), [&](const std::size_t k) {
     const auto monitor = [&](std::string_view, const double fraction) {
-      if (interrupted())
-        throw Interrupted();
+      end_if_interrupted();
       const std::lock_guard lock(showing);
       done[k] = fraction;
       double sum = 0.0;
@@ -81,14 +82,19 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
     const Input& input = variants[orders[k].variants.front()].input;
     const auto file = folder / (orders[k].name + ".h5");
     if (std::filesystem::exists(file))
-      {
-        specimens[k] = read_specimen<dim>(file);
-        return;
-      }
-    specimens[k] =
-      input.specimen.specimen_file.empty()
-        ? make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, orders[k].seed, monitor)
-        : read_specimen<dim>(input.specimen.specimen_file);
+      try
+        {
+          specimens[k] = read_specimen<dim>(file);
+          return;
+        }
+      catch (const InputError& error)
+        {
+          fmt::print(stderr, "feldspar: {}; making it anew\n", error.what());
+        }
+    specimens[k] = input.specimen.specimen_file.empty()
+                     ? make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, orders[k].seed,
+                                          monitor, end_if_interrupted)
+                     : read_specimen<dim>(input.specimen.specimen_file);
     write_specimen(specimens[k], file);
   });
   progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));

@@ -4,19 +4,12 @@
 #include "app/run/progress.h"
 #include "dem/specimen/specimen.h"
 
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace feldspar
 {
-/// Ctrl-C where there is nothing yet to be kept.
-struct Interrupted : std::exception
-{
-  const char* what() const noexcept override { return "interrupted"; }
-};
-
 /// A specimen of a run.
 struct SpecimenOrder
 {

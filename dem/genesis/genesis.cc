@@ -51,14 +51,18 @@ void scale_radii(Dynamics<dim>& dynamics, const double factor)
 
 /// Runs until the forces balance; the share of the mean contact force that does not.
 template <int dim>
-double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int most_steps)
+double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int most_steps,
+             const std::function<void()>& check)
 {
   constexpr unsigned int steps_between_looks = 50;
   double ratio = 1.0;
   for (unsigned int n = 0; n < most_steps && ratio > tolerance; n += steps_between_looks)
     {
       for (unsigned int k = 0; k < steps_between_looks; ++k)
-        dynamics.step();
+        {
+          check();
+          dynamics.step();
+        }
       ratio = dynamics.unbalanced_force_ratio();
     }
   return ratio;
@@ -66,7 +70,8 @@ double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int
 
 /// Grains thrown in at random, let calm down without friction, then scaled until the mean stress is reached.
 template <int dim>
-void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const GenesisMonitor& monitor)
+void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const GenesisMonitor& monitor,
+          const std::function<void()>& check)
 {
   const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
@@ -104,6 +109,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   constexpr unsigned int n_creeps = 300;
   for (unsigned int k = 0; k < n_creeps; ++k)
     {
+      check();
       dynamics.step();
       dynamics.specimen().grains.stop();
       dynamics.restart();
@@ -115,7 +121,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   double multiplier = 1.0;
   for (unsigned int k = 0;; ++k)
     {
-      const double ratio = relax(dynamics, equilibrium_tolerance, 4000);
+      const double ratio = relax(dynamics, equilibrium_tolerance, 4000, check);
       const double stress = -dynamics.mean_stress().trace() / dim;
       const double error = stress / target - 1.0;
       monitor("packing", std::exp(-3.0 * std::max(0.0, std::abs(error) - stress_tolerance)));
@@ -356,7 +362,7 @@ void install_joints(Specimen<dim>& specimen, const FlatJointParameters& wanted)
 template <int dim>
 Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointParameters& flat_joint,
                             const ParticleContactParameters& particle_contact, const std::uint64_t seed,
-                            const GenesisMonitor& monitor)
+                            const GenesisMonitor& monitor, const std::function<void()>& check)
 {
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
@@ -367,7 +373,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
   if (wanted.packing_file.empty())
-    pack(specimen, wanted, monitor);
+    pack(specimen, wanted, monitor, check);
   else
     specimen.grains = read_packing<dim>(wanted);
   sort_in_space(specimen.grains);
@@ -378,9 +384,11 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointPar
 }
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const FlatJointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&);
+                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
+                                      const std::function<void()>&);
 template Specimen<3> make_specimen<3>(const SpecimenParameters&, const FlatJointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&);
+                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
+                                      const std::function<void()>&);
 template void install_joints<2>(Specimen<2>&, const FlatJointParameters&);
 template void install_joints<3>(Specimen<3>&, const FlatJointParameters&);
 } // namespace feldspar

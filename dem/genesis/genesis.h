@@ -15,10 +15,12 @@ using GenesisMonitor = std::function<void(std::string_view stage, double fractio
 
 /// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs flat joints; docs/theory.md
 /// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
+/// `check` is called at every step of the packing and may throw to end it.
 template <int dim>
-Specimen<dim> make_specimen(const SpecimenParameters& wanted, const FlatJointParameters& flat_joint,
-                            const ParticleContactParameters& particle_contact, std::uint64_t seed,
-                            const GenesisMonitor& monitor);
+Specimen<dim> make_specimen(
+  const SpecimenParameters& wanted, const FlatJointParameters& flat_joint,
+  const ParticleContactParameters& particle_contact, std::uint64_t seed, const GenesisMonitor& monitor,
+  const std::function<void()>& check = [] {});
 
 /// Flat joints, stress free, between the grains of a specimen that has none; fills in its report.
 template <int dim>

@@ -413,7 +413,7 @@ std::vector<Picture> fragment_size_picture(const Series& series)
       std::vector<std::pair<double, double>> fragments;
       double all = 0.0;
       for (const auto* test : group.tests)
-        for (const auto& [number, diameter] : fragment_diameters(test->record))
+        for (const auto& [number, diameter] : fragment_diameters(*test))
           {
             const double of_fragment = std::pow(diameter, vertical(test->record) == 2 ? 3.0 : 2.0);
             fragments.emplace_back(diameter, of_fragment);

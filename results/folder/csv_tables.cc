@@ -1,16 +1,12 @@
 #include "results/folder/csv_tables.h"
 
-#include "base/input_error.h"
-#include "base/quoted.h"
+#include "base/csv.h"
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -148,88 +144,9 @@ void append_row(std::string& text, const std::vector<Column<Row>>& columns, cons
   text += '\n';
 }
 
-/// A table row by row, its cells by the names of their columns.
-class TableReader
-{
-public:
-  explicit TableReader(const std::filesystem::path& table)
-    : file(table)
-    , stream(table)
-  {
-    std::string header;
-    if (!stream || !std::getline(stream, header))
-      throw InputError(fmt::format("{}: missing or empty", file.string()));
-    std::size_t k = 0;
-    for (const auto name : cells_of(header))
-      places[std::string(name)] = k++;
-  }
-
-  std::size_t place(const std::string_view name) const
-  {
-    const auto found = places.find(std::string(name));
-    if (found == places.end())
-      throw InputError(fmt::format("{}:1: there is no column {}", file.string(), name));
-    return found->second;
-  }
-
-  bool has(const std::string_view name) const { return places.contains(std::string(name)); }
-
-  bool next()
-  {
-    if (!std::getline(stream, line))
-      return false;
-    ++number;
-    cells = cells_of(line);
-    if (cells.size() != places.size())
-      throw InputError(
-        fmt::format("{}:{}: there must be {} cells; found {}", file.string(), number, places.size(), cells.size()));
-    return true;
-  }
-
-  std::string_view text(const std::size_t k) const { return cells[k]; }
-
-  double whole_value(const std::size_t k, const double most) const
-  {
-    const double result = value(k);
-    if (!(result >= 0.0 && result <= most && result == std::floor(result)))
-      throw InputError(
-        fmt::format("{}:{}: {} is no count or number of something", file.string(), number, in_quotes(cells[k])));
-    return result;
-  }
-
-  double value(const std::size_t k) const
-  {
-    double result = 0.0;
-    const auto [end, error] = std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), result);
-    if (error != std::errc() || end != cells[k].data() + cells[k].size())
-      throw InputError(fmt::format("{}:{}: {} is no number", file.string(), number, in_quotes(cells[k])));
-    return result;
-  }
-
-private:
-  static std::vector<std::string_view> cells_of(const std::string_view line)
-  {
-    std::vector<std::string_view> found;
-    for (std::size_t begin = 0; begin <= line.size();)
-      {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        found.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-      }
-    return found;
-  }
-
-  std::filesystem::path file;
-  std::ifstream stream;
-  std::map<std::string, std::size_t> places;
-  std::size_t number = 1;
-  std::string line;
-  std::vector<std::string_view> cells;
-};
-
 /// Where the columns stand in this table.
 template <typename Row>
-std::vector<std::optional<std::size_t>> places_of(const TableReader& table, const std::vector<Column<Row>>& columns)
+std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const std::vector<Column<Row>>& columns)
 {
   std::vector<std::optional<std::size_t>> places;
   for (const auto& one : columns)
@@ -238,7 +155,7 @@ std::vector<std::optional<std::size_t>> places_of(const TableReader& table, cons
 }
 
 template <typename Row>
-Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
+Row row_of(const CsvReader& table, const std::vector<Column<Row>>& columns,
            const std::vector<std::optional<std::size_t>>& places, const double sign)
 {
   Row row{};
@@ -246,7 +163,7 @@ Row row_of(const TableReader& table, const std::vector<Column<Row>>& columns,
     if (places[k])
       {
         const double value =
-          columns[k].most > 0.0 ? table.whole_value(*places[k], columns[k].most) : table.value(*places[k]);
+          columns[k].most > 0.0 ? table.count(*places[k], columns[k].most) : table.number_or_nan(*places[k]);
         columns[k].set(row, columns[k].laboratory ? sign * value : value);
       }
   return row;
@@ -264,7 +181,7 @@ void write_curve(const TestRecord& record, const std::filesystem::path& file)
 
 std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind)
 {
-  TableReader table(file);
+  CsvReader table(file);
   const auto places = places_of(table, curve_columns());
   std::vector<CurveSample> curve;
   while (table.next())
@@ -300,7 +217,7 @@ struct CracksOfTest
 
 void read_cracks_into(const std::filesystem::path& file, const std::vector<CracksOfTest>& tests)
 {
-  TableReader table(file);
+  CsvReader table(file);
   const std::size_t name = table.place("test");
   const std::size_t kind = table.place("kind");
   const auto places = places_of(table, crack_columns());
@@ -359,7 +276,7 @@ void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem
 
 std::vector<GrainPicture> read_grains(const std::filesystem::path& file)
 {
-  TableReader table(file);
+  CsvReader table(file);
   const auto places = places_of(table, grain_columns());
   std::vector<GrainPicture> grains;
   while (table.next())

@@ -137,8 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
     Mistake{"0,0,0\n", "path.csv:1: the header is \"0,0,0\"; it must be \"normal_m,shear_m,rotation_rad\""},
     Mistake{"shear_m,normal_m,rotation_rad\n0,0,0\n", "path.csv:1: the header is "},
     Mistake{"normal_m,shear_m,rotation_rad\n", "path.csv: there is no row"},
-    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n", "path.csv:3: there must be 3 numbers"},
-    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0,5\n", "path.csv:2: there must be 3 numbers"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n", "path.csv:3: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0,5\n", "path.csv:2: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
     Mistake{"normal_m,shear_m,rotation_rad\n0,nan,0\n", "path.csv:2: shear_m: \"nan\" is not a decimal number"},
     Mistake{"normal_m,shear_m,rotation_rad\n0,0,\n", "path.csv:2: rotation_rad: a number is missing"}));
 

@@ -184,7 +184,8 @@ TEST(Lab, RefusesASurroundingThatItsSpecimenCannotHave)
     EXPECT_FALSE(fs::exists(folder.path() / "rock-results-001")) << tests;
   };
   refused("", "  set Lateral boundary = membrane\n", "Lateral boundary = membrane: goes round a cylinder");
-  refused("", "  set Intermediate stress = 30 MPa\n", "Intermediate stress: presses on two sides of a box in space");
+  refused("", "  set Intermediate stress = 30 MPa\n",
+          "Intermediate stress = 30 MPa: presses on two sides of a box of grains in space");
   refused("  set Dimension = 3\n",
           "  set List = triaxial_compression\n  set Intermediate stress = 30 MPa\n  set Confinements = 40 MPa\n",
           "Intermediate stress = 30 MPa: must be at least the least stress, and Confinements has 40 MPa");

@@ -544,8 +544,9 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
   expect(input("  set Control past the peak = lateral strain\n", "  set List = uniaxial_compression\n"),
          "bad.prm: Sample/Control past the peak = lateral strain: the axial strain may go back");
   expect(input("", "  set Lateral boundary = membrane\n"),
-         "bad.prm: Tests/Lateral boundary = membrane: goes round grains");
-  expect(input("", "  set Intermediate stress = 30 MPa\n"), "bad.prm: Tests/Intermediate stress: presses on a box of");
+         "bad.prm: Tests/Lateral boundary = membrane: goes round a cylinder of grains");
+  expect(input("", "  set Intermediate stress = 30 MPa\n"),
+         "bad.prm: Tests/Intermediate stress = 30 MPa: presses on two sides of a box");
   std::string many = input("", "");
   many.replace(many.find("Elements along = 2"), 18, "Elements along = 10000");
   many.replace(many.find("Elements across = 1"), 19, "Elements across = 1000");

@@ -163,7 +163,7 @@ TEST_F(Report, SaysWhatIsMissingInAFolderAndIsStillMade)
   fs::remove(folder.path() / "out/cracks.csv");
   fs::remove_all(folder.path() / "out/grains");
   const std::string words = remade();
-  holds(words, {"curves/uniaxial_compression_seed_1.csv: missing or empty", "out/cracks.csv: missing or empty",
+  holds(words, {"curves/uniaxial_compression_seed_1.csv: cannot be read: No such file", "out/cracks.csv: cannot be read: No such file",
                 "No crack map", "Strength envelope"});
 }
 
@@ -538,7 +538,7 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsVolumes)
   // What is missing is said in its place.
   fs::remove_all(folder.path() / "out/points");
   ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
-  EXPECT_NE(words_of(page).find("_grains.csv: missing or empty"), std::string::npos);
+  EXPECT_NE(words_of(page).find("_grains.csv: cannot be read: No such file"), std::string::npos);
   fs::remove_all(folder.path() / "out/fields");
   ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
   EXPECT_NE(words_of(page).find("No picture of the sample"), std::string::npos);

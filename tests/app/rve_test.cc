@@ -351,6 +351,84 @@ TEST(Rve, InterruptedAndResumedGivesTheBitsOfTheUnbrokenRun)
     }
 }
 
+TEST(Rve, InterruptedInGenesisKeepsTheSpecimensThatAreFinished)
+{
+  const TemporaryFolder folder;
+  // A thousand grains a cell take a second or more; one cell at a time.
+  const std::string cells =
+    "subsection Specimen\n  set Shape = periodic\n  set Width = 45 mm\n  set Height = 45 mm\nend\n"
+    "subsection Seeds\n  set Seeds = 1, 2\nend\n"
+    "subsection Strain path\n  set Direction = free, 1, 0\n  set Size = 2e-5\nend\n";
+  folder.write("cells.prm", cells);
+  folder.write("interrupt", "\"$@\" &\n"
+                            "until [ -e out/specimen_seed_1.h5 ]; do sleep 0.02; done\n"
+                            "kill -TERM $!\nwait $!\n");
+  const auto outcome = run_feldspar(folder.path(), "rve cells.prm --output out --quiet --threads 1", "sh ./interrupt");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar rve --resume out\n");
+  ASSERT_TRUE(fs::exists(folder.path() / "out/specimen_seed_1.h5"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out/specimen_seed_2.h5"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out/summary.json"));
+  const std::string kept = content(folder.path() / "out/specimen_seed_1.h5");
+
+  // A specimen that was damaged meanwhile is made anew.
+  fs::resize_file(folder.path() / "out/specimen_seed_1.h5", kept.size() / 2);
+  const auto resumed = run_feldspar(folder.path(), "rve --resume out --quiet");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_NE(resumed.error.find("specimen_seed_1.h5"), std::string::npos) << resumed.error;
+  EXPECT_NE(resumed.error.find("making it anew"), std::string::npos) << resumed.error;
+  ASSERT_EQ(run_feldspar(folder.path(), "rve cells.prm --output whole --quiet").exit_code, 0);
+  for (const char* file : {"cracks.csv", "curves/rve_seed_1.csv", "curves/rve_seed_2.csv"})
+    EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "out" / file)) << file;
+}
+
+/// Interrupted once there is a checkpoint; the interrupt writes one more.
+const std::string interrupt_on_path = "\"$@\" &\n"
+                                      "until [ -e broken/checkpoints/rve.h5 ]; do sleep 0.02; done\n"
+                                      "sleep 0.2\nkill -INT $!\nwait $!\n";
+
+TEST(Rve, ADamagedCheckpointIsRefusedAndTheOneBeforeItUsed)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", pulled("  set Largest step = 3e-8\n"));
+  ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output whole --quiet").exit_code, 0);
+  folder.write("interrupt", interrupt_on_path);
+  ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output broken --quiet", "sh ./interrupt").exit_code, 130);
+  const fs::path newest = folder.path() / "broken/checkpoints/rve.h5";
+  ASSERT_TRUE(fs::exists(newest) && fs::exists(folder.path() / "broken/checkpoints/rve.previous.h5"));
+  fs::resize_file(newest, fs::file_size(newest) / 2);
+  const auto resumed = run_feldspar(folder.path(), "rve --resume broken --quiet");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_NE(resumed.error.find("rve.h5: not an HDF5 file, cut short"), std::string::npos) << resumed.error;
+  EXPECT_NE(resumed.error.find("going back to the one before it"), std::string::npos) << resumed.error;
+  EXPECT_EQ(std::count(resumed.error.begin(), resumed.error.end(), '\n'), 1) << resumed.error;
+  for (const char* file : {"cracks.csv", "curves/rve.csv"})
+    EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "broken" / file)) << file;
+}
+
+TEST(Rve, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", pulled("  set Largest step = 3e-8\n"));
+  ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output whole --quiet").exit_code, 0);
+  // A limit on the size of files stands for the full disk: the specimen is within it, the curve of the whole path is not.
+  const auto limit = fs::file_size(folder.path() / "whole/curves/rve.csv") - 1;
+  ASSERT_GT(limit, fs::file_size(folder.path() / "whole/specimen.h5"));
+  const auto outcome =
+    run_feldspar(folder.path(), "rve cell.prm --output full --quiet", fmt::format("prlimit --fsize={}", limit));
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_NE(outcome.error.find("cannot be written: File too large"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("go on with: feldspar rve --resume full"), std::string::npos) << outcome.error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "full"))
+    EXPECT_NE(entry.path().extension(), ".unfinished") << entry.path();
+  const auto resumed = run_feldspar(folder.path(), "rve --resume full --quiet");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_EQ(resumed.error, "");
+  for (const char* file : {"cracks.csv", "curves/rve.csv"})
+    EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "full" / file)) << file;
+}
+
 TEST(Rve, SaysWhenExplicitDynamicsCannotHoldAStress)
 {
   const TemporaryFolder folder;

@@ -1,6 +1,6 @@
 #include "app/input/input.h"
 
-#include "app/input/input_structure.h"
+#include "app/input/given_entries.h"
 #include "app/input/parameter_table.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
@@ -9,10 +9,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <clocale>
 #include <cstdlib>
 #include <numbers>
+#include <random>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -402,6 +405,7 @@ TEST(Input, ChecksEveryRange)
     {"Specimen", "Height = -1 mm"},
     {"Specimen", "Minimum radius = 0 mm"},
     {"Specimen", "Radius ratio = 0.99"},
+    {"Specimen", "Radius ratio = 1e6"},
     {"Specimen", "Porosity = 1"},
     {"Specimen", "Density = 0 kg/m^3"},
     {"Specimen", "Packing stress ratio = 0"},
@@ -441,6 +445,8 @@ TEST(Input, ChecksEveryRange)
     {"Tests", "Compression strain rate = 0 1/s"},
     {"Tests", "Tension strain rate = -1 1/s"},
     {"Tests", "Compression sampling strain = 0"},
+    {"Tests", "Compression sampling strain = 1e300"},
+    {"Tests", "Seating transits = 1e300"},
     {"Tests", "Tension sampling strain = 0"},
     {"Tests", "Grip ratio = 0.41"},
     {"Tests", "Lateral boundary = oil"},
@@ -558,6 +564,68 @@ TEST(Input, TellsWhatIsWrongWithJson)
     {"", "a.json:1:1: is not valid JSON: "}};
   for (const auto& [text, error] : mistakes)
     EXPECT_EQ(error_of("a.json", text).find(error), 0u) << text << "\ngave: " << error_of("a.json", text);
+}
+
+/// The text with a few bytes changed, taken out, doubled or put in from elsewhere in it.
+std::string mutated(std::string text, std::mt19937& random)
+{
+  constexpr std::array<std::string_view, 13> pieces{"-",  "9", "e9",    "nan", "..", ";", "\\\n",
+                                                    "# ", "=", "end\n", "}",   "[",  ","};
+  const auto any = [&](const std::size_t n) { return std::size_t(random() % n); };
+  for (std::size_t n = 1 + any(4); n > 0; --n)
+    {
+      const std::size_t at = any(text.size());
+      const std::size_t length = any(40);
+      switch (any(5))
+        {
+        case 0:
+          text[at] = char(any(256));
+          break;
+        case 1:
+          text.erase(at, length);
+          break;
+        case 2:
+          text.insert(at, std::string(text, any(text.size()), length));
+          break;
+        case 3:
+          text.insert(at, any(5000), text[at]);
+          break;
+        default:
+          text.insert(at, pieces[any(pieces.size())]);
+        }
+      text.push_back('\n'); // so that there is always something to change
+    }
+  return text;
+}
+
+// A damaged input is read, or refused in one line of bearable length: nothing else comes out of it.
+TEST(Input, MutatedFilesAreReadOrRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"grains.txt", "path.csv", "rock.json", "sample.msh"})
+    folder.write(name, "");
+  constexpr std::string_view json = R"({"Flat joint": {"Bond tensile strength": "21.5 MPa", "Segments": 3},
+    "Seeds": {"Seeds": [1, 2, 18446744073709551615]}, "Tests": {"List": ["direct_tension"], "Stop strain": null}})";
+  std::mt19937 random(1);
+  std::size_t n_refused = 0;
+  for (int k = 0; k < 1500; ++k)
+    {
+      const bool is_prm = k % 3 != 0;
+      const std::string text = mutated(std::string(is_prm ? everything : json), random);
+      const auto file = folder.write(is_prm ? "a.prm" : "a.json", text);
+      try
+        {
+          read_input(file);
+        }
+      catch (const InputError& error)
+        {
+          ++n_refused;
+          const std::string what = error.what();
+          EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+          EXPECT_LT(what.size(), 1500u) << what;
+        }
+    }
+  EXPECT_GT(n_refused, 700u);
 }
 
 TEST(Input, TellsWhatIsWrongWithTheFile)

@@ -171,7 +171,7 @@ TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
   for (const auto& problem : all[0].problems)
     said += problem + "\n";
   for (const char* words :
-       {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: missing", "cracks.csv: missing"})
+       {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: cannot be read", "cracks.csv: cannot be read"})
     EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
 }
 
@@ -213,7 +213,7 @@ TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
   EXPECT_NE(all[0].problems[0].find("uniaxial_compression_seed_3.csv:1: there is no column axial_strain"),
             std::string::npos)
     << all[0].problems[0];
-  EXPECT_NE(all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 20 cells; found 3"),
+  EXPECT_NE(all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 20 values, one for each of step,"),
             std::string::npos)
     << all[0].problems[1];
   EXPECT_EQ(all[0].tests[0].record.cracks.size(), 40u);
@@ -309,14 +309,14 @@ TEST(Trust, SaysWhatIsOutOfItsBounds)
   series.tests[1].results.energy_imbalance_over_work = 0.02;
   series.tests[2].record.interrupted = true;
   series.tests[2].results = evaluate(series.tests[2].record);
-  series.problems = {"curves/a.csv: missing or empty"};
+  series.problems = {"curves/a.csv: cannot be read"};
   std::string said;
   for (const auto& sentence : warnings(series))
     said += sentence + "\n";
   for (
     const char* words :
     {"Out of bounds in 1 of 3 tests: energy imbalance over boundary work; worst 2.00 % (uniaxial_compression_seed_2)",
-     "uniaxial_compression_seed_3 has no strength: interrupted before its end", "curves/a.csv: missing or empty"})
+     "uniaxial_compression_seed_3 has no strength: interrupted before its end", "curves/a.csv: cannot be read"})
     EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
 
   series.tests.resize(1);

@@ -321,7 +321,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   EXPECT_TRUE(without.at(0).tests.at(0).appearance.volumes.empty());
   const auto& problems = without[0].problems;
   EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
-    return problem.find("point_1_grains.csv: missing or empty") != std::string::npos;
+    return problem.find("point_1_grains.csv: cannot be read: No such file") != std::string::npos;
   }));
 }
 } // namespace

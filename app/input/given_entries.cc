@@ -1,0 +1,98 @@
+#include "app/input/given_entries.h"
+
+#include "app/input/nearest_name.h"
+#include "app/input/parameter_table.h"
+#include "base/quoted.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+/// A file of lines in UTF-8, without the mark some editors put before the first.
+std::string read_text(const std::filesystem::path& file)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(fmt::format("{}: is a folder; an input file is needed", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
+  constexpr std::uintmax_t largest = 16 << 20;
+  if (const std::uintmax_t size = std::filesystem::file_size(file, ignored); !ignored && size > largest)
+    throw InputError(fmt::format("{}: has {} bytes; an input file has at most {}", file.string(), size, largest));
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.erase(0, 3);
+
+  const auto is_binary = [](const unsigned char c) { return c < 0x20 && (c < '\t' || c > '\r'); };
+  if (std::any_of(text.begin(), text.end(), is_binary))
+    throw InputError(fmt::format("{}: is not a text file", file.string()));
+  try
+    {
+      static_cast<void>(nlohmann::json(text).dump()); // which checks the encoding
+    }
+  catch (const nlohmann::json::type_error&)
+    {
+      throw InputError(fmt::format("{}: is not encoded in UTF-8", file.string()));
+    }
+  return text;
+}
+} // namespace
+
+void check_section(const std::string& section, const std::string& place)
+{
+  const std::vector<std::string_view> sections = section_names();
+  if (std::find(sections.begin(), sections.end(), section) == sections.end())
+    throw InputError(fmt::format("{}: {}: no such section{}", place, excerpt(section), suggestion(section, sections)));
+}
+
+void check_name(const GivenEntry& given)
+{
+  if (!find_parameter(given.section, given.entry))
+    throw InputError(fmt::format("{}: {}/{}: no such entry{}", given.place, given.section, excerpt(given.entry),
+                                 suggestion(given.entry, entry_names(given.section))));
+}
+
+GivenEntries::GivenEntries(const std::filesystem::path& file)
+  : name(file.string())
+{
+  const std::string text = read_text(file);
+  if (file.extension() == ".prm")
+    entries = scan_prm(name, text);
+  else if (file.extension() == ".json")
+    entries = scan_json(name, text);
+  else
+    throw InputError(fmt::format("{}: the name must end in .prm or .json", name));
+}
+
+std::string GivenEntries::value(const std::string_view section, const std::string_view entry) const
+{
+  const GivenEntry* const given = find(section, entry);
+  return given ? given->value : find_parameter(section, entry)->default_text();
+}
+
+InputError GivenEntries::error(const std::string_view section, const std::string_view entry,
+                               const std::string_view text) const
+{
+  const GivenEntry* const given = find(section, entry);
+  return InputError(fmt::format("{}: {}/{} = {}: {}", given ? given->place : name, section, entry,
+                                excerpt(value(section, entry)), text));
+}
+
+const GivenEntry* GivenEntries::find(const std::string_view section, const std::string_view entry) const
+{
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const GivenEntry& candidate) {
+    return candidate.section == section && candidate.entry == entry;
+  });
+  return found == entries.end() ? nullptr : &*found;
+}
+} // namespace feldspar

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "base/input_error.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The entries that an input file gives, in one reading: their names checked, their values still text.
+namespace feldspar
+{
+/// An entry that the file gives.
+struct GivenEntry
+{
+  std::string section;
+  std::string entry;
+  std::string value; ///< as it would stand in a .prm file, trimmed
+  std::string place; ///< `file:line`, or `file` where the format keeps no lines
+};
+
+/// Lines of `subsection NAME`, `set NAME = VALUE`, `end`, comments from # on, a backslash at the end continues a line.
+/// Throws InputError.
+std::vector<GivenEntry> scan_prm(const std::string& file, const std::string& text);
+
+/// {"Section": {"Entry": value, …}, …}; a value is a string, a number, an array of them (a list), or null (none).
+/// Throws InputError.
+std::vector<GivenEntry> scan_json(const std::string& file, const std::string& text);
+
+/// Throws InputError unless there is a section of that name.
+void check_section(const std::string& section, const std::string& place);
+
+/// Throws InputError unless the section has the entry.
+void check_name(const GivenEntry& given);
+
+/// All entries of a file, found by their names.
+class GivenEntries
+{
+public:
+  /// Reads a .prm or .json file. Throws InputError.
+  explicit GivenEntries(const std::filesystem::path& file);
+
+  const std::vector<GivenEntry>& all() const { return entries; }
+
+  bool has(std::string_view section, std::string_view entry) const { return find(section, entry) != nullptr; }
+
+  /// As given, or else the default.
+  std::string value(std::string_view section, std::string_view entry) const;
+
+  /// An error about an entry: `beishan.prm:12: Flat joint/Bond friction angle = 95 deg: ` and the text.
+  InputError error(std::string_view section, std::string_view entry, std::string_view text) const;
+
+private:
+  const GivenEntry* find(std::string_view section, std::string_view entry) const;
+
+  std::string name;
+  std::vector<GivenEntry> entries;
+};
+} // namespace feldspar

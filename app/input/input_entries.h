@@ -1,0 +1,20 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "base/entries.h"
+
+#include <vector>
+
+/// The entries that fill the structs of app/input/input.h, lists and paths among them.
+namespace feldspar
+{
+Entry<Input> test_list_entry();
+Entry<Input> confinements_entry();
+Entry<Input> checkpoint_entry();
+std::vector<Entry<Input>> variant_entries();
+Entry<Input> seeds_entry();
+std::vector<Entry<ContactParameters>> contact_entries();
+Entry<ContactParameters> contact_path_entry();
+std::vector<Entry<StrainPathParameters>> strain_path_entries();
+Entry<Input> reference_entry();
+} // namespace feldspar

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+namespace feldspar
+{
+/// Tells when a checkpoint is due: the first at once, each other when the time since the last is fifty times as long as
+/// that took to write, and at least some seconds. Checkpoints then cost at most 2 % of the time.
+class CheckpointClock
+{
+public:
+  bool is_due() const { return Clock::now() >= next; }
+
+  /// Calls write(), which writes one.
+  template <typename Write>
+  void time(const Write& write)
+  {
+    constexpr std::chrono::seconds least(5);
+    const auto begin = Clock::now();
+    write();
+    const auto end = Clock::now();
+    next = end + std::max<Clock::duration>(least, 50 * (end - begin));
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next = Clock::time_point::min();
+};
+
+/// The last two checkpoints of one part of a run: a test, a path.
+class Checkpoints
+{
+public:
+  /// `identity`: of the program, the input and the part; a checkpoint of another one is not taken up.
+  Checkpoints(const std::filesystem::path& folder, const std::string& name, std::string its_identity)
+    : newest(folder / (name + ".h5"))
+    , one_before(folder / (name + ".previous.h5"))
+    , identity(std::move(its_identity))
+  {
+  }
+
+  /// Throws OutputError; the one before is then still there.
+  template <typename Part>
+  void write(Part& part) const
+  {
+    if (std::filesystem::exists(newest))
+      std::filesystem::rename(newest, one_before);
+    part.write_checkpoint(newest, identity);
+  }
+
+  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it. One that cannot be used is
+  /// named on standard error.
+  template <typename Begin>
+  auto open(const Begin& begin) const
+  {
+    for (const auto& file : {newest, one_before})
+      if (std::filesystem::exists(file))
+        try
+          {
+            auto part = begin();
+            part.read_checkpoint(file, identity);
+            return part;
+          }
+        catch (const InputError& error)
+          {
+            fmt::print(stderr, "feldspar: {}; going back to {}\n", error.what(),
+                       file == newest && std::filesystem::exists(one_before) ? "the one before it" : "the start");
+          }
+    return begin();
+  }
+
+private:
+  std::filesystem::path newest;
+  std::filesystem::path one_before;
+  std::string identity;
+};
+} // namespace feldspar

@@ -1,0 +1,116 @@
+#include "app/run/run.h"
+
+#include "app/run/interrupt.h"
+#include "app/run/output_folder.h"
+#include "app/run/run_record.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+std::string how_to_resume(const RunCommand& command, const std::filesystem::path& folder)
+{
+  return fmt::format("go on with: feldspar {} --resume {}", command.name, folder.string());
+}
+
+/// From wherever the run stands.
+int go_on(const RunCommand& command, const Run& run)
+{
+  const Processes& processes = command.processes;
+  const auto end_interrupted = [&] {
+    if (processes.is_first)
+      fmt::print(stderr, "feldspar: interrupted; {}\n", how_to_resume(command, run.folder));
+    return exit_code::interrupted;
+  };
+  const auto cannot_write = [&](const std::exception& error) {
+    return OutputError(fmt::format("{}; once it can, {}", error.what(), how_to_resume(command, run.folder)));
+  };
+  try
+    {
+      const RunEnd end = command.go(run);
+      if (end.was_interrupted)
+        return end_interrupted();
+      processes.first([&] {
+        std::filesystem::remove_all(run.folder / "checkpoints");
+        mark_complete(run.folder);
+        if (!end.failure.empty())
+          fmt::print(stderr, "feldspar: {}\n", end.failure);
+      });
+      return end.failure.empty() ? 0 : exit_code::user_error;
+    }
+  catch (const Interrupted&)
+    {
+      return end_interrupted();
+    }
+  catch (const OutputError& error)
+    {
+      throw cannot_write(error);
+    }
+  catch (const std::filesystem::filesystem_error& error) // a folder that cannot be made, a file that cannot be moved
+    {
+      throw cannot_write(error);
+    }
+}
+
+int resume(const RunCommand& command, const CommonOptions& options)
+{
+  const RunRecord record = read_run_record(command.name, *options.resume);
+  if (record.complete)
+    {
+      if (command.processes.is_first)
+        fmt::print("{}: this run is complete\n", options.resume->string());
+      return 0;
+    }
+  command.check(record.input, record.input_file);
+  return go_on(command, {*options.resume, record.input_file, record.input, options.quiet});
+}
+
+int begin(const RunCommand& command, const CommonOptions& options)
+{
+  const Processes& processes = command.processes;
+  const Input input = read_input(options.input);
+  command.check(input, options.input);
+  // The first process makes the folder and begins the record of the run; the others learn its name.
+  std::optional<OutputFolder> made;
+  processes.first([&] {
+    made.emplace(options.output, options.input, options.force);
+    remove_run(made->path()); // with --force: what an earlier run left would be taken for this one's
+    try
+      {
+        write_run_record(command.name, options.input, made->path());
+      }
+    catch (const OutputError&)
+      {
+        remove_run(made->path());
+        throw;
+      }
+  });
+  const std::filesystem::path folder = processes.of_first(made ? made->path().string() : "");
+  try
+    {
+      return go_on(command, {folder, options.input, input, options.quiet});
+    }
+  catch (const InputError&)
+    {
+      processes.first([&] { remove_run(folder); }); // a mistake leaves nothing
+      throw;
+    }
+}
+} // namespace
+
+int run_command(const RunCommand& command, const CommonOptions& options)
+{
+  if (options.input.empty() && !options.resume)
+    throw InputError(
+      fmt::format("{0} needs an INPUT, or --resume with the folder of a run; see feldspar {0} --help", command.name));
+  watch_for_interrupt();
+  return options.resume ? resume(command, options) : begin(command, options);
+}
+} // namespace feldspar

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "app/input/input.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+/// A run in its folder: begun or taken up, ended by its end, by Ctrl-C or by an error; the same for every command that
+/// runs long.
+namespace feldspar
+{
+namespace exit_code
+{
+inline constexpr int internal_error = 1;
+inline constexpr int user_error = 2;
+inline constexpr int output_error = 3;  // a full disk
+inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
+} // namespace exit_code
+
+/// What `lab`, `rve`, `multiscale`, `specimen` and `contact` have in common on the command line.
+struct CommonOptions
+{
+  std::filesystem::path input;
+  std::optional<std::filesystem::path> resume; ///< of `lab`, `rve`, `multiscale`: the folder of a run to be taken up
+  std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
+  std::optional<std::filesystem::path> output;
+  bool force = false;
+  bool quiet = false;
+};
+
+/// A run as its command finds it.
+struct Run
+{
+  std::filesystem::path folder;
+  std::filesystem::path input_file; ///< as it was named
+  Input input;
+  bool quiet;
+};
+
+/// How a command left a run.
+struct RunEnd
+{
+  bool was_interrupted; ///< something is left to be done
+  std::string failure;  ///< of a part that could not be done, with its name; empty: none
+};
+
+/// The processes that make a run together: this one alone, unless a command says otherwise.
+struct Processes
+{
+  bool is_first = true;
+  std::function<void(const std::function<void()>&)> first = [](const std::function<void()>& work) { work(); };
+  std::function<std::string(const std::string&)> of_first = [](const std::string& text) { return text; };
+};
+
+/// The part of a run that is its command's own.
+struct RunCommand
+{
+  std::string name; ///< lab, rve, multiscale
+  /// Refuses, before any work, an input that cannot be run: throws InputError.
+  std::function<void(const Input&, const std::filesystem::path& input_file)> check;
+  /// Makes the rock, breaks it and reports, from wherever the folder stands.
+  std::function<RunEnd(const Run&)> go;
+  Processes processes = {};
+};
+
+/// Begins the run that the options want, or takes it up. Ctrl-C and SIGTERM, a full disk and the failure of a part leave
+/// what is there, and a sentence tells how to go on; a mistake of the user in a run just begun leaves nothing. Returns the
+/// exit code; throws InputError and OutputError.
+int run_command(const RunCommand& command, const CommonOptions& options);
+} // namespace feldspar

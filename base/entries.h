@@ -1,0 +1,188 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Entries of an input, written beside the struct of parameters that they fill: plain data, from which the application
+/// reads, checks and documents them. No units are converted here.
+namespace feldspar
+{
+/// The quantity that an entry gives.
+enum class Measure
+{
+  number, ///< without unit
+  stress,
+  length,
+  angle,
+  density,
+  rate
+};
+
+/// An interval as it is written in books: '[' and ']' take the bound in, '(' and ')' leave it out. Bounds in the unit in
+/// which the entry is shown.
+struct Range
+{
+  char left;
+  double lower;
+  double upper;
+  char right;
+
+  constexpr bool contains(const double value) const
+  {
+    return (left == '[' ? value >= lower : value > lower) && (right == ']' ? value <= upper : value < upper);
+  }
+};
+
+namespace ranges
+{
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr Range above_zero{'(', 0.0, infinity, ')'};
+inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
+inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
+} // namespace ranges
+
+/// The bodies that are tested.
+enum class Body
+{
+  plane_box, ///< of discs
+  box,       ///< of spheres
+  cylinder,  ///< of spheres
+  sample     ///< of finite elements
+};
+
+/// What else is to be known of an entry.
+struct EntryFlags
+{
+  bool varies = false;           ///< may take one value after the other (section Variants)
+  bool of_specimen = false;      ///< a part of the specimen's identity: genesis reads it
+  std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. Of other bodies it must keep its default
+  std::string_view needs = {};   ///< such a body in words, for the error
+};
+
+/// One entry that fills a member of `Parameters`.
+template <typename Parameters>
+struct Entry
+{
+  struct Number
+  {
+    double Parameters::*member; ///< in SI
+    Measure measure;
+    std::string_view unit; ///< in which it is shown; any other of its measure may be written
+    Range range;
+  };
+
+  struct OptionalNumber ///< none is allowed
+  {
+    std::optional<double> Parameters::*member;
+    Measure measure;
+    std::string_view unit;
+    Range range;
+  };
+
+  struct Integer
+  {
+    unsigned int Parameters::*member;
+    Range range;
+  };
+
+  struct File ///< none: an empty name
+  {
+    std::string Parameters::*member;
+  };
+
+  struct Choice
+  {
+    std::vector<std::string_view> options;
+    std::function<void(Parameters&, std::size_t)> set;
+    std::function<std::size_t(const Parameters&)> get;
+  };
+
+  struct Text ///< of a form of its own, such as a list
+  {
+    std::string_view unit;
+    std::string range;
+    std::function<void(Parameters&, std::string_view)> read; ///< throws InputError
+    std::function<std::string(const Parameters&)> write;
+  };
+
+  std::string_view name;
+  std::variant<Number, OptionalNumber, Integer, File, Choice, Text> value;
+  std::string_view meaning;
+  EntryFlags flags;
+};
+
+/// Makers of entries, one for each kind.
+namespace entry
+{
+template <typename P>
+Entry<P> quantity(const std::string_view name, double P::*const member, const Measure measure,
+                  const std::string_view unit, const Range& range, const std::string_view meaning,
+                  const EntryFlags& flags = {})
+{
+  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags};
+}
+
+template <typename P>
+Entry<P> number(const std::string_view name, double P::*const member, const Range& range,
+                const std::string_view meaning, const EntryFlags& flags = {})
+{
+  return quantity(name, member, Measure::number, "", range, meaning, flags);
+}
+
+template <typename P>
+Entry<P> optional_quantity(const std::string_view name, std::optional<double> P::*const member, const Measure measure,
+                           const std::string_view unit, const Range& range, const std::string_view meaning,
+                           const EntryFlags& flags = {})
+{
+  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags};
+}
+
+template <typename P>
+Entry<P> optional_number(const std::string_view name, std::optional<double> P::*const member, const Range& range,
+                         const std::string_view meaning, const EntryFlags& flags = {})
+{
+  return optional_quantity(name, member, Measure::number, "", range, meaning, flags);
+}
+
+template <typename P>
+Entry<P> integer(const std::string_view name, unsigned int P::*const member, const Range& range,
+                 const std::string_view meaning, const EntryFlags& flags = {})
+{
+  return {name, typename Entry<P>::Integer{member, range}, meaning, flags};
+}
+
+template <typename P>
+Entry<P> file(const std::string_view name, std::string P::*const member, const std::string_view meaning,
+              const EntryFlags& flags = {})
+{
+  return {name, typename Entry<P>::File{member}, meaning, flags};
+}
+
+/// `options`: what is written, and the value it stands for.
+template <typename P, typename T>
+Entry<P> choice(const std::string_view name, T P::*const member,
+                const std::vector<std::pair<std::string_view, std::type_identity_t<T>>>& options,
+                const std::string_view meaning, const EntryFlags& flags = {})
+{
+  typename Entry<P>::Choice value;
+  for (const auto& option : options)
+    value.options.push_back(option.first);
+  value.set = [=](P& parameters, const std::size_t k) { parameters.*member = options[k].second; };
+  value.get = [=](const P& parameters) {
+    std::size_t k = 0;
+    while (k + 1 < options.size() && options[k].second != parameters.*member)
+      ++k;
+    return k;
+  };
+  return {name, std::move(value), meaning, flags};
+}
+} // namespace entry
+} // namespace feldspar

@@ -1,0 +1,80 @@
+#include "base/text.h"
+
+#include "base/input_error.h"
+#include "base/quoted.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+bool is_digit(const char c) { return '0' <= c && c <= '9'; }
+} // namespace
+
+std::string_view trim(const std::string_view text)
+{
+  constexpr std::string_view white = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(white);
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(white) + 1 - first);
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text)
+{
+  std::vector<std::string_view> pieces;
+  for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(','))
+    {
+      pieces.push_back(trim(text.substr(0, comma)));
+      text.remove_prefix(comma + 1);
+    }
+  pieces.push_back(trim(text));
+  return pieces;
+}
+
+bool is_decimal_number(std::string_view text)
+{
+  const auto skip_one_of = [&](const std::string_view characters) {
+    const bool found = !text.empty() && characters.find(text.front()) != std::string_view::npos;
+    text.remove_prefix(found);
+    return found;
+  };
+  const auto skip_digits = [&] {
+    std::size_t n = 0;
+    while (n < text.size() && is_digit(text[n]))
+      ++n;
+    text.remove_prefix(n);
+    return n;
+  };
+
+  skip_one_of("+-");
+  std::size_t n_digits = skip_digits();
+  if (skip_one_of("."))
+    n_digits += skip_digits();
+  if (n_digits == 0)
+    return false;
+  if (skip_one_of("eE"))
+    {
+      skip_one_of("+-");
+      if (skip_digits() == 0)
+        return false;
+    }
+  return text.empty();
+}
+
+double parse_number(const std::string_view text)
+{
+  if (!is_decimal_number(text))
+    throw InputError(text.empty() ? "a number is missing" : fmt::format("{} is not a decimal number", in_quotes(text)));
+  double value = 0.0;
+  const std::string_view unsigned_text = text.substr(text.starts_with('+')); // from_chars knows no plus
+  const auto end = unsigned_text.data() + unsigned_text.size();
+  if (std::from_chars(unsigned_text.data(), end, value).ec == std::errc::result_out_of_range)
+    throw InputError(fmt::format("{} is beyond the range of numbers", in_quotes(text)));
+  return value;
+}
+} // namespace feldspar

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+/// Text as people and tables write it: white space, commas, decimal numbers.
+namespace feldspar
+{
+/// Without the white space at both ends.
+std::string_view trim(std::string_view text);
+
+/// The pieces between commas, trimmed; one at least.
+std::vector<std::string_view> split_at_commas(std::string_view text);
+
+/// Whether all of the text is [sign] digits [. digits] [e [sign] digits].
+bool is_decimal_number(std::string_view text);
+
+/// One decimal number; `nan` and `inf` are none. The decimal sign is a point in every locale. Throws InputError.
+double parse_number(std::string_view text);
+} // namespace feldspar

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "base/entries.h"
+#include "coupling/sample/sample_parameters.h"
+
+#include <vector>
+
+/// The entries of a sample of finite elements.
+namespace feldspar
+{
+/// Of section Sample.
+inline std::vector<Entry<SampleParameters>> sample_entries()
+{
+  using P = SampleParameters;
+  return {entry::choice("Geometry", &P::geometry,
+                        {{"plane", SampleGeometry::plane},
+                         {"plane strain", SampleGeometry::plane_strain},
+                         {"axisymmetric", SampleGeometry::axisymmetric},
+                         {"cylinder", SampleGeometry::cylinder}},
+                        "plane: volumes of discs, one metre thick; the others have volumes of spheres (Dimension = "
+                        "3): plane strain lets nothing strain across the plane, axisymmetric is a cylinder by half "
+                        "of its section, cylinder the whole"),
+          entry::choice("Material", &P::material,
+                        {{"grains", SampleMaterial::grains},
+                         {"linear elasticity", SampleMaterial::linear_elasticity},
+                         {"Mohr-Coulomb", SampleMaterial::mohr_coulomb}},
+                        "at the points of the sample of `feldspar multiscale`: the representative volume, or, for "
+                        "comparison, what Continuum says"),
+          entry::file("Mesh file", &P::mesh_file,
+                      "of Gmsh (format 2 or 4, text), in metres, instead of Width, Height and both Elements: "
+                      "quadrilaterals with the lines of the physical groups left, right, bottom and top, in r-z "
+                      "axis, side, bottom and top with the axis at x = 0, or hexahedra about x = y = 0 along z "
+                      "with the surfaces side, bottom and top"),
+          entry::quantity("Width", &P::width, Measure::length, "mm", ranges::above_zero,
+                          "of the sample of `feldspar multiscale`; of a cylinder its diameter"),
+          entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,
+                          "of the sample, along the axis of the tests"),
+          entry::integer("Elements across", &P::elements_across, {'[', 1.0, 10000.0, ']'},
+                         "over the width; axisymmetric: over the radius; in a cylinder at least 3"),
+          entry::integer("Elements along", &P::elements_along, {'[', 1.0, 10000.0, ']'}, "over the height"),
+          entry::integer("Order", &P::order, {'[', 1.0, 2.0, ']'}, "of the elements"),
+          entry::choice("Quadrature", &P::reduced_quadrature, {{"full", false}, {"reduced", true}},
+                        "full: order + 1 points each way; reduced: as many as the order, which must be 2"),
+          entry::choice("Platens", &P::rough_platens, {{"smooth", false}, {"rough", true}},
+                        "whether the ends are held sideways"),
+          entry::choice("Control past the peak", &P::widened_past_peak,
+                        {{"axial strain", false}, {"lateral strain", true}},
+                        "of a compression test, from the first avalanche of breaks or fall of the stress on; lateral "
+                        "strain: the sample widens by Compression step from row to row and the platens follow (class "
+                        "II)"),
+          entry::choice(
+            "Softening", &P::scaled_softening, {{"scaled", true}, {"as it is", false}},
+            "of the representative volume of a point once its stress has begun to fall; scaled: by the size of its "
+            "element over its own, so that the curve after the peak does not depend on the mesh where the fall can be "
+            "followed (not in an avalanche)"),
+          entry::integer("Realisations", &P::n_realisations, {'[', 1.0, 1000.0, ']'},
+                         "packings of the volume, dealt to the points by the seed"),
+          entry::choice("Orientation", &P::random_orientation, {{"random", true}, {"fixed", false}},
+                        "whether the volume at each point is turned by an angle of its own"),
+          entry::choice("Weak seed", &P::weak_seed,
+                        {{"none", WeakSeed::none}, {"row", WeakSeed::row}, {"element", WeakSeed::element}},
+                        "where the sample is to break first: the volumes of the row of elements just above "
+                        "mid-height, or of the outermost element of that row, to the right, have weaker bonds"),
+          entry::number("Weak seed strength", &P::weak_seed_strength, {'(', 0.0, 1.0, ']'},
+                        "share of their tensile strength and cohesion that the bonds there have"),
+          entry::number("Compression step", &P::compression_step, {'(', 0.0, 0.01, ']'},
+                        "axial strain between two rows of the curve"),
+          entry::number("Tension step", &P::tension_step, {'(', 0.0, 0.01, ']'}, "the same in direct tension"),
+          entry::number("Most broken share", &P::most_broken_share, {'(', 0.0, 1.0, ']'},
+                        "of all segments in one step; a step that breaks more is cut"),
+          entry::number("Smallest step share", &P::smallest_step_share, {'(', 0.0, 1.0, ']'},
+                        "of a step, below which there is said to be no equilibrium"),
+          entry::number("Newton tolerance", &P::newton_tolerance, {'[', 1e-12, 0.1, ']'},
+                        "unbalanced over internal force of the sample")};
+}
+
+/// Of section Continuum.
+inline std::vector<Entry<ContinuumParameters>> continuum_entries()
+{
+  using P = ContinuumParameters;
+  return {entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
+                          "Young's; as a test in the plane shows it (free across the plane)"),
+          entry::number("Poisson ratio", &P::poissons_ratio, {'[', 0.0, 1.0, ')'}, "as a test in the plane shows it"),
+          entry::quantity("Cohesion", &P::cohesion, Measure::stress, "MPa", ranges::above_zero,
+                          "of Mohr-Coulomb; there is no softening"),
+          entry::quantity("Friction angle", &P::friction_angle, Measure::angle, "deg", {'(', 0.0, 90.0, ')'},
+                          "of Mohr-Coulomb"),
+          entry::quantity("Dilation angle", &P::dilation_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
+                          "of Mohr-Coulomb; at most Friction angle")};
+}
+} // namespace feldspar

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/entries.h"
+#include "dem/lab/parameters.h"
+
+#include <vector>
+
+/// The entries of the laboratory tests.
+namespace feldspar
+{
+/// Of section Tests.
+inline std::vector<Entry<TestParameters>> test_entries()
+{
+  using P = TestParameters;
+  const EntryFlags varies{.varies = true};
+  const EntryFlags of_cylinder{.varies = true,
+                               .bodies = {Body::cylinder},
+                               .needs = "goes round a cylinder of grains: Shape = cylinder, Dimension = 3"};
+  const EntryFlags of_box{.varies = true,
+                          .bodies = {Body::box},
+                          .needs = "presses on two sides of a box of grains in space: Shape = box, Dimension = 3"};
+  const Range sampling{'(', 0.0, 0.01, ']'}; // a curve of two rows to the peak tells nothing
+  return {
+    entry::quantity("Compression strain rate", &P::compression_strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                    "magnitude", varies),
+    entry::quantity("Tension strain rate", &P::tension_strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                    "magnitude", varies),
+    entry::quantity("Brazilian strain rate", &P::brazilian_strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                    "of the loaded diameter; magnitude", varies),
+    entry::number("Compression sampling strain", &P::compression_sampling_strain, sampling,
+                  "axial strain between two rows of the curve", varies),
+    entry::number("Tension sampling strain", &P::tension_sampling_strain, sampling,
+                  "axial strain between two rows of the curve", varies),
+    entry::number("Brazilian sampling strain", &P::brazilian_sampling_strain, sampling,
+                  "strain of the diameter between two rows of the curve", varies),
+    entry::number("Platen friction", &P::platen_friction, ranges::from_zero,
+                  "coefficient of the platens in compression", varies),
+    entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
+                  "travel times of a wave along the specimen over which the confinement is raised", varies),
+    entry::choice("Lateral boundary", &P::lateral_boundary,
+                  {{"wall", LateralBoundary::wall}, {"membrane", LateralBoundary::membrane}},
+                  "of a cylinder in triaxial compression: a rigid wall held at the pressure, or the pressure "
+                  "itself on the outer grains",
+                  of_cylinder),
+    entry::optional_quantity(
+      "Intermediate stress", &P::intermediate_stress, Measure::stress, "MPa", ranges::above_zero,
+      "on the second pair of sides of a box in three dimensions (true triaxial compression); none: "
+      "the confinement",
+      of_box),
+    entry::number("Brazilian length ratio", &P::brazilian_length_ratio, ranges::above_zero,
+                  "length of the disc over its diameter, in three dimensions", varies),
+    entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen",
+                  varies),
+    entry::number("Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
+                  "a test stops at this many times its strain at peak", varies),
+    entry::optional_number("Stop strain", &P::stop_strain, ranges::above_zero,
+                           "a test stops at this axial strain, instead of the rule above", varies),
+    entry::optional_number("Stop stress over peak", &P::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},
+                           "a test stops when its deviator has fallen to this share of the peak's, instead of at a "
+                           "multiple of the strain there; with Stop strain too, whichever comes first",
+                           varies)};
+}
+} // namespace feldspar
