@@ -143,6 +143,7 @@ public:
   }
 
   bool has(const std::string& name) const { return group.nameExists(name); }
+  bool has_attribute(const std::string& name) const { return group.attrExists(name); }
 
   Hdf5Reader subgroup(const std::string& name) { return {group.openGroup(name), file_size}; }
 

@@ -4,7 +4,7 @@
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
-#include "dem/laws/joint_update.h"
+#include "dem/laws/flat_joint.h"
 
 #include <fmt/format.h>
 

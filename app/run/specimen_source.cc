@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <stdexcept>
 
 namespace feldspar
 {
@@ -25,6 +26,14 @@ std::string rock(const Input& input)
     if (parameter.flags.of_specimen)
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
+}
+
+/// Parameters of the joint law that the input names.
+JointParameters joint_parameters(const Input& input)
+{
+  if (input.specimen.joint_law == FlatJoint<2>::name)
+    return input.flat_joint;
+  throw std::logic_error("a joint law without a section of its own");
 }
 } // namespace
 
@@ -92,8 +101,8 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
           fmt::print(stderr, "feldspar: {}; making it anew\n", error.what());
         }
     specimens[k] = input.specimen.specimen_file.empty()
-                     ? make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, orders[k].seed,
-                                          monitor, end_if_interrupted)
+                     ? make_specimen<dim>(input.specimen, joint_parameters(input), input.particle_contact,
+                                          orders[k].seed, monitor, end_if_interrupted)
                      : read_specimen<dim>(input.specimen.specimen_file);
     write_specimen(specimens[k], file);
   });

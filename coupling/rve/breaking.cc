@@ -1,7 +1,7 @@
 #include "coupling/rve/breaking.h"
 
 #include <algorithm>
-#include <limits>
+#include <variant>
 
 namespace feldspar
 {
@@ -17,36 +17,35 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
 {
   const Network<dim>& network = history.network();
   std::vector<Overload> result;
-  const auto check = [&](const std::uint32_t segment, const double normal, const double shear) {
-    const Strength& bond = network.strength(segment);
-    const double shear_strength = std::max(0.0, bond.cohesion - network.friction_slope() * normal); // (15)
-    const double in_tension = normal / bond.tensile;
-    const double in_shear = shear_strength > 0.0 ? shear / shear_strength : std::numeric_limits<double>::infinity();
-    if (normal > bond.tensile || shear > shear_strength)
-      result.push_back({std::max(in_tension, in_shear), segment, normal > bond.tensile});
+  const auto check = [&](const std::uint32_t segment, const BondStress& stress) {
+    if (const Bond<double>& bond = network.bond(segment); is_overloaded(bond, stress))
+      result.push_back({overload_ratio(bond, stress), segment, breaks_in_tension(bond, stress)});
   };
-  for (std::uint32_t k = 0; k < network.n_joints(); ++k)
-    {
-      const Link<dim>& link = network.links()[k];
-      const bool is_active = history.is_active(k);
-      const Motion<dim> motion = is_active ? Motion<dim>::Zero() : link_motion(link, present.position);
-      for (std::uint32_t i = 0; i < link.n_segments; ++i)
-        {
-          if (is_active)
-            {
-              if (!history.active()[history.active_number(k)].segments[i].bonded)
-                continue;
-              const auto& segment = present.balance.active[history.active_number(k)].segments[i];
-              check(link.first_segment + i, segment.normal_stress, flat_joint::magnitude(segment.shear_stress));
-            }
-          else
-            {
-              const Vector<dim> strain = element_rows(network.elements()[i], link.half_length) * motion;
-              check(link.first_segment + i, link.normal_stiffness * strain[0],
-                    link.shear_stiffness * strain.template tail<dim - 1>().norm());
-            }
-        }
-    }
+  const auto check_all = [&](const auto& law) {
+    for (std::uint32_t k = 0; k < network.n_joints(); ++k)
+      {
+        const Link<dim>& link = network.links()[k];
+        const bool is_active = history.is_active(k);
+        const Motion<dim> motion = is_active ? Motion<dim>::Zero() : link_motion(link, present.position);
+        for (std::uint32_t i = 0; i < link.n_segments; ++i)
+          {
+            if (is_active)
+              {
+                if (!history.active()[history.active_number(k)].segments[i].bonded)
+                  continue;
+                const auto& segment = present.balance.active[history.active_number(k)].segments[i];
+                check(link.first_segment + i,
+                      {segment.normal_stress, segment.normal_stress, flat_joint::magnitude(segment.shear_stress)});
+              }
+            else
+              {
+                const auto strain = law.strain(element_rows(network.elements()[i], link.half_length), motion);
+                check(link.first_segment + i, law.bond_stress(link.face(network.thickness()), strain));
+              }
+          }
+      }
+  };
+  std::visit(check_all, network.law());
   double worst = 0.0;
   for (const Overload& overload : result)
     worst = std::max(worst, overload.ratio);
@@ -72,22 +71,24 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
       const std::uint32_t number = network.link_of_segment(overload.segment);
       const Link<dim>& link = network.links()[number];
       const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
-      const Vector<dim> before = rows * link_motion(link, history.position());
-      const Vector<dim> now = rows * link_motion(link, position);
-      const Strength& bond = network.strength(overload.segment);
-      const auto holds = [&](const double share) {
-        const Vector<dim> strain = before + share * (now - before);
-        const double normal = link.normal_stiffness * strain[0];
-        const double shear = link.shear_stiffness * strain.template tail<dim - 1>().norm();
-        return normal <= bond.tensile && shear <= std::max(0.0, bond.cohesion - network.friction_slope() * normal);
+      const Bond<double>& bond = network.bond(overload.segment);
+      const auto shorten = [&](const auto& law) {
+        const auto before = law.strain(rows, link_motion(link, history.position()));
+        const auto now = law.strain(rows, link_motion(link, position));
+        const auto holds = [&](const double share) {
+          using Strain = decltype(law.strain(rows, link_motion(link, position)));
+          const Strain strain = before + share * (now - before);
+          return !is_overloaded(bond, law.bond_stress(link.face(network.thickness()), strain));
+        };
+        double low = 0.0;
+        double high = first;
+        if (holds(high))
+          return;
+        while (high - low > 1e-3 * high)
+          (holds(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+        first = high;
       };
-      double low = 0.0;
-      double high = first;
-      if (holds(high))
-        continue;
-      while (high - low > 1e-3 * high)
-        (holds(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-      first = high;
+      std::visit(shorten, network.law());
     }
   return first;
 }

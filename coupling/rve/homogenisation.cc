@@ -1,9 +1,10 @@
 #include "coupling/rve/homogenisation.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace feldspar
 {
@@ -121,23 +122,11 @@ std::size_t n_fragments(const Network<dim>& network, const NetworkState<dim>& st
     if (const auto link = network.link_of_segment(unbonded.segment); link < network.n_joints())
       ++n_unbonded[link];
 
-  std::vector<std::uint32_t> parent(network.n_grains());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(network.n_grains());
   for (std::size_t j = 0; j < network.n_joints(); ++j)
     if (const Link<dim>& link = network.links()[j]; n_unbonded[j] < link.n_segments)
-      {
-        const std::uint32_t one = root(link.grain_1);
-        const std::uint32_t two = root(link.grain_2);
-        parent[std::max(one, two)] = std::min(one, two);
-      }
-  std::vector<std::uint32_t> n_members(network.n_grains(), 0);
-  for (std::uint32_t i = 0; i < network.n_grains(); ++i)
-    ++n_members[root(i)];
+      sets.merge(link.grain_1, link.grain_2);
+  const std::vector<std::uint32_t> n_members = sets.sizes();
   return std::size_t(std::count_if(n_members.begin(), n_members.end(), [](const auto n) { return n > 1; }));
 }
 

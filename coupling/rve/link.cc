@@ -3,38 +3,6 @@
 namespace feldspar
 {
 template <int dim>
-ElementRows<dim> element_rows(const FaceElement<dim>& element, const double half_length)
-{
-  ElementRows<dim> rows = ElementRows<dim>::Zero();
-  rows.template leftCols<dim>().setIdentity();
-  if constexpr (dim == 2)
-    rows(0, 2) = -half_length * element.offset[0]; // g = g_0 + U_n - θρ (6)
-  else
-    {
-      const double r_1 = half_length * element.offset[0];
-      const double r_2 = half_length * element.offset[1];
-      rows(0, 4) = r_2; // g = g_0 + U_n + n·(θ × r)
-      rows(0, 5) = -r_1;
-      rows(1, 3) = -r_2;
-      rows(2, 3) = r_1;
-    }
-  return rows;
-}
-
-template <int dim>
-JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, const double area,
-                                             const double second_moment)
-{
-  JointStiffness<dim> stiffness = link.normal_stiffness * area * rows.row(0).transpose() * rows.row(0);
-  stiffness += link.shear_stiffness * area * rows.bottomRows(dim - 1).transpose() * rows.bottomRows(dim - 1);
-  if constexpr (dim == 2)
-    stiffness(2, 2) += link.normal_stiffness * second_moment;
-  else
-    static_cast<void>(second_moment); // elements of a disk are lumped
-  return stiffness;
-}
-
-template <int dim>
 LinkGradient<dim> link_gradient(const Link<dim>& link)
 {
   LinkGradient<dim> gradient = LinkGradient<dim>::Zero();
@@ -73,10 +41,6 @@ LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link)
   return gradient;
 }
 
-template ElementRows<2> element_rows<2>(const FaceElement<2>&, double);
-template ElementRows<3> element_rows<3>(const FaceElement<3>&, double);
-template JointStiffness<2> bonded_element_stiffness<2>(const Link<2>&, const ElementRows<2>&, double, double);
-template JointStiffness<3> bonded_element_stiffness<3>(const Link<3>&, const ElementRows<3>&, double, double);
 template LinkGradient<2> link_gradient<2>(const Link<2>&);
 template LinkGradient<3> link_gradient<3>(const Link<3>&);
 template LinkStrainGradient<2> link_strain_gradient<2>(const Link<2>&);

@@ -1,26 +1,13 @@
 #pragma once
 
 #include "coupling/rve/voigt.h"
-#include "dem/laws/face_elements.h"
+#include "dem/laws/face.h"
 
 #include <cstdint>
 
 /// A contact of two grains in small strains: how it moves with them, and what its forces do to them.
 namespace feldspar
 {
-/// Degrees of freedom of a grain, and as many measures of a joint's strain: displacement and turn.
-template <int dim>
-inline constexpr int n_motions = dim + n_rotations<dim>;
-
-/// Displacement and turn [m, rad], or force and couple [N, N m]. Of a joint in its own axes: n, t (n, t_1, t_2), then
-/// the turn about the axis out of the plane (about n, t_1, t_2).
-template <int dim>
-using Motion = Eigen::Matrix<double, n_motions<dim>, 1>;
-
-/// Of a joint: forces per motion.
-template <int dim>
-using JointStiffness = Eigen::Matrix<double, n_motions<dim>, n_motions<dim>>;
-
 /// Motions of all grains, [n_motions * n_grains], then the macroscopic strain, [n_voigt].
 using Unknowns = Eigen::VectorXd;
 
@@ -47,6 +34,12 @@ struct Link
   double half_length;      ///< R̄ [m]
   double opening;          ///< g_0 at rest [m]
   double friction;
+
+  Face<double> face(const double thickness) const
+  {
+    return {normal_stiffness, shear_stiffness, half_length, thickness, friction};
+  }
+
   LinkGradient<dim> by_grains{};
   LinkStrainGradient<dim> by_strain{};
 };
@@ -76,17 +69,4 @@ void add_forces(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum)
   sum.segment<n>(n * Eigen::Index(link.grain_2)) += link.by_grains.template rightCols<n>().transpose() * forces;
   sum.tail<n_voigt<dim>>() += link.by_strain.transpose() * forces;
 }
-
-/// Rows that give the gap and the shear of an element from its joint's motion.
-template <int dim>
-using ElementRows = Eigen::Matrix<double, dim, n_motions<dim>>;
-
-template <int dim>
-ElementRows<dim> element_rows(const FaceElement<dim>& element, double half_length);
-
-/// Of a bonded, or wholly closed and sticking, element: its share of the joint's stiffness. area in m², second_moment in
-/// m⁴.
-template <int dim>
-JointStiffness<dim> bonded_element_stiffness(const Link<dim>& link, const ElementRows<dim>& rows, double area,
-                                             double second_moment);
 } // namespace feldspar

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 namespace feldspar
 {
 namespace
 {
+static_assert(std::is_same_v<AnyJointLaw<2>, std::variant<FlatJoint<2>>>,
+              "broken faces answer as flat joints do here; another law needs its own response");
+
 constexpr double closure_width_ratio = 1e-6; // over the half length of the face: 20 kPa between grains of rock
 
 template <int dim>
@@ -116,8 +121,9 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
           segment.normal_stress = k_n * now[0]; // (10)
           for (int c = 0; c < dim - 1; ++c)
             segment.shear_stress[c] = -k_s * now[c + 1]; // (13), the whole way since rest
-          const auto stiffness =
-            bonded_element_stiffness(link, rows, area, element.second_moment * r * r * r * network.thickness());
+          const JointStiffness<dim> stiffness = std::visit(
+            [&](const auto& law) { return law.bonded_stiffness(link.face(network.thickness()), element, rows); },
+            network.law());
           result.forces += stiffness * motion;
           result.tangent += stiffness;
           result.derivative += stiffness;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
 namespace feldspar
 {
@@ -41,6 +42,13 @@ Tensor<3> contact_axes(const Vector<3>& normal)
   return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
 }
 
+/// Of normal and shear stress.
+template <int dim>
+BondStress bond_stress(const Vector<dim>& stress)
+{
+  return {stress[0], stress[0], stress.template tail<dim - 1>().norm()};
+}
+
 /// In space the elements of a face lie by its own tangent.
 template <int dim>
 Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
@@ -59,7 +67,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   , number_of_joints(specimen.joints.size())
   , cell_volume(specimen.volume())
   , plane_thickness(specimen.thickness)
-  , tan_bond_friction(specimen.joints.friction_slope)
+  , joint_law(specimen.joints.law)
   , edges(specimen.cell())
   , face(specimen.joints.elements)
   , grain_radii(specimen.grains.radius)
@@ -98,13 +106,12 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       for (std::uint32_t i = 0; i < face.size(); ++i)
         {
           const std::size_t k = joints.segment(i, j);
-          strengths.push_back({joints.tensile_strength[k], joints.cohesion[k]});
+          bonds.push_back({joints.tensile_strength[k], joints.cohesion[k], joints.friction_slope});
           if (joints.bonded[k] < 0.5)
-            unbonded_at_rest.push_back(std::uint32_t(strengths.size() - 1));
-          const double r = joints.half_length[j];
-          const double width = dim == 2 ? plane_thickness : r;
-          stiffness += bonded_element_stiffness(all_links.back(), element_rows(face[i], r), face[i].area * r * width,
-                                                face[i].second_moment * r * r * r * plane_thickness);
+            unbonded_at_rest.push_back(std::uint32_t(bonds.size() - 1));
+          const ElementRows<dim> rows = element_rows(face[i], joints.half_length[j]);
+          stiffness +=
+            std::visit([&](const auto& law) { return law.bonded_stiffness(joints.face(j), face[i], rows); }, joint_law);
         }
       bonded_stiffnesses.push_back(stiffness);
       mean_stiffness += bonded_stiffnesses.back()(0, 0) * distance / double(number_of_joints);
@@ -114,7 +121,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   const double reach = touch_search_ratio * specimen.grains.mean_radius();
   const auto images = images_within(specimen.grains, edges, reach);
   const auto all = with_images(specimen.grains, images, edges);
-  std::uint32_t next_segment = std::uint32_t(strengths.size());
+  std::uint32_t next_segment = std::uint32_t(bonds.size());
   for (const auto& [one, two] : pairs_within(all, reach))
     {
       if (one >= number_of_grains || (two >= number_of_grains && !counts(one, images[two - number_of_grains])))
@@ -159,10 +166,8 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
 template <int dim>
 double Network<dim>::segment_area(const Link<dim>& link, const std::uint32_t i) const
 {
-  const double r = link.half_length;
-  if (!link.has_face)
-    return face_area<dim>(r, plane_thickness);
-  return face[i].area * r * (dim == 2 ? plane_thickness : r);
+  return link.has_face ? element_area(face[i], link.face(plane_thickness))
+                       : face_area<dim>(link.half_length, plane_thickness);
 }
 
 template <int dim>
@@ -196,8 +201,8 @@ void Network<dim>::factorise_intact()
   std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
-    stiffest.push_back(bonded_element_stiffness(all_links[k], element_rows(point, all_links[k].half_length),
-                                                segment_area(all_links[k], 0), 0.0));
+    stiffest.push_back(
+      element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length)));
   factorised_all = std::make_unique<FactorisedNetwork<dim>>(
     all_links, *pattern, [&](const std::uint32_t link) { return &stiffest[link]; }, regularity * stiffness_scale);
 }
@@ -229,7 +234,7 @@ void Network<dim>::solve_unit_strains()
     }
   c_0 = 0.5 * (c_0 + c_0.transpose()).eval();
 
-  unit_responses.resize(strengths.size());
+  unit_responses.resize(bonds.size());
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       const Unknowns unit = intact_unknowns(Voigt<dim>::Unit(k));
@@ -251,12 +256,11 @@ void Network<dim>::solve_unit_strains()
 template <int dim>
 void Network<dim>::bound_segments()
 {
-  for (std::uint32_t k = 0; k < strengths.size(); ++k)
+  for (std::uint32_t k = 0; k < bonds.size(); ++k)
     {
       const double normal = unit_responses[k].row(0).norm();
       const double shear = unit_responses[k].bottomRows(dim - 1).norm();
-      const double overload =
-        std::max(normal / strengths[k].tensile, (shear + tan_bond_friction * normal) / strengths[k].cohesion);
+      const double overload = largest_overload(bonds[k], {normal, normal, shear});
       bounds.push_back({overload, k});
     }
   std::sort(bounds.begin(), bounds.end(), [](const Bound& a, const Bound& b) {
@@ -319,10 +323,9 @@ bool Network<dim>::stays_intact(const Voigt<dim>& strain) const
     {
       if (bound.overload * size < 1.0)
         return true; // and so are all behind it
-      const Vector<dim> stress = unit_responses[bound.segment] * strain;
-      const Strength& bond = strengths[bound.segment];
-      if (stress[0] > bond.tensile ||
-          stress.template tail<dim - 1>().norm() + tan_bond_friction * stress[0] > bond.cohesion)
+      const BondStress stress = bond_stress<dim>(unit_responses[bound.segment] * strain);
+      const Bond<double>& bond = bonds[bound.segment];
+      if (breaks_in_tension(bond, stress) || cohesion_needed(bond, stress) > bond.cohesion)
         return false;
     }
   return true;
@@ -335,14 +338,11 @@ FirstBreak Network<dim>::first_break(const Voigt<dim>& direction) const
   for (std::size_t k = 0; k < opening_rates.size(); ++k)
     if (const double rate = opening_rates[k].dot(direction); rate < 0.0)
       first.touch = std::min(first.touch, -all_links[number_of_joints + k].opening / rate);
-  for (std::uint32_t k = 0; k < strengths.size(); ++k)
+  for (std::uint32_t k = 0; k < bonds.size(); ++k)
     {
-      const Vector<dim> stress = unit_responses[k] * direction;
-      if (stress[0] > 0.0 && strengths[k].tensile / stress[0] < first.factor)
-        first = {strengths[k].tensile / stress[0], k, true, first.touch};
-      const double shear = stress.template tail<dim - 1>().norm() + tan_bond_friction * stress[0]; // (15)
-      if (shear > 0.0 && strengths[k].cohesion / shear < first.factor)
-        first = {strengths[k].cohesion / shear, k, false, first.touch};
+      const PathToBreak path = path_to_break(bonds[k], bond_stress<dim>(unit_responses[k] * direction));
+      if (path.factor < first.factor)
+        first = {path.factor, k, path.in_tension, first.touch};
     }
   return first;
 }

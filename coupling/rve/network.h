@@ -2,6 +2,7 @@
 
 #include "coupling/rve/factorised_network.h"
 #include "coupling/rve/link.h"
+#include "dem/laws/joint_laws.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
@@ -11,13 +12,6 @@
 /// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §10.
 namespace feldspar
 {
-/// Bond of one segment.
-struct Strength
-{
-  double tensile;  ///< σ_b [Pa]
-  double cohesion; ///< c_b [Pa]
-};
-
 /// Normal and shear stress of a segment under unit strains, per Voigt component.
 template <int dim>
 using UnitResponse = Eigen::Matrix<double, dim, n_voigt<dim>>;
@@ -40,7 +34,7 @@ public:
 
   std::size_t n_grains() const { return number_of_grains; }
   std::size_t n_joints() const { return number_of_joints; }
-  std::size_t n_segments() const { return strengths.size(); }
+  std::size_t n_segments() const { return bonds.size(); }
   Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
   double volume() const { return cell_volume; }
   double mean_branch() const { return mean_branch_length; }
@@ -56,14 +50,14 @@ public:
   const std::vector<double>& radii() const { return grain_radii; }
   const Tensor<dim>& cell() const { return edges; }
 
-  const Strength& strength(const std::uint32_t segment) const { return strengths[segment]; }
-  double friction_slope() const { return tan_bond_friction; }
+  const AnyJointLaw<dim>& law() const { return joint_law; }
+  const Bond<double>& bond(const std::uint32_t segment) const { return bonds[segment]; }
   double thickness() const { return plane_thickness; }
   /// Of a link's segment i [m²].
   double segment_area(const Link<dim>& link, std::uint32_t i) const;
   std::uint32_t link_of_segment(const std::uint32_t segment) const
   {
-    const auto n = std::uint32_t(strengths.size());
+    const auto n = std::uint32_t(bonds.size());
     return segment < n ? segment / std::uint32_t(face.size()) : std::uint32_t(number_of_joints) + segment - n;
   }
   /// Segments without a bond from the start.
@@ -92,6 +86,7 @@ public:
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
   /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
+  /// Of a law whose bonds bear the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
   /// Whether no pair without a face can come to touch at this strain: with all bonds kept the network is linear.
@@ -110,7 +105,7 @@ private:
   std::size_t number_of_joints;
   double cell_volume;
   double plane_thickness;
-  double tan_bond_friction;
+  AnyJointLaw<dim> joint_law;
   double mean_branch_length;
   double mean_stiffness;
   Tensor<dim> edges;
@@ -119,7 +114,7 @@ private:
   std::vector<std::array<int, dim>> boxes;
   std::vector<Vector<dim>> centres;
   std::vector<double> grain_radii;
-  std::vector<Strength> strengths;
+  std::vector<Bond<double>> bonds;
   std::vector<std::uint32_t> unbonded_at_rest;
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 

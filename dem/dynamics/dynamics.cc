@@ -5,15 +5,21 @@
 #include "dem/dynamics/contact_stress.h"
 #include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/time_step.h"
-#include "dem/laws/flat_joint_law.h"
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace feldspar
 {
 namespace
 {
+template <int dim>
+bool face_outlives_bonds(const Joints<dim>& joints)
+{
+  return std::visit([](const auto& law) { return law.face_outlives_bonds; }, joints.law);
+}
+
 double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
 } // namespace
 
@@ -77,7 +83,7 @@ std::vector<Break> Dynamics<dim>::step()
 {
   if (!started)
     start();
-  else if (watch.is_due(steps) && watch.may_miss_contacts(body, images.n_own(), wall_set, steps, dt))
+  else if (watch_is_over() || faces_have_gone)
     {
       remove_torn_faces();
       find_contacts();
@@ -95,10 +101,18 @@ std::vector<Break> Dynamics<dim>::step()
   add_boundary_work(dt, 0.5);
   for (const auto& event : breaks)
     ledger.released += event.released_energy;
+  faces_have_gone = !breaks.empty() && !face_outlives_bonds(body.joints);
   current_time += dt;
   previous_dt = dt;
   ++steps;
   return breaks;
+}
+
+/// Whether contacts must be searched for anew.
+template <int dim>
+bool Dynamics<dim>::watch_is_over()
+{
+  return watch.is_due(steps) && watch.may_miss_contacts(body, images.n_own(), wall_set, steps, dt);
 }
 
 template <int dim>
@@ -137,7 +151,7 @@ void Dynamics<dim>::number_joints()
     [&](const std::uint32_t grain) { return images.owner(grain); });
 }
 
-/// A joint loses its faces when nothing holds and they have slid or opened past each other; the pair may touch again.
+/// The grains of a joint that has lost its face may touch again.
 template <int dim>
 void Dynamics<dim>::remove_torn_faces()
 {
@@ -145,11 +159,7 @@ void Dynamics<dim>::remove_torn_faces()
   std::vector<std::size_t> kept;
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
-      const double reach = 2.0 * joints.half_length[j];
-      std::array<double, dim - 1> slip;
-      for (int c = 0; c < dim - 1; ++c)
-        slip[c] = joints.slip[c][j];
-      if ((flat_joint::magnitude(slip) <= reach && joints.opening[j] <= reach) || joints.holds(j))
+      if (has_face(joints, j))
         kept.push_back(j);
       else
         {
@@ -396,11 +406,12 @@ void Dynamics<dim>::transfer(Archive& archive)
   watch.transfer(archive);
   ledger.transfer(archive);
 
-  std::uint32_t flags =
-    std::uint32_t(started) + 2 * std::uint32_t(contact_made) + 4 * std::uint32_t(zero_force == ZeroForce::as_placed);
+  std::uint32_t flags = std::uint32_t(started) + 2 * std::uint32_t(contact_made) +
+                        4 * std::uint32_t(zero_force == ZeroForce::as_placed) + 8 * std::uint32_t(faces_have_gone);
   archive.value("flags", flags);
   started = flags & 1;
   contact_made = flags & 2;
+  faces_have_gone = flags & 8;
   zero_force = flags & 4 ? ZeroForce::as_placed : ZeroForce::at_touch;
   archive.value("steps", steps);
   archive.value("dt", dt);

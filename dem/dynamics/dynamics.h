@@ -101,6 +101,7 @@ public:
 private:
   void start();
   double kinetic_energy(std::uint32_t grain) const;
+  bool watch_is_over();
   void remove_torn_faces();
   void number_joints();
   void find_contacts();
@@ -125,9 +126,10 @@ private:
   Components<dim> position_at_start;
 
   bool started = false;
-  bool contact_made = false; ///< since the time step was chosen
-  double dt = 0.0;           ///< [s]
-  double previous_dt = 0.0;  ///< [s]
+  bool contact_made = false;    ///< since the time step was chosen
+  bool faces_have_gone = false; ///< in the last step, with their bonds
+  double dt = 0.0;              ///< [s]
+  double previous_dt = 0.0;     ///< [s]
   double current_time = 0.0;
   std::uint64_t steps = 0;
 };

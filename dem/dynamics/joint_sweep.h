@@ -22,6 +22,11 @@ struct Break
 template <int dim>
 std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt);
 
+/// Whether a joint has a face still. It loses it when nothing holds and both sides have slid or opened past each other, or
+/// at once by a law whose faces go with their bonds.
+template <int dim>
+bool has_face(const Joints<dim>& joints, std::size_t joint);
+
 /// Stored in the segments of a joint [J].
 template <int dim>
 double joint_energy(const Joints<dim>& joints, std::size_t joint);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/laws/joint_laws.h"
 #include "dem/laws/parameters.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/specimen.h"
@@ -13,16 +14,16 @@ namespace feldspar
 /// Told now and then what genesis does; may throw to end it.
 using GenesisMonitor = std::function<void(std::string_view stage, double fraction)>;
 
-/// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs flat joints; docs/theory.md
+/// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs joints; docs/theory.md
 /// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
 /// `check` is called at every step of the packing and may throw to end it.
 template <int dim>
 Specimen<dim> make_specimen(
-  const SpecimenParameters& wanted, const FlatJointParameters& flat_joint,
-  const ParticleContactParameters& particle_contact, std::uint64_t seed, const GenesisMonitor& monitor,
-  const std::function<void()>& check = [] {});
+  const SpecimenParameters& wanted, const JointParameters& joint, const ParticleContactParameters& particle_contact,
+  std::uint64_t seed, const GenesisMonitor& monitor, const std::function<void()>& check = [] {});
 
-/// Flat joints, stress free, between the grains of a specimen that has none; fills in its report.
+/// Joints of the law that the parameters are of, stress free, between the grains of a specimen that has none; fills in
+/// its report.
 template <int dim>
-void install_joints(Specimen<dim>& specimen, const FlatJointParameters& flat_joint);
+void install_joints(Specimen<dim>& specimen, const JointParameters& joint);
 } // namespace feldspar

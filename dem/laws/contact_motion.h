@@ -306,4 +306,27 @@ ContactForce<3, Real> contact_force(const ContactFrame<3, Real>& frame, const Re
           in_space(-moment[0], a.one * shear_force[1] - moment[1], -a.one * shear_force[0] - moment[2]),
           in_space(moment[0], moment[1] + a.two * shear_force[1], moment[2] - a.two * shear_force[0])};
 }
+
+/// A contact plane that is carried by its grains: across the line between their centres. How the faces of a joint law
+/// move that derives from it.
+template <int dim>
+struct CarriedPlane
+{
+  template <typename Real>
+  static ContactMotion<dim, Real> motion(const ContactFrame<dim, Real>& before, const std::array<Real, dim>& centre_1,
+                                         const std::array<Real, dim>& centre_2, const Real& half_radius_difference,
+                                         const std::array<Real, n_rotations<dim>>& turn_1,
+                                         const std::array<Real, n_rotations<dim>>& turn_2)
+  {
+    return contact_motion(before, centre_1, centre_2, half_radius_difference, turn_1, turn_2);
+  }
+
+  template <typename Real>
+  static ContactForce<dim, Real> force(const ContactFrame<dim, Real>& frame, const Real& half_radius_difference,
+                                       const Real& normal_force, const std::array<Real, dim - 1>& shear_force,
+                                       const std::array<Real, n_rotations<dim>>& moment)
+  {
+    return contact_force(frame, half_radius_difference, normal_force, shear_force, moment);
+  }
+};
 } // namespace feldspar

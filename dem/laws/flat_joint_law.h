@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/simd.h"
+#include "dem/laws/bond_strength.h"
 
 #include <array>
 
@@ -16,6 +17,7 @@
 /// cited there. Functions are pure and free of loops, storage and files; Real is double or a pack of doubles.
 namespace feldspar::flat_joint
 {
+using feldspar::Bond;
 using simd::absolute;
 using simd::larger;
 using simd::select;
@@ -43,15 +45,6 @@ struct Segment<3, Real>
   double friction;       ///< μ [-]
 
   Real area() const { return element_area; }
-};
-
-/// Strength of one segment's bond.
-template <typename Real>
-struct Bond
-{
-  Real tensile_strength; ///< σ_b [Pa]
-  Real cohesion;         ///< c_b [Pa]
-  double friction_slope; ///< tan φ_b [-]
 };
 
 /// What a segment remembers; dim - 1 shear components.
@@ -244,7 +237,7 @@ SegmentUpdate<dim, Real> update(const Segment<dim, Real>& segment, const Bond<Re
     tau[c] = old.shear_stress[c] - stiffness * motion.shear_increment[c];
 
   // Shear strength of the bond (15).
-  const Real tau_c = larger(Real(0.0), bond.cohesion - bonded_stress * bond.friction_slope);
+  const Real tau_c = shear_strength(bond, bonded_stress);
   result.shear_break = old.bonded && !result.tension_break && magnitude(tau) > tau_c;
 
   const auto broke = result.tension_break || result.shear_break;

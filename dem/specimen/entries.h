@@ -44,6 +44,8 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
           entry::file("Specimen file", &P::specimen_file,
                       "a finished specimen.h5 to be tested, or, for `feldspar rve`, a volume of `feldspar "
                       "multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
-                      of_body)};
+                      of_body),
+          entry::choice("Joint law", &P::joint_law, {{"flat joint", "flat joint"}}, "between grains that meet",
+                        of_rock)};
 }
 } // namespace feldspar

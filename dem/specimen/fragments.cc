@@ -1,5 +1,7 @@
 #include "dem/specimen/fragments.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -8,24 +10,12 @@ namespace feldspar
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
 {
-  std::vector<std::uint32_t> parent(n_grains);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(n_grains);
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (joints.holds(j))
-      {
-        const std::uint32_t one = root(joints.grain_1[j]);
-        const std::uint32_t two = root(joints.grain_2[j]);
-        parent[std::max(one, two)] = std::min(one, two);
-      }
+      sets.merge(joints.grain_1[j], joints.grain_2[j]);
 
-  std::vector<std::uint32_t> n_members(n_grains, 0);
-  for (std::uint32_t i = 0; i < n_grains; ++i)
-    ++n_members[root(i)];
+  const std::vector<std::uint32_t> n_members = sets.sizes();
   std::vector<std::uint32_t> by_size(n_grains);
   std::iota(by_size.begin(), by_size.end(), 0u);
   std::stable_sort(by_size.begin(), by_size.end(),
@@ -36,7 +26,7 @@ std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_
 
   std::vector<std::uint32_t> number(n_grains);
   for (std::uint32_t i = 0; i < n_grains; ++i)
-    number[i] = rank[root(i)];
+    number[i] = rank[sets.root(i)];
   return number;
 }
 

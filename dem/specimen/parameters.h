@@ -18,7 +18,8 @@ struct SpecimenParameters
   double porosity = 0.16;
   double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
   double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
-  std::string packing_file;           ///< lines `x y [z] radius` in metres; empty: make a packing
-  std::string specimen_file;          ///< a finished specimen.h5; empty: make one
+  std::string joint_law = "flat joint";
+  std::string packing_file;  ///< lines `x y [z] radius` in metres; empty: make a packing
+  std::string specimen_file; ///< a finished specimen.h5; empty: make one
 };
 } // namespace feldspar

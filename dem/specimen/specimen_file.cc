@@ -2,6 +2,7 @@
 
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace feldspar
@@ -19,6 +21,30 @@ namespace
 const std::string format_name = "feldspar specimen";
 constexpr std::uint32_t schema_version = 3;
 constexpr double most_segments = 4096.0; // of a face, far beyond what an input may ask for
+
+/// Name and numbers of the joints' law; a file that tells none is of the time of the flat joint alone.
+template <int dim, typename Archive>
+void transfer_law(Archive& archive, Joints<dim>& joints)
+{
+  bool is_told = true;
+  if constexpr (Archive::reads)
+    is_told = archive.has_attribute("law");
+  if (!is_told)
+    return;
+  std::string name = std::visit([](const auto& law) { return std::string(law.name); }, joints.law);
+  archive.text("law", name);
+  const auto law = JointLaws::named<dim>(name);
+  if (!law)
+    throw InputError(fmt::format("joints of the law {}, which this program does not have", in_quotes(name)));
+  if constexpr (Archive::reads)
+    joints.law = *law;
+  std::visit(
+    [&](auto& with_numbers) {
+      if constexpr (requires { with_numbers.transfer(archive); })
+        with_numbers.transfer(archive);
+    },
+    joints.law);
+}
 
 /// The layout of the file.
 template <int dim, typename Archive>
@@ -72,6 +98,7 @@ void transfer(Archive& root, Specimen<dim>& specimen)
       joints.value("n_rings", division[0]);
       joints.value("n_sectors", division[1]);
     }
+  transfer_law<dim>(joints, stored);
   joints.value("thickness_m", stored.thickness);
   joints.value("friction", stored.friction);
   joints.value("friction_slope", stored.friction_slope);
@@ -85,7 +112,7 @@ void transfer(Archive& root, Specimen<dim>& specimen)
       if (!(n_segments >= 1.0 && n_segments <= most_segments) ||
           n_segments * double(stored.grain_1.size()) != double(joints.size_of("bonded")))
         throw InputError("joints are missing, or divided into another number of segments");
-      stored.divide(division);
+      stored.divide(division, std::visit([](const auto& law) { return law.n_more; }, stored.law));
       stored.resize_all(stored.grain_1.size());
     }
   const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(joints, name, values); };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/laws/face_elements.h"
+#include "dem/laws/joint_laws.h"
 #include "dem/storage/grains.h"
 #include "dem/storage/packed_rows.h"
 
@@ -25,6 +26,7 @@ struct JointTables
     , answer(other.answer)
     , segment_state(other.segment_state)
     , strength(other.strength)
+    , more_state(other.more_state)
   {
   }
   JointTables(JointTables&& other) noexcept
@@ -32,6 +34,7 @@ struct JointTables
     , answer(std::move(other.answer))
     , segment_state(std::move(other.segment_state))
     , strength(std::move(other.strength))
+    , more_state(std::move(other.more_state))
   {
   }
   JointTables& operator=(JointTables other) noexcept
@@ -40,6 +43,7 @@ struct JointTables
     std::swap(answer, other.answer);
     std::swap(segment_state, other.segment_state);
     std::swap(strength, other.strength);
+    std::swap(more_state, other.more_state);
     return *this;
   }
   ~JointTables() = default;
@@ -48,6 +52,7 @@ struct JointTables
   PackedTable<1> answer;    ///< its force and couples, those of a joint together: grains gather them
   PackedRows segment_state; ///< what its segments remember; all rows of a segment, then all of the next
   PackedRows strength;      ///< of the segments' bonds
+  PackedRows more_state;    ///< what else the law has its segments remember; in the order of segment_state
 
   static constexpr std::size_t first_normal = 5;
   static constexpr std::size_t first_tangent = first_normal + dim;
@@ -94,13 +99,15 @@ struct JointTables
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(answer, first_couple_2);
 };
 
-/// The flat joints of a specimen, ordered in space. Per segment (in space: element of the disk): [segment * size() +
-/// joint].
+/// The joints of a specimen and their law, ordered in space. Per segment (in space: element of the disk): [segment * size()
+/// + joint].
 template <int dim>
 struct Joints : JointTables<dim>
 {
   using JointTables<dim>::n_shear;
 
+  AnyJointLaw<dim> law;
+  std::size_t n_more = 0;                 ///< rows of each segment in `more_state`; set by divide()
   FaceDivision<dim> division{};           ///< set by divide()
   unsigned int n_segments = 0;            ///< of every face
   std::vector<FaceElement<dim>> elements; ///< the same of every face; [n_segments]
@@ -114,11 +121,21 @@ struct Joints : JointTables<dim>
   std::size_t size() const { return grain_1.size(); }
   std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
 
-  void divide(const FaceDivision<dim>& into)
+  /// How the law divides every face, and how many numbers of its own a segment remembers.
+  void divide(const FaceDivision<dim>& into, const std::size_t numbers_of_the_law)
   {
     division = into;
+    n_more = numbers_of_the_law;
     elements = face_elements<dim>(into);
     n_segments = unsigned(elements.size());
+  }
+
+  /// Of each segment, number k of those of the law.
+  PackedRow more(const std::size_t k) { return {this->more_state, k, n_more}; }
+
+  Face<double> face(const std::size_t joint) const
+  {
+    return {this->normal_stiffness[joint], this->shear_stiffness[joint], this->half_length[joint], thickness, friction};
   }
 
   double face_area(const std::size_t joint) const
@@ -182,6 +199,11 @@ struct Joints : JointTables<dim>
     visit("bonded", this->bonded);
     visit("tensile_strength", this->tensile_strength);
     visit("cohesion", this->cohesion);
+    for (std::size_t k = 0; k < n_more; ++k)
+      {
+        PackedRow row = more(k);
+        visit("more_" + std::to_string(k + 1), row);
+      }
   }
 
   /// All at rest, nothing bonded.
@@ -194,12 +216,13 @@ struct Joints : JointTables<dim>
     this->answer.resize(this->n_answer_rows, n);
     this->segment_state.resize(n_segments * this->n_segment_rows, n);
     this->strength.resize(n_segments * this->n_strength_rows, n);
+    this->more_state.resize(n_segments * n_more, n);
   }
 
   /// Drops every joint that is not among `kept` (ascending).
   void keep(const std::vector<std::size_t>& kept)
   {
-    for (auto* table : {&this->state, &this->segment_state, &this->strength})
+    for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
       table->keep(kept);
     this->answer.keep(kept);
     for (auto* values : {&grain_1, &grain_2, &number})

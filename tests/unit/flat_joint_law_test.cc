@@ -1,6 +1,6 @@
 #include "dem/laws/contact_motion.h"
+#include "dem/laws/flat_joint.h"
 #include "dem/laws/flat_joint_law.h"
-#include "dem/laws/joint_update.h"
 
 #include <gtest/gtest.h>
 

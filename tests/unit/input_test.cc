@@ -37,6 +37,7 @@ subsection Specimen
   set Packing stress ratio = 4e-4
   set Packing file = grains.txt
   set Specimen file = none
+  set Joint law = flat joint
 end
 SUBSECTION Flat joint
   SET Segments = 3

@@ -299,8 +299,8 @@ TYPED_TEST(Networks, FirstBreakIsThatOfTheFullSolution)
             const double normal = link.normal_stiffness * flat_joint::gap_at(motion[0], rotation, offset);
             const double shear =
               link.shear_stiffness * flat_joint::magnitude(flat_joint::slip_at(slip, rotation[0], offset));
-            const Strength& bond = network.strength(link.first_segment + i);
-            if (normal > bond.tensile || shear > std::max(0.0, bond.cohesion - network.friction_slope() * normal))
+            const Bond<double>& bond = network.bond(link.first_segment + i);
+            if (normal > bond.tensile_strength || shear > std::max(0.0, bond.cohesion - bond.friction_slope * normal))
               segments.push_back(link.first_segment + i);
           }
       }

@@ -1,7 +1,7 @@
 // The flat joint in three dimensions: its disk of elements, and how its faces move.
 
 #include "dem/dynamics/joint_sweep.h"
-#include "dem/laws/joint_update.h"
+#include "dem/laws/flat_joint.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

@@ -219,8 +219,8 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirVolumes)
       EXPECT_EQ(twin.intact_stiffness(), usual.intact_stiffness());
       for (std::uint32_t k = 0; k < usual.n_segments(); ++k)
         {
-          EXPECT_EQ(twin.strength(k).tensile, share * usual.strength(k).tensile);
-          EXPECT_EQ(twin.strength(k).cohesion, share * usual.strength(k).cohesion);
+          EXPECT_EQ(twin.bond(k).tensile_strength, share * usual.bond(k).tensile_strength);
+          EXPECT_EQ(twin.bond(k).cohesion, share * usual.bond(k).cohesion);
         }
       // The first to break does so in tension, at that share of the strain.
       const Voigt<2> pull = axial<2>(1.0);

@@ -1,25 +1,19 @@
 #pragma once
 
+#include "base/random.h"
 #include "dem/laws/contact_motion.h"
-#include "dem/laws/face_elements.h"
+#include "dem/laws/face.h"
 #include "dem/laws/flat_joint_law.h"
+#include "dem/laws/parameters.h"
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
-/// The face of a joint: its segments, answered one by one by the law, and their resultants (7), (9).
+/// The flat joint at the level of the face: its segments, updated one by one by the law of a segment
+/// (flat_joint_law.h), and their resultants (7), (9).
 namespace feldspar
 {
-/// What the segments of a face have in common.
-template <typename Real>
-struct Face
-{
-  Real normal_stiffness; ///< k_n [Pa/m]
-  Real shear_stiffness;  ///< k_s [Pa/m]
-  Real half_length;      ///< R̄ [m]
-  double thickness;      ///< t of the plane [m]
-  double friction;       ///< μ [-]
-};
-
 /// Segment of a face, and where its centroid lies.
 template <int dim, typename Real>
 struct PlacedSegment
@@ -39,27 +33,6 @@ PlacedSegment<dim, Real> place_segment(const Face<Real>& face, const FaceElement
     return {{face.normal_stiffness, face.shear_stiffness, r * r * element.area, face.friction},
             {r * element.offset[0], r * element.offset[1]}};
 }
-
-/// How a face moves over a step.
-template <int dim, typename Real>
-struct FaceMotion
-{
-  Real opening_before;                                ///< g_0 + U_n at the start [m]
-  Real opening;                                       ///< at the end [m]
-  std::array<Real, n_rotations<dim>> rotation_before; ///< θ at the start: about k, or n, t_1 and t_2 [rad]
-  std::array<Real, n_rotations<dim>> rotation;        ///< θ at the end [rad]
-  std::array<Real, dim - 1> slip_increment;           ///< ΔU_s at the contact point [m]
-};
-
-/// F_n, F_s and M_c about the contact point.
-template <int dim, typename Real>
-struct FaceResultants
-{
-  Real normal_force;                         ///< compression positive [N]
-  std::array<Real, dim - 1> shear_force;     ///< [N]
-  std::array<Real, n_rotations<dim>> moment; ///< about k, or n, t_1 and t_2 [N m]
-  Real slip_energy;                          ///< dissipated in this step [J]
-};
 
 /// Adds a segment's forces and, about the contact point, their moment: (9), in three dimensions r × F.
 template <typename Real>
@@ -131,4 +104,71 @@ double face_energy(const Face<double>& face, const std::vector<FaceElement<dim>>
     }
   return sum;
 }
+/// As a joint law (joint_law.h). All that it is told of a face is common to the faces of every law, so that it has no
+/// numbers of its own.
+template <int dim>
+struct FlatJoint : CarriedPlane<dim>
+{
+  using Parameters = FlatJointParameters;
+  static constexpr std::string_view name = "flat joint";
+  static constexpr std::size_t n_more = 0;
+  /// A broken face closes, opens, slides with friction and resists rotation.
+  static constexpr bool face_outlives_bonds = true;
+
+  FlatJoint() = default;
+  explicit FlatJoint(const Parameters&) {}
+
+  template <typename Real>
+  using State = flat_joint::SegmentState<dim, Real>;
+
+  static FaceDivision<dim> division(const Parameters& wanted) { return face_division<dim>(wanted); }
+
+  /// Of one face.
+  static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
+  {
+    const auto draw = [&] {
+      const double tensile_strength =
+        random.non_negative_normal(wanted.bond_tensile_strength, wanted.bond_tensile_strength_deviation);
+      const double cohesion = random.non_negative_normal(wanted.bond_cohesion, wanted.bond_cohesion_deviation);
+      return Bond<double>{tensile_strength, cohesion, std::tan(wanted.bond_friction_angle)};
+    };
+    if (wanted.strength_draw == StrengthDraw::per_contact)
+      return std::vector<Bond<double>>(n_elements, draw());
+    std::vector<Bond<double>> bonds(n_elements);
+    std::generate(bonds.begin(), bonds.end(), draw);
+    return bonds;
+  }
+
+  template <typename Real, typename Elements>
+  FaceResultants<dim, Real> update(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
+                                   const FaceMotion<dim, Real>& motion, Elements&& states) const
+  {
+    return update_face<dim, Real>(face, elements, motion, std::forward<Elements>(states));
+  }
+
+  template <typename StateOf>
+  double stored_energy(const Face<double>& face, const std::vector<FaceElement<dim>>& elements, const double opening,
+                       const std::array<double, n_rotations<dim>>& rotation, StateOf&& state_of) const
+  {
+    return face_energy<dim>(
+      face, elements, opening, rotation, [&](const unsigned int i) { return state_of(i).shear_stress; },
+      [&](const unsigned int i) { return state_of(i).bonded; });
+  }
+
+  /// Share of a bonded element.
+  JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>& element,
+                                       const ElementRows<dim>& rows) const
+  {
+    return element_stiffness(face, element, rows);
+  }
+
+  /// Change of gap and shear of an element since rest [m].
+  static Vector<dim> strain(const ElementRows<dim>& rows, const Motion<dim>& motion) { return rows * motion; }
+  /// (10), (13), of a bonded element.
+  static BondStress bond_stress(const Face<double>& face, const Vector<dim>& strain)
+  {
+    const double normal = face.normal_stiffness * strain[0];
+    return {normal, normal, face.shear_stiffness * strain.template tail<dim - 1>().norm()};
+  }
+};
 } // namespace feldspar

@@ -1,0 +1,127 @@
+#pragma once
+
+#include "base/random.h"
+#include "dem/laws/bond_strength.h"
+#include "dem/laws/contact_motion.h"
+#include "dem/laws/face.h"
+
+#include <concepts>
+#include <string_view>
+#include <vector>
+
+/// What a joint law is: how the face between two grains answers a motion of theirs, from its installation to its last
+/// piece. The grains' dynamics (dem/dynamics) and the network of a representative volume (coupling/rve) ask the same law.
+///
+/// To add one:
+///   1. Its parameters beside FlatJointParameters (parameters.h), with their entries in app/input/parameter_table.cc.
+///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
+///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
+///      {1} in the plane and {1, 1} in space.
+///   3. Its name in the list of joint_laws.h and in the choices of `Specimen/Joint law`.
+///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
+/// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
+/// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. Two places
+/// know the flat joint alone, and a static_assert says so to whoever lengthens the list: the response of broken faces
+/// (coupling/rve/link_response.cc), and the closed form of the first break (Network::unit_response), which takes it that
+/// the normal and shear stress of an element are all that its bond bears.
+///
+/// Every element of every law has a bond (bond_strength.h), a shear stress and a mark whether the bond holds; `n_more`
+/// numbers of the law's own may go with them. A law with numbers of its own that are the same for all faces also has
+/// `transfer(archive)`, which names each once for specimen files. Functions are pure; Real is double or a pack of doubles.
+namespace feldspar
+{
+/// Stands for the elements of one face, as a law meets them: bond and state of each, and where its update goes.
+template <typename Law, typename Real>
+struct ElementsOfOneFace
+{
+  using State = typename Law::template State<Real>;
+
+  Bond<Real> bond(unsigned int element) const;
+  State state(unsigned int element) const;
+  /// Takes the new state, and the event: update.state, update.tension_break, update.shear_break and, of a break,
+  /// update.released_energy [J].
+  template <typename Update>
+  void set(unsigned int element, const Update& update);
+};
+
+/// What an element remembers: the law may add `std::array<Real, n_more> more`.
+template <typename State, int dim, typename Real>
+concept ElementState = requires(State state)
+{
+  {
+    state.shear_stress
+    } -> std::convertible_to<std::array<Real, dim - 1>>; // τ [Pa]
+  {
+    state.bonded
+    } -> std::convertible_to<decltype(Real() < Real())>;
+};
+
+/// How a joint's plane follows its grains, and how its forces reach them; CarriedPlane of contact_motion.h is one.
+template <typename Law, int dim, typename Real>
+concept MovesWithItsGrains = requires(const ContactFrame<dim, Real> frame, const std::array<Real, dim> centre,
+                                      const Real length, const std::array<Real, dim - 1> shear_force,
+                                      const std::array<Real, n_rotations<dim>> turn)
+{
+  {
+    Law::motion(frame, centre, centre, length, turn, turn)
+    } -> std::same_as<ContactMotion<dim, Real>>;
+  {
+    Law::force(frame, length, length, shear_force, turn)
+    } -> std::same_as<ContactForce<dim, Real>>;
+};
+
+/// Forces of a face after a step, and the new states of its elements.
+template <typename Law, int dim, typename Real>
+concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Real> &&
+  MovesWithItsGrains<Law, dim, Real> &&
+  requires(const Law law, const Face<Real> face, const std::vector<FaceElement<dim>> elements,
+           const FaceMotion<dim, Real> motion, ElementsOfOneFace<Law, Real> states)
+{
+  {
+    law.update(face, elements, motion, states)
+    } -> std::same_as<FaceResultants<dim, Real>>;
+};
+
+template <typename Law, int dim>
+concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && UpdatesFaces<Law, dim, double> &&
+  UpdatesFaces<Law, dim, simd::Pack> && std::constructible_from<Law, const typename Law::Parameters&> &&
+  requires(const Law law, const typename Law::Parameters wanted, Random random, const Face<double> face,
+           const std::vector<FaceElement<dim>> elements, const std::array<double, n_rotations<dim>> rotation,
+           typename Law::template State<double> (*state_of)(unsigned int), const ElementRows<dim> rows,
+           const Motion<dim> motion)
+{
+  // The choice of `Specimen/Joint law`.
+  {
+    Law::name
+    } -> std::convertible_to<std::string_view>;
+  // Numbers of the law's own in the state of an element.
+  {
+    Law::n_more
+    } -> std::convertible_to<std::size_t>;
+  // Whether a face without a bond is a face still; else its grains touch without one.
+  {
+    Law::face_outlives_bonds
+    } -> std::convertible_to<bool>;
+
+  // Installation.
+  {
+    Law::division(wanted)
+    } -> std::same_as<FaceDivision<dim>>;
+  {
+    Law::draw_bonds(wanted, std::size_t(1), random)
+    } -> std::same_as<std::vector<Bond<double>>>;
+
+  // Stored in a face, from its opening, its rotation and the states of its elements [J].
+  {
+    law.stored_energy(face, elements, 0.0, rotation, state_of)
+    } -> std::same_as<double>;
+
+  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
+  {
+    law.bonded_stiffness(face, elements.front(), rows)
+    } -> std::same_as<JointStiffness<dim>>;
+  {
+    law.bond_stress(face, law.strain(rows, motion))
+    } -> std::same_as<BondStress>;
+};
+} // namespace feldspar

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "dem/laws/flat_joint.h"
+#include "dem/laws/joint_law.h"
+
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+namespace feldspar
+{
+/// Joint laws as a list of templates: whatever is made once for each of them is made from here.
+template <template <int> class... Laws>
+struct JointLawList
+{
+  static_assert((JointLaw<Laws<2>, 2> && ...) && (JointLaw<Laws<3>, 3> && ...));
+
+  /// One of the laws; a loop over joints asks once which, then runs with the law itself.
+  template <int dim>
+  using Any = std::variant<Laws<dim>...>;
+  /// Parameters of one of the laws.
+  using Parameters = std::variant<typename Laws<2>::Parameters...>;
+
+  /// The law with these parameters.
+  template <int dim>
+  static Any<dim> make(const Parameters& wanted)
+  {
+    Any<dim> law;
+    const auto take = [&]<typename Law>(const Law*) {
+      if (const auto* parameters = std::get_if<typename Law::Parameters>(&wanted))
+        law = Law(*parameters);
+    };
+    (take(static_cast<const Laws<dim>*>(nullptr)), ...);
+    return law;
+  }
+
+  /// A law by its name; none of that name is no law.
+  template <int dim>
+  static std::optional<Any<dim>> named(const std::string_view name)
+  {
+    std::optional<Any<dim>> law;
+    ((Laws<dim>::name == name ? void(law = Laws<dim>()) : void()), ...);
+    return law;
+  }
+};
+
+/// The laws there are.
+using JointLaws = JointLawList<FlatJoint>;
+
+template <int dim>
+using AnyJointLaw = JointLaws::Any<dim>;
+using JointParameters = JointLaws::Parameters;
+} // namespace feldspar
