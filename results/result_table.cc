@@ -68,7 +68,7 @@ ResultEntry of_run(const std::string_view name, T RunBookkeeping::*member, const
 
 const std::vector<ResultEntry>& result_table()
 {
-  static const std::string without_energies = "its material has no grains whose energies are summed";
+  static const std::string without_energies = "its material does not tell its energies";
   static const std::string without_time = "equilibrium is sought without time";
   static const std::vector<ResultEntry> table{
     of_test("confining_pressure_Pa", &TestRecord::confining_pressure),

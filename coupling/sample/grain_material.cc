@@ -162,16 +162,15 @@ void GrainPoint<dim>::forget_trial()
 }
 
 template <int dim>
-std::vector<PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
+std::vector<fem::PointCrack<dim>> GrainPoint<dim>::cracks_of_last_step() const
 {
-  std::vector<PointCrack<dim>> cracks;
+  std::vector<fem::PointCrack<dim>> cracks;
   const Network<dim>& network = accepted.network();
   for (const BreakEvent<dim>& event : events_accepted)
     {
       const std::uint32_t joint = network.link_of_segment(event.segment);
       const auto place = segment_place(network, joint, event.segment - network.links()[joint].first_segment);
-      cracks.push_back({event.in_tension ? CrackKind::tension : CrackKind::shear, event.segment, turn * place.normal,
-                        place.size, event.released_energy});
+      cracks.push_back({event.in_tension, event.segment, turn * place.normal, place.size, event.released_energy});
     }
   return cracks;
 }
@@ -181,8 +180,14 @@ std::optional<fem::PointEnergies> GrainPoint<dim>::energies() const
 {
   const NetworkWork& work = at_work.state().work;
   const double volume = at_work.network().volume();
-  return fem::PointEnergies{work.boundary / volume, at_work.stored_energy() / volume, work.slip / volume,
-                            work.released / volume, work.settled / volume};
+  return fem::PointEnergies{at_work.stored_energy() / volume, work.slip / volume, work.released / volume,
+                            work.settled / volume};
+}
+
+template <int dim>
+std::any GrainPoint<dim>::structure() const
+{
+  return GrainStructure<dim>{turn, &accepted.network(), accepted.state()};
 }
 
 namespace

@@ -2,8 +2,8 @@
 
 #include "coupling/rve/representative_volume.h"
 #include "fem/materials/material.h"
-#include "results/record.h"
 
+#include <any>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,15 +15,13 @@
 /// The law made of grains: a representative volume at every point of a sample; docs/theory.md §11.
 namespace feldspar
 {
-/// A broken segment of the volume at a point, in the axes of the sample.
+/// The representative volume at a point, in its accepted state: the structure of GrainPoint.
 template <int dim>
-struct PointCrack
+struct GrainStructure
 {
-  CrackKind kind;
-  std::uint32_t segment;
-  Vector<dim> normal;
-  double size;            ///< length in the plane, root of the area in space [m]
-  double released_energy; ///< [J]
+  Tensor<dim> orientation;     ///< turns the axes of the volume into those of the material
+  const Network<dim>* network; ///< of the realisation that was dealt to the point
+  NetworkState<dim> state;
 };
 
 template <int dim>
@@ -43,12 +41,13 @@ public:
   void restore(const std::string& stored) override;
   std::vector<double> fields() const override;
   std::optional<fem::PointEnergies> energies() const override;
+  std::vector<fem::PointCrack<dim>> cracks_of_last_step() const override;
+  bool is_damaged() const override { return !accepted.state().intact; }
+  std::any structure() const override;
 
   /// The volume in its accepted state, in its own axes.
   const RepresentativeVolume<dim>& volume() const { return accepted; }
   const Tensor<dim>& orientation() const { return turn; }
-  /// Broken in the last accepted step.
-  std::vector<PointCrack<dim>> cracks_of_last_step() const;
 
 private:
   fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);

@@ -1,13 +1,11 @@
 #include "coupling/sample/sample_body.h"
 
 #include "base/input_error.h"
+#include "coupling/sample/continua/continua.h"
 #include "coupling/sample/grain_material.h"
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_run.h"
 #include "coupling/sample/softening.h"
-#include "fem/materials/linear_elasticity.h"
-#include "fem/materials/mohr_coulomb.h"
-#include "fem/materials/plane_strain.h"
 #include "fem/solid/platens.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -15,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <any>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -201,53 +200,47 @@ public:
   double platen_stress(const std::string& end) const override { return solid.reaction(end, dim - 1) / solid.area(end); }
   double mean_axial_stress() const override { return solid.mean_stress()[material_dim - 1]; }
 
-  bool has_grains() const override { return sample.material == SampleMaterial::grains; }
-
   std::vector<Crack> cracks_of_last_step() const override
   {
     std::vector<Crack> cracks;
-    if (!has_grains())
-      return cracks;
     for (std::size_t i = 0; i < n_points_here(); ++i)
-      for (const PointCrack<material_dim>& broken : point(i).cracks_of_last_step())
-        cracks.push_back({broken.kind, solid.number_of_point(i), broken.segment, 0, 0.0, in_box(i),
-                          in_space<material_dim>(broken.normal), broken.size, broken.released_energy});
+      for (const fem::PointCrack<material_dim>& broken : solid.material_points()[i].cracks_of_last_step())
+        cracks.push_back({broken.in_tension ? CrackKind::tension : CrackKind::shear, solid.number_of_point(i),
+                          broken.segment, 0, 0.0, in_box(i), in_space<material_dim>(broken.normal), broken.size,
+                          broken.released_energy});
     return cracks;
   }
 
   Energies energies() const override
   {
-    if (!has_grains())
-      {
-        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-        return {unknown, unknown, unknown, unknown, unknown, unknown, unknown};
-      }
-    std::vector<double> sums(5, 0.0);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> sums(4, 0.0);
     for (std::size_t i = 0; i < n_points_here(); ++i)
       {
         const double volume = solid.volumes()[i];
-        const fem::PointEnergies densities = *solid.material_points()[i].energies();
-        sums[0] += volume * densities.work;
-        sums[1] += volume * densities.stored;
-        sums[2] += volume * densities.slip;
-        sums[3] += volume * densities.released;
-        sums[4] += volume * densities.settled;
+        const fem::PointEnergies densities =
+          solid.material_points()[i].energies().value_or(fem::PointEnergies{unknown, unknown, unknown, unknown});
+        sums[0] += volume * densities.stored;
+        sums[1] += volume * densities.slip;
+        sums[2] += volume * densities.released;
+        sums[3] += volume * densities.settled;
       }
     sums = ranks::sums(sums);
     Energies energies;
-    energies.boundary_work = sums[0];
-    energies.strain = sums[1];
-    energies.slip = sums[2];
-    energies.released = sums[3];
-    energies.damping = sums[4];
+    energies.boundary_work = solid.boundary_work().total();
+    energies.redistribution = solid.boundary_work().redistribution;
+    energies.strain = sums[0];
+    energies.slip = sums[1];
+    energies.released = sums[2];
+    energies.damping = sums[3];
     return energies;
   }
 
   std::uint64_t n_damaged_points() const override
   {
     std::uint64_t n = 0;
-    for (std::size_t i = 0; has_grains() && i < n_points_here(); ++i)
-      n += !point(i).volume().state().intact;
+    for (std::size_t i = 0; i < n_points_here(); ++i)
+      n += solid.material_points()[i].is_damaged();
     return ranks::sum(n);
   }
 
@@ -258,9 +251,11 @@ public:
       ++i;
     if (i == n_points_here())
       return std::nullopt;
-    const GrainPoint<material_dim>& at = point(i);
-    return SampleVolume<material_dim>{number, position(i), at.orientation(), &at.volume().network(),
-                                      at.volume().state()};
+    const std::any structure = solid.material_points()[i].structure();
+    const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
+    if (grains == nullptr)
+      throw InputError("Sample/Material: the points of this sample have no grains");
+    return SampleVolume<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
   }
 
   void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }
@@ -285,13 +280,6 @@ private:
   }
 
   std::size_t n_points_here() const { return solid.material_points().size(); }
-
-  /// Where there are grains.
-  const GrainPoint<material_dim>& point(const std::size_t i) const
-  {
-    const auto& at = static_cast<const SofteningPoint<material_dim>&>(solid.material_points()[i]);
-    return static_cast<const GrainPoint<material_dim>&>(at.volume());
-  }
 
   Vector<material_dim> position(const std::size_t i) const
   {
@@ -377,22 +365,10 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                                  const ContinuumParameters& continuum)
 {
-  const bool is_elastic = sample.material == SampleMaterial::linear_elasticity;
-  const auto mohr_coulomb = [&](const double E, const double nu) {
-    return fem::mohr_coulomb({E, nu, continuum.cohesion, continuum.friction_angle, continuum.dilation_angle});
-  };
+  const Continuum& material = continuum_of(sample.material);
   if (sample.geometry == SampleGeometry::plane)
-    {
-      // Plane strain that shows the modulus and the ratio asked for.
-      const auto [E, nu] = fem::plane_strain_equal_to_plate({continuum.modulus, continuum.poissons_ratio});
-      return make_body<2>(sample, set_up,
-                          is_elastic ? fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu))
-                                     : fem::plane_strain(mohr_coulomb(E, nu)));
-    }
-  const double E = continuum.modulus;
-  const double nu = continuum.poissons_ratio;
-  return make_body<3>(sample, set_up,
-                      is_elastic ? fem::linear_elasticity<3>(fem::isotropic_stiffness<3>(E, nu)) : mohr_coulomb(E, nu));
+    return make_body<2>(sample, set_up, material.in_plane(continuum));
+  return make_body<3>(sample, set_up, material.in_space(continuum));
 }
 
 template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,

@@ -57,12 +57,10 @@ public:
     const std::string& end) const = 0;          ///< its force along the axis over its area at rest [Pa]
   virtual double mean_axial_stress() const = 0; ///< over the volume [Pa]
 
-  // Where there are grains.
-  virtual bool has_grains() const = 0;
   virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
-  virtual Energies energies() const = 0;                      ///< NaN where there are none
+  virtual Energies energies() const = 0;                      ///< NaN where the material does not know them
   virtual std::uint64_t n_damaged_points() const = 0;
-  /// None where the point is another rank's.
+  /// None where the point is another rank's. Throws InputError where it has no grains.
   virtual std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(std::uint64_t point) const = 0;
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;

@@ -85,7 +85,7 @@ struct SampleTest::Parts
 
   /// What all ranks know besides the solid.
   template <typename Archive>
-  void transfer_test(Archive& archive, std::string& fields_written, std::map<std::string, double>& pressures)
+  void transfer_test(Archive& archive, std::string& fields_written, fem::StoredSolid& solid)
   {
     transfer_flag(archive, "seated", seated);
     transfer_flag(archive, "ended", ended);
@@ -107,7 +107,10 @@ struct SampleTest::Parts
     archive.value("strain_at_peak", stop_rule.strain_at_peak);
     archive.text("fields_written", fields_written);
     for (const std::string& boundary : body->boundaries())
-      archive.value("pressure_" + boundary + "_Pa", pressures[boundary]);
+      archive.value("pressure_" + boundary + "_Pa", solid.pressures[boundary]);
+    archive.value("reaction_work_J", solid.work.reactions);
+    archive.value("pressure_work_J", solid.work.pressures);
+    archive.value("redistribution_energy_J", solid.work.redistribution);
 
     bool on_its_way = steps.has_value();
     transfer_flag(archive, "row_on_its_way", on_its_way);
@@ -361,8 +364,6 @@ void SampleTest::write_fields(const std::filesystem::path& folder, const std::st
 template <int dim>
 SampleVolume<dim> SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
 {
-  if (!parts->body->has_grains())
-    throw InputError("Sample/Material: the points of this sample have no grains");
   const std::size_t n = parts->body->n_points_per_cell();
   if (point >= n || cell >= parts->standing.n_points / n)
     throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
@@ -466,7 +467,7 @@ void SampleTest::write_state(const std::filesystem::path& folder, const std::str
     if (ranks::is_first())
       {
         std::string fields_written = parts->fields ? parts->fields->stored() : "";
-        parts->transfer_test(root, fields_written, solid.pressures);
+        parts->transfer_test(root, fields_written, solid);
         root.bytes("cracks", parts->record.cracks);
       }
     write_cells(root, solid.cells);
@@ -481,17 +482,17 @@ void SampleTest::read_state(const std::filesystem::path& checkpoint, const std::
   read_checkpoint(checkpoint, identity, [&](Hdf5Reader& root, const std::uint64_t part) {
     if (part == 0)
       {
-        parts->transfer_test(root, fields_written, solid.pressures);
+        parts->transfer_test(root, fields_written, solid);
         root.bytes("cracks", parts->record.cracks);
       }
     for (auto& cell : read_cells(root))
       solid.cells.push_back(std::move(cell));
   });
   BytesWriter of_first;
-  parts->transfer_test(of_first, fields_written, solid.pressures);
+  parts->transfer_test(of_first, fields_written, solid);
   const std::string bytes = ranks::of_first(of_first.all);
   BytesReader reader(bytes);
-  parts->transfer_test(reader, fields_written, solid.pressures);
+  parts->transfer_test(reader, fields_written, solid);
   try
     {
       parts->body->restore(solid);

@@ -9,7 +9,7 @@ namespace feldspar
 {
 template <int dim>
 SofteningPoint<dim>::SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, const double its_scale)
-  : inner(std::move(volume))
+  : fem::ForwardingPoint<dim>(std::move(volume))
   , scale(its_scale)
   , compliance(inner->trial(Voigt<dim>::Zero()).tangent.inverse())
 {
@@ -211,9 +211,8 @@ std::optional<fem::PointEnergies> SofteningPoint<dim>::energies() const
   const auto scaled = [this](const double now, const double before, const double unscaled) {
     return before + unscaled + (now - before - unscaled) / scale;
   };
-  return fem::PointEnergies{scaled(all->work, then.work, elastic), scaled(all->stored, then.stored, elastic),
-                            scaled(all->slip, then.slip, 0.0), scaled(all->released, then.released, 0.0),
-                            scaled(all->settled, then.settled, 0.0)};
+  return fem::PointEnergies{scaled(all->stored, then.stored, elastic), scaled(all->slip, then.slip, 0.0),
+                            scaled(all->released, then.released, 0.0), scaled(all->settled, then.settled, 0.0)};
 }
 
 template <int dim>

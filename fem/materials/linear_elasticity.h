@@ -2,7 +2,11 @@
 
 #include "fem/materials/material.h"
 
+#include <cstring>
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace feldspar::fem
 {
@@ -45,9 +49,19 @@ public:
   }
 
   MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override { return {stiffness * strain, stiffness}; }
+  void accept(const StrainVector<dim>& strain) override { stored_energy = 0.5 * strain.dot(stiffness * strain); }
+  std::string stored() const override { return {reinterpret_cast<const char*>(&stored_energy), sizeof(double)}; }
+  void restore(const std::string& stored) override
+  {
+    if (stored.size() != sizeof(double))
+      throw std::invalid_argument("not the state of an elastic point");
+    std::memcpy(&stored_energy, stored.data(), sizeof(double));
+  }
+  std::optional<PointEnergies> energies() const override { return PointEnergies{.stored = stored_energy}; }
 
 private:
   StiffnessMatrix<dim> stiffness;
+  double stored_energy = 0.0; ///< in the accepted state [J/m³]
 };
 
 template <int dim>

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <any>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,11 +50,21 @@ struct PointEvents
 /// Per volume since the start [J/m³], each summed on its own.
 struct PointEnergies
 {
-  double work = 0.0; ///< done on it
   double stored = 0.0;
-  double slip = 0.0;     ///< lost by friction
+  double slip = 0.0;     ///< lost by friction and plastic flow
   double released = 0.0; ///< lost by what broke
   double settled = 0.0;  ///< lost on the way to equilibrium after a break
+};
+
+/// A crack that opened within a point, in the axes of the material.
+template <int dim>
+struct PointCrack
+{
+  bool in_tension;       ///< else in shear
+  std::uint32_t segment; ///< its number within the point
+  Eigen::Matrix<double, dim, 1> normal;
+  double size;            ///< length in the plane, root of the area in space [m]
+  double released_energy; ///< [J]
 };
 
 /// A point has no answer to the strain asked: the step is cut, not the run ended.
@@ -94,10 +105,12 @@ public:
     return {n, trial(strain).stress};
   }
 
-  /// Makes the answer to this strain, at which relax() found nothing, and the structure at work history. Must not throw.
+  /// Makes the answer to this strain and the structure at work history. Cannot fail at a strain at which relax() has just
+  /// found nothing, so that no point of a sample is left behind by the others; elsewhere it may throw PointFailure, and the
+  /// point keeps its state.
   virtual void accept(const StrainVector<dim>& /*strain*/) {}
 
-  /// Puts the structure at work back to the accepted one. Must not throw.
+  /// Puts the structure at work back to the accepted one.
   virtual void reject() {}
 
   /// The accepted state as bytes that restore() of the same program understands; it puts the structure at work back to
@@ -108,8 +121,17 @@ public:
   /// Values of the accepted state for output, in the order of Material::field_names.
   virtual std::vector<double> fields() const { return {}; }
 
-  /// Of the structure at work; none where they are not known.
+  /// Of the accepted state; none where they are not known.
   virtual std::optional<PointEnergies> energies() const { return {}; }
+
+  /// Opened in the last accepted step.
+  virtual std::vector<PointCrack<dim>> cracks_of_last_step() const { return {}; }
+
+  /// Something has broken in the accepted state.
+  virtual bool is_damaged() const { return false; }
+
+  /// The structure in the accepted state, of a type that the material names; empty where there is none.
+  virtual std::any structure() const { return {}; }
 };
 
 /// Where a point sits; the same for any number of ranks.

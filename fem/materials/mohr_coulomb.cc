@@ -150,14 +150,23 @@ public:
   std::string stored() const override
   {
     std::string bytes(reinterpret_cast<const char*>(state.plastic_strain.data()), n_components<3> * sizeof(double));
-    return bytes.append(reinterpret_cast<const char*>(&state.dissipated), sizeof(double));
+    for (const double energy : {state.dissipated, state.stored})
+      bytes.append(reinterpret_cast<const char*>(&energy), sizeof(double));
+    return bytes;
   }
   void restore(const std::string& stored) override
   {
-    if (stored.size() != (n_components<3> + 1) * sizeof(double))
+    if (stored.size() != (n_components<3> + 2) * sizeof(double))
       throw std::invalid_argument("not the state of a Mohr-Coulomb point");
-    std::memcpy(state.plastic_strain.data(), stored.data(), n_components<3> * sizeof(double));
-    std::memcpy(&state.dissipated, stored.data() + n_components<3> * sizeof(double), sizeof(double));
+    const char* from = stored.data();
+    std::memcpy(state.plastic_strain.data(), from, n_components<3> * sizeof(double));
+    from += n_components<3> * sizeof(double);
+    std::memcpy(&state.dissipated, from, sizeof(double));
+    std::memcpy(&state.stored, from + sizeof(double), sizeof(double));
+  }
+  std::optional<PointEnergies> energies() const override
+  {
+    return PointEnergies{.stored = state.stored, .slip = state.dissipated};
   }
   std::vector<double> fields() const override
   {
@@ -189,7 +198,7 @@ MohrCoulombUpdate update(const MohrCoulombParameters& parameters, const MohrCoul
 
   const PrincipalUpdate updated = principal_update(yield, C.topLeftCorner<3, 3>(), trial);
   if (updated.stress == trial)
-    return {{s, C}, old};
+    return {{s, C}, {old.plastic_strain, old.dissipated, 0.5 * s.dot(strain - old.plastic_strain)}};
   const Eigen::Matrix<double, 6, 6> rotation = stress_rotation(axes);
   MohrCoulombUpdate result;
   result.answer.stress = rotation.leftCols<3>() * updated.stress;
@@ -197,6 +206,7 @@ MohrCoulombUpdate update(const MohrCoulombParameters& parameters, const MohrCoul
   const StrainVector<3> flow = C.ldlt().solve(s - result.answer.stress);
   result.state.plastic_strain = old.plastic_strain + flow;
   result.state.dissipated = old.dissipated + result.answer.stress.dot(flow);
+  result.state.stored = 0.5 * result.answer.stress.dot(strain - result.state.plastic_strain);
   return result;
 }
 

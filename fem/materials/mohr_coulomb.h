@@ -25,6 +25,7 @@ struct MohrCoulombState
 {
   StrainVector<3> plastic_strain = StrainVector<3>::Zero();
   double dissipated = 0.0; ///< [J/m³]
+  double stored = 0.0;     ///< elastic energy [J/m³]
 };
 
 struct MohrCoulombUpdate

@@ -27,11 +27,6 @@ public:
     points.push_back(std::move(point));
     times.push_back(0.0);
   }
-  void clear()
-  {
-    points.clear();
-    times.clear();
-  }
 
   std::size_t size() const { return points.size(); }
   const MaterialPoint<dim>& operator[](const std::size_t i) const { return *points[i]; }

@@ -36,7 +36,10 @@ struct SeriesGroup
   {
     return series->kind != SeriesKind::laboratory_curve &&
            std::none_of(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
-             return !test->record.curve.empty() && std::isnan(test->record.curve.back().energies.boundary_work);
+             const bool is_continuum =
+               test->record.body == TestBody::finite_elements && test->record.specimen.n_joints == 0;
+             return is_continuum ||
+                    (!test->record.curve.empty() && std::isnan(test->record.curve.back().energies.strain));
            });
   }
 };
@@ -228,7 +231,17 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
                  .script = plot.script(frame("axial strain [10⁻³]", "broken segments") + "set yrange [0:*]\n")};
 }
 
-/// Of one series, for six lines are enough.
+/// Zero in every row.
+template <typename Value>
+bool is_nowhere(const SeriesGroup& of, const Value& value)
+{
+  return std::all_of(of.group.tests.begin(), of.group.tests.end(), [&](const FinishedTest* test) {
+    return std::all_of(test->record.curve.begin(), test->record.curve.end(),
+                       [&](const CurveSample& row) { return value(row) == 0.0; });
+  });
+}
+
+/// Of one series, for its lines are enough.
 std::optional<Picture> energy_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
 {
   const auto of = std::find_if(same.begin(), same.end(), [](const auto& one) { return one.counts_cracks(); });
@@ -246,12 +259,16 @@ std::optional<Picture> energy_picture(const SameTests& same, const std::string& 
                                     Part{"damping", &Energies::damping, sky, 4},
                                     Part{"friction", &Energies::slip, green, 2},
                                     Part{"released by breaks", &Energies::released, vermillion, 1},
+                                    Part{"stress redistribution", &Energies::redistribution, sky, 2},
                                     Part{"kinetic", &Energies::kinetic, purple, 3}};
   Plot plot;
   for (const auto& part : parts)
-    add_mean(
-      plot, *of, [&](const CurveSample& row) { return row.energies.*part.member; },
-      fmt::format("dt {} lc rgb '{}'", part.dashes, part.colour), part.label);
+    {
+      const auto energy = [&](const CurveSample& row) { return row.energies.*part.member; };
+      if (is_nowhere(*of, energy)) // grains have no elements between which stress is redistributed
+        continue;
+      add_mean(plot, *of, energy, fmt::format("dt {} lc rgb '{}'", part.dashes, part.colour), part.label);
+    }
   if (plot.empty())
     return std::nullopt;
   return Picture{

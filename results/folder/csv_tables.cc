@@ -22,7 +22,8 @@ namespace feldspar
 namespace
 {
 /// A column by its name, with where its number is in a row. `laboratory`: changes sign to be positive in the sense of
-/// the test; `added`: tables of before it was added do without, and it is 0.
+/// the test; `added`: tables of before it was added do without, and it is 0; `of_samples`: only curves of samples of finite
+/// elements have it.
 template <typename Row>
 struct Column
 {
@@ -31,6 +32,7 @@ struct Column
   std::function<void(Row&, double)> set;
   bool laboratory = false;
   bool added = false;
+  bool of_samples = false;
   double most = 0.0; ///< of a count or a number of something, the largest that is one; 0 of what need not be whole
 };
 
@@ -46,6 +48,7 @@ Column<Row> column(const std::string_view name, const Part& part, const bool lab
             place = Number(value);
           },
           laboratory,
+          false,
           false,
           std::is_integral_v<Number> ? std::min(0x1p53, double(std::numeric_limits<Number>::max())) : 0.0};
 }
@@ -76,11 +79,16 @@ Column<CurveSample> added(Column<CurveSample> column)
   return column;
 }
 
+Column<CurveSample> of_samples(Column<CurveSample> column)
+{
+  column.of_samples = true;
+  return added(column);
+}
+
 const std::vector<Column<CurveSample>>& curve_columns()
 {
   static const std::vector<Column<CurveSample>> columns{
-    column<CurveSample>("step", &CurveSample::step),
-    column<CurveSample>("time_s", &CurveSample::time),
+    column<CurveSample>("step", &CurveSample::step), column<CurveSample>("time_s", &CurveSample::time),
     column<CurveSample>("axial_strain", &CurveSample::axial_strain, true),
     column<CurveSample>("axial_stress_Pa", &CurveSample::axial_stress, true),
     column<CurveSample>("end_stress_difference_Pa", &CurveSample::end_stress_difference, true),
@@ -92,13 +100,21 @@ const std::vector<Column<CurveSample>>& curve_columns()
     column<CurveSample>("n_tension_cracks", &CurveSample::n_tension_cracks),
     column<CurveSample>("n_shear_cracks", &CurveSample::n_shear_cracks),
     column<CurveSample>("unbalanced_force_ratio", &CurveSample::unbalanced_force_ratio),
-    energy("boundary_work_J", &Energies::boundary_work),
-    energy("kinetic_energy_J", &Energies::kinetic),
-    energy("strain_energy_J", &Energies::strain),
-    energy("slip_energy_J", &Energies::slip),
-    energy("released_energy_J", &Energies::released),
-    energy("damping_energy_J", &Energies::damping),
-    added(energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start))};
+    energy("boundary_work_J", &Energies::boundary_work), energy("kinetic_energy_J", &Energies::kinetic),
+    energy("strain_energy_J", &Energies::strain), energy("slip_energy_J", &Energies::slip),
+    energy("released_energy_J", &Energies::released), energy("damping_energy_J", &Energies::damping),
+    added(energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start)),
+    // The boundary work by the name of what does it on a sample: reactions of the platens, pressures on the sides.
+    of_samples(energy("platen_work_J", &Energies::boundary_work)),
+    of_samples(energy("redistribution_energy_J", &Energies::redistribution))};
+  return columns;
+}
+
+std::vector<Column<CurveSample>> curve_columns(const TestBody body)
+{
+  std::vector<Column<CurveSample>> columns = curve_columns();
+  if (body != TestBody::finite_elements)
+    std::erase_if(columns, [](const auto& column) { return column.of_samples; });
   return columns;
 }
 
@@ -172,10 +188,11 @@ Row row_of(const CsvReader& table, const std::vector<Column<Row>>& columns,
 
 void write_curve(const TestRecord& record, const std::filesystem::path& file)
 {
+  const auto columns = curve_columns(record.body);
   std::string text;
-  append_names(text, curve_columns());
+  append_names(text, columns);
   for (const auto& row : record.curve)
-    append_row(text, curve_columns(), row, record.kind.sign);
+    append_row(text, columns, row, record.kind.sign);
   write_whole_file(file, text);
 }
 

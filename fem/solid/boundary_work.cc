@@ -1,0 +1,49 @@
+#include "fem/solid/boundary_work.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace feldspar::fem
+{
+namespace
+{
+std::vector<double> entries(const NodalVector& vector, const dealii::IndexSet& owned)
+{
+  std::vector<dealii::types::global_dof_index> indices;
+  owned.fill_index_vector(indices);
+  std::vector<double> values(indices.size());
+  vector.extract_subvector_to(indices, values);
+  return values;
+}
+} // namespace
+
+PathVertex::PathVertex(const NodalVector& its_displacement, const NodalVector& its_internal_force,
+                       const NodalVector& its_external_force, const dealii::IndexSet& owned)
+  : displacement(entries(its_displacement, owned))
+  , internal_force(entries(its_internal_force, owned))
+  , external_force(entries(its_external_force, owned))
+{
+}
+
+BoundaryWork work_between(const PathVertex& from, const PathVertex& to, const std::vector<bool>& held)
+{
+  BoundaryWork work;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      const double way = to.displacement[i] - from.displacement[i];
+      const double external = 0.5 * (from.external_force[i] + to.external_force[i]);
+      const double reaction = 0.5 * (from.internal_force[i] + to.internal_force[i]) - external;
+      work.pressures += external * way;
+      if (held[i])
+        work.reactions += reaction * way;
+      else
+        work.redistribution -= reaction * way;
+    }
+  return work;
+}
+
+BoundaryWork sum(const BoundaryWork& of_rank, const MPI_Comm communicator)
+{
+  const auto over_ranks = [=](const double here) { return dealii::Utilities::MPI::sum(here, communicator); };
+  return {over_ranks(of_rank.reactions), over_ranks(of_rank.pressures), over_ranks(of_rank.redistribution)};
+}
+} // namespace feldspar::fem

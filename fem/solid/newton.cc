@@ -1,0 +1,261 @@
+#include "fem/solid/newton.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace feldspar::fem
+{
+using namespace dealii;
+
+template <int dim, int material_dim>
+NewtonSearch<dim, material_dim>::NewtonSearch(const Discretisation<dim>& its_elements,
+                                              SolidPoints<material_dim>& its_points,
+                                              const SolidParameters& its_parameters,
+                                              PETScWrappers::MPI::SparseMatrix& its_matrix,
+                                              std::function<void()> its_round_done)
+  : elements(its_elements)
+  , points(its_points)
+  , parameters(its_parameters)
+  , matrix(its_matrix)
+  , round_done(std::move(its_round_done))
+  , right_side(elements.owned_vector())
+{
+}
+
+template <int dim, int material_dim>
+auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const SolidState<material_dim>& start)
+  -> Outcome
+{
+  tried = start;
+  NewtonReport report;
+  const auto failed = [&](const std::string& why) {
+    report.failure = why;
+    return Outcome{report, tried};
+  };
+  const std::vector<bool> held = held_by(constraints.standing);
+  BoundaryWork work; // of this rank
+  std::optional<PathVertex> vertex = vertex_of(start);
+  bool boundary_moves = !constraints.following;
+  unsigned int n_iterations_left = parameters.most_iterations;
+  double force_scale = start.internal_force.l2_norm();
+  for (;;)
+    {
+      const NodalForces forces = assemble_forces(elements, points.volumes, tried, constraints.standing);
+      tried.internal_force = forces.internal;
+      tried.external_force = forces.external;
+      right_side = forces.unbalanced;
+      if (!vertex)
+        vertex = vertex_of(tried);
+      const double unbalanced = right_side.l2_norm();
+      force_scale = std::max({force_scale, tried.internal_force.l2_norm(), tried.external_force.l2_norm()});
+      report.residuals.push_back(force_scale > 0.0 ? unbalanced / force_scale : 0.0);
+      if (!std::isfinite(unbalanced))
+        return failed("the unbalanced force is not finite");
+
+      if (!boundary_moves && unbalanced <= parameters.newton_tolerance * force_scale && follows(constraints))
+        {
+          work += work_between(*vertex, vertex_of(tried), held);
+          vertex.reset();
+          // Equilibrium with the structure of every point frozen. Does it hold?
+          const auto n_events = relax_points();
+          if (!n_events)
+            return failed("a material point found no stable structure");
+          report.n_events += *n_events;
+          if (*n_events == 0)
+            {
+              report.converged = true;
+              tried.work += sum(work, elements.communicator());
+              return {report, tried};
+            }
+          ++report.n_cascades;
+          if (report.n_events > parameters.most_events)
+            return failed(fmt::format("more than {} events", parameters.most_events));
+          if (report.n_cascades >= parameters.most_cascades)
+            return failed(fmt::format("still unstable after {} cascades", report.n_cascades));
+          if (!update_points())
+            return failed("a material point has no answer to its strain");
+          n_iterations_left = parameters.most_iterations;
+          parameters.watch(report);
+          continue;
+        }
+
+      if (n_iterations_left-- == 0)
+        return failed(fmt::format("no equilibrium after {} iterations", parameters.most_iterations));
+      const std::optional<NodalVector> correction = next_correction(constraints, boundary_moves);
+      if (!correction)
+        return failed("the tangent is singular or the linear solver did not converge");
+      ++report.n_iterations;
+      const double share = correct(*correction);
+      if (share == 0.0)
+        return failed("a material point has no answer to its strain");
+      if (boundary_moves)
+        {
+          for (const auto& line : constraints.standing.get_lines())
+            constraints.first.set_inhomogeneity(line.index,
+                                                (1.0 - share) * constraints.first.get_inhomogeneity(line.index));
+          boundary_moves = share < 1.0;
+        }
+      parameters.watch(report);
+    }
+}
+
+template <int dim, int material_dim>
+PathVertex NewtonSearch<dim, material_dim>::vertex_of(const SolidState<material_dim>& state) const
+{
+  return {state.displacement, state.internal_force, state.external_force, elements.owned};
+}
+
+/// Of the degrees of freedom of this rank those whose displacement is prescribed; those of a free plate are not.
+template <int dim, int material_dim>
+std::vector<bool> NewtonSearch<dim, material_dim>::held_by(const AffineConstraints<double>& constraints) const
+{
+  std::vector<bool> held;
+  for (const auto dof : elements.owned)
+    {
+      const auto* const entries = constraints.get_constraint_entries(dof);
+      held.push_back(entries != nullptr && entries->empty());
+    }
+  return held;
+}
+
+/// False where a point of any rank has no answer.
+template <int dim, int material_dim>
+bool NewtonSearch<dim, material_dim>::update_points()
+{
+  bool failed = false;
+  try
+    {
+      tried.answers = points.materials.trial(tried.strains);
+    }
+  catch (const PointFailure&)
+    {
+      failed = true;
+    }
+  round_done();
+  return Utilities::MPI::max(int(failed), elements.communicator()) == 0;
+}
+
+/// Returns the number of events of all ranks; nothing where a point of any found no stable structure.
+template <int dim, int material_dim>
+std::optional<std::uint64_t> NewtonSearch<dim, material_dim>::relax_points()
+{
+  std::uint64_t n_events = 0;
+  bool failed = false;
+  try
+    {
+      n_events = points.materials.relax(tried.strains);
+    }
+  catch (const PointFailure&)
+    {
+      failed = true;
+    }
+  round_done();
+  if (Utilities::MPI::max(int(failed), elements.communicator()) == 1)
+    return {};
+  return Utilities::MPI::sum(n_events, elements.communicator());
+}
+
+template <int dim, int material_dim>
+bool NewtonSearch<dim, material_dim>::tangents_are_symmetric() const
+{
+  const bool symmetric = std::all_of(tried.answers.begin(), tried.answers.end(), [](const auto& answer) {
+    constexpr double round_off = 1e-10;
+    const auto& C = answer.tangent;
+    return (C - C.transpose()).cwiseAbs().maxCoeff() <= round_off * C.cwiseAbs().maxCoeff();
+  });
+  return Utilities::MPI::min(int(symmetric), elements.communicator()) == 1;
+}
+
+/// As much of a correction as all points have an answer to, halved down to a sixteenth; 0 where there is none.
+template <int dim, int material_dim>
+double NewtonSearch<dim, material_dim>::correct(const NodalVector& correction)
+{
+  const NodalVector before = tried.displacement;
+  for (double share = 1.0; share > 0.05; share *= 0.5)
+    {
+      NodalVector displacement = elements.owned_vector();
+      displacement = before;
+      displacement.add(share, correction);
+      tried.displacement = displacement;
+      tried.strains = strains_of<dim, material_dim>(elements, tried.displacement);
+      if (update_points())
+        return share;
+    }
+  return 0.0;
+}
+
+/// Empty where there is none.
+template <int dim, int material_dim>
+std::optional<NodalVector> NewtonSearch<dim, material_dim>::next_correction(const SolidConstraints& constraints,
+                                                                            const bool boundary_moves)
+{
+  if (constraints.following)
+    return following_correction(constraints);
+  return correction_by(boundary_moves ? constraints.first : constraints.standing);
+}
+
+template <int dim, int material_dim>
+std::optional<NodalVector> NewtonSearch<dim, material_dim>::correction_by(const AffineConstraints<double>& constraints)
+{
+  assemble_tangent(elements, points.volumes, tried, constraints, matrix, right_side);
+  NodalVector correction = elements.owned_vector();
+  if (!solve_linear(parameters.linear_solver, tangents_are_symmetric(), matrix, correction, right_side, dim,
+                    parameters.linear_tolerance))
+    return {};
+  constraints.distribute(correction);
+  return correction;
+}
+
+/// Of two corrections, with the plate standing and moved by a metre, the mixture that lets the boundaries sweep what is
+/// wanted.
+template <int dim, int material_dim>
+std::optional<NodalVector> NewtonSearch<dim, material_dim>::following_correction(const SolidConstraints& constraints)
+{
+  const SolidConstraints::Following& following = *constraints.following;
+  std::optional<NodalVector> standing = correction_by(constraints.standing);
+  if (!standing)
+    return {};
+  std::optional<NodalVector> moved = correction_by(following.unit_of_plate); // adds to the same unbalanced force
+  if (!moved)
+    return {};
+  *moved -= *standing;
+  const double missing =
+    following.swept_wanted - swept_by(following, tried.displacement) - swept_by(following, *standing);
+  const double distance = missing / swept_by(following, *moved);
+  if (!std::isfinite(distance))
+    return {};
+  standing->add(distance, *moved);
+  return standing;
+}
+
+/// Of any vector, with or without ghosts.
+template <int dim, int material_dim>
+double NewtonSearch<dim, material_dim>::swept_by(const SolidConstraints::Following& following,
+                                                 const NodalVector& displacement) const
+{
+  NodalVector with_ghosts = elements.ghosted_vector();
+  with_ghosts = displacement;
+  return swept_between(elements, following.boundaries, with_ghosts);
+}
+
+/// Its plate has gone as far as was wanted.
+template <int dim, int material_dim>
+bool NewtonSearch<dim, material_dim>::follows(const SolidConstraints& constraints) const
+{
+  if (!constraints.following)
+    return true;
+  constexpr double tolerance = 1e-6; // of the way
+  const SolidConstraints::Following& following = *constraints.following;
+  return std::abs(swept_by(following, tried.displacement) - following.swept_wanted) <=
+         tolerance * std::abs(following.swept_wanted - following.swept_before);
+}
+
+template class NewtonSearch<2, 2>;
+template class NewtonSearch<2, 3>;
+template class NewtonSearch<3, 3>;
+} // namespace feldspar::fem

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "fem/solid/assembly.h"
+#include "fem/solid/constraints.h"
+#include "fem/solid/parameters.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace feldspar::fem
+{
+/// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §9.3.
+///
+/// Between two cascades the structure of every point is frozen. Its answers come from the points' accepted states, which
+/// the search leaves as they are; their structure at work it changes.
+template <int dim, int material_dim>
+class NewtonSearch
+{
+public:
+  /// matrix: with a pattern for these constraints. round_done is called each time that every point was asked.
+  NewtonSearch(const Discretisation<dim>& elements, SolidPoints<material_dim>& points,
+               const SolidParameters& parameters, dealii::PETScWrappers::MPI::SparseMatrix& matrix,
+               std::function<void()> round_done);
+
+  struct Outcome
+  {
+    NewtonReport report;
+    SolidState<material_dim> state; ///< in equilibrium if it converged
+  };
+
+  /// From an accepted state with the pressures that are wanted. Collective.
+  Outcome run(SolidConstraints constraints, const SolidState<material_dim>& start);
+
+private:
+  PathVertex vertex_of(const SolidState<material_dim>& state) const;
+  std::vector<bool> held_by(const dealii::AffineConstraints<double>& constraints) const;
+  bool update_points();
+  std::optional<std::uint64_t> relax_points();
+  std::optional<NodalVector> next_correction(const SolidConstraints& constraints, bool boundary_moves);
+  std::optional<NodalVector> correction_by(const dealii::AffineConstraints<double>& constraints);
+  std::optional<NodalVector> following_correction(const SolidConstraints& constraints);
+  double swept_by(const SolidConstraints::Following& following, const NodalVector& displacement) const;
+  bool follows(const SolidConstraints& constraints) const;
+  double correct(const NodalVector& correction);
+  bool tangents_are_symmetric() const;
+
+  const Discretisation<dim>& elements;
+  SolidPoints<material_dim>& points;
+  const SolidParameters& parameters;
+  dealii::PETScWrappers::MPI::SparseMatrix& matrix;
+  std::function<void()> round_done;
+
+  SolidState<material_dim> tried;
+  NodalVector right_side; ///< unbalanced force on what is free to move
+};
+} // namespace feldspar::fem
