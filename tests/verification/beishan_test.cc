@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-#include <memory>
+#include <algorithm>
+#include <vector>
 
 /// Table 1 of the flat-joint paper at a coordination number of 4.2. Where a bound comes from "the independent program",
 /// that is one written separately from the paper's equations, on packings of its own.
@@ -60,20 +60,25 @@ TEST_P(Beishan, InTension)
   EXPECT_LT(*results.end_stress_difference.value, 0.02);
   EXPECT_LT(*results.kinetic_to_strain_energy.value, 0.02);
 
-  // One crack across the axis: all after the peak lie in a band, and from one side to the other.
-  double low = 1.0;
-  double high = 0.0;
-  double left = 1.0;
-  double right = 0.0;
-  for (const auto& crack : record.cracks)
+  // One crack across the axis: a band of a quarter of the height holds most of what breaks, of which cracks scattered over
+  // the whole specimen would leave it a quarter; and in it they reach from one side to the other. What lies elsewhere is a
+  // second crack that did not get through (of seed 2, a third of all).
+  std::vector<Crack> cracks = record.cracks;
+  std::sort(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) { return a.centroid[1] < b.centroid[1]; });
+  std::vector<Crack> band;
+  for (auto first = cracks.begin(); first != cracks.end(); ++first)
     {
-      low = std::min(low, crack.centroid[1]);
-      high = std::max(high, crack.centroid[1]);
-      left = std::min(left, crack.centroid[0]);
-      right = std::max(right, crack.centroid[0]);
+      const auto above = std::find_if(first, cracks.end(), [&](const Crack& crack) {
+        return crack.centroid[1] > first->centroid[1] + 0.25 * record.size[1];
+      });
+      if (std::size_t(above - first) > band.size())
+        band.assign(first, above);
     }
-  EXPECT_LT(left, 0.004);
-  EXPECT_GT(right, 0.046);
+  EXPECT_GT(double(band.size()), 0.6 * double(cracks.size()));
+  for (int fifth = 0; fifth < 5; ++fifth)
+    EXPECT_TRUE(std::any_of(band.begin(), band.end(),
+                            [&](const Crack& crack) { return int(5.0 * crack.centroid[0] / record.size[0]) == fifth; }))
+      << fifth;
 }
 
 INSTANTIATE_TEST_SUITE_P(ThreeSeeds, Beishan, testing::Values(1, 2, 3));
@@ -118,9 +123,12 @@ TEST(BeishanTriaxial, ConfinementTurnsSplittingIntoShearAndSofteningIntoFlow)
 
 TEST(BeishanVariant, RoughPlatensAreStronger)
 {
-  // Friction hinders the ends from widening; the independent program: by some 40 %.
-  EXPECT_GT(peak(test({uniaxial_compression}, 2, {.platen_friction = 0.5})),
-            1.1 * peak(test({uniaxial_compression}, 2)));
+  // Friction hinders the ends from widening; the independent program: by some 40 %. Here by 55, 49, 72 and 44 % with seeds
+  // 1 to 4, of which this is the second; single strengths scatter by a tenth.
+  const double ratio = peak(test({uniaxial_compression}, 2, {.platen_friction = 0.5})) /
+                       peak(test({uniaxial_compression}, 2));
+  EXPECT_GT(ratio, 1.3);
+  EXPECT_LT(ratio, 1.8);
 }
 
 TEST(BeishanBrazilian, GivesAboutTheStrengthOfDirectTension)
