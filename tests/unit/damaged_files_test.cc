@@ -3,6 +3,7 @@
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/volume_file.h"
 #include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/sample_fields.h"
 #include "tests/mutations.h"
@@ -103,7 +104,7 @@ TEST(DamagedFiles, CheckpointsOfTheLaboratoryAreRefused)
 {
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
-  const TestCase wanted{TestKind::uniaxial_compression};
+  const LaboratoryCase wanted{uniaxial_compression};
   const auto specimen = small_specimen();
   LabTest<2> test(wanted, specimen, {}, {});
   for (int n = 0; n < 3; ++n)

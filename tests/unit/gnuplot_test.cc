@@ -75,7 +75,7 @@ std::string shown(const std::string& text)
 {
   std::string result = printable(text);
   for (std::size_t at = 0; (at = result.find("]]>", at)) != std::string::npos;)
-    result.insert(at + 2, " ");
+    result.insert(at + 2, 1, ' ');
   for (std::size_t at = 0; (at = result.find('\'', at)) != std::string::npos;)
     result.replace(at, 1, "’");
   return result;

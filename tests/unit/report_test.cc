@@ -51,7 +51,9 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
   record.seed = seed;
   record.size = {0.05, 0.1, 0.0};
   record.bulk_density = 2700.0;
-  test.bookkeeping = {.steps = 1000, .time_step = 1e-7, .wall_time = 2.5};
+  test.bookkeeping.steps = 1000;
+  test.bookkeeping.time_step = 1e-7;
+  test.bookkeeping.wall_time = 2.5;
   record.specimen.n_grains = 2;
   record.specimen.n_joints = 1;
   record.specimen.resolution = 30.0;
