@@ -399,7 +399,7 @@ TEST(Rve, ADamagedCheckpointIsRefusedAndTheOneBeforeItUsed)
   fs::resize_file(newest, fs::file_size(newest) / 2);
   const auto resumed = run_feldspar(folder.path(), "rve --resume broken --quiet");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
-  EXPECT_NE(resumed.error.find("rve.h5: not an HDF5 file, cut short"), std::string::npos) << resumed.error;
+  EXPECT_NE(resumed.error.find("rve.h5: damaged or cut short"), std::string::npos) << resumed.error;
   EXPECT_NE(resumed.error.find("going back to the one before it"), std::string::npos) << resumed.error;
   EXPECT_EQ(std::count(resumed.error.begin(), resumed.error.end(), '\n'), 1) << resumed.error;
   for (const char* file : {"cracks.csv", "curves/rve.csv"})
