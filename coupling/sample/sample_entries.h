@@ -12,14 +12,15 @@ namespace feldspar
 inline std::vector<Entry<SampleParameters>> sample_entries()
 {
   using P = SampleParameters;
-  return {entry::choice("Geometry", &P::geometry,
-                        {{"plane", SampleGeometry::plane},
-                         {"plane strain", SampleGeometry::plane_strain},
-                         {"axisymmetric", SampleGeometry::axisymmetric},
-                         {"cylinder", SampleGeometry::cylinder}},
-                        "plane: volumes of discs, one metre thick; the others have volumes of spheres (Dimension = "
-                        "3): plane strain lets nothing strain across the plane, axisymmetric is a cylinder by half "
-                        "of its section, cylinder the whole"),
+  return {entry::choice(
+            "Geometry", &P::geometry,
+            {{"plane", SampleGeometry::plane},
+             {"plane strain", SampleGeometry::plane_strain},
+             {"axisymmetric", SampleGeometry::axisymmetric},
+             {"cylinder", SampleGeometry::cylinder}},
+            "plane: representative volumes of discs, one metre thick; the others have those of spheres "
+            "(Dimension = 3): plane strain lets nothing strain across the plane, axisymmetric is a cylinder by half "
+            "of its section, cylinder the whole"),
           entry::choice("Material", &P::material,
                         {{"grains", SampleMaterial::grains},
                          {"linear elasticity", SampleMaterial::linear_elasticity},
@@ -54,13 +55,13 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
             "element over its own, so that the curve after the peak does not depend on the mesh where the fall can be "
             "followed (not in an avalanche)"),
           entry::integer("Realisations", &P::n_realisations, {'[', 1.0, 1000.0, ']'},
-                         "packings of the volume, dealt to the points by the seed"),
+                         "packings of the representative volume, assigned to the points by the seed"),
           entry::choice("Orientation", &P::random_orientation, {{"random", true}, {"fixed", false}},
-                        "whether the volume at each point is turned by an angle of its own"),
+                        "whether the representative volume at each point is turned by an angle of its own"),
           entry::choice("Weak seed", &P::weak_seed,
                         {{"none", WeakSeed::none}, {"row", WeakSeed::row}, {"element", WeakSeed::element}},
-                        "where the sample is to break first: the volumes of the row of elements just above "
-                        "mid-height, or of the outermost element of that row, to the right, have weaker bonds"),
+                        "where the sample is to break first: the representative volumes of the row of elements just "
+                        "above mid-height, or of the outermost element of that row, to the right, have weaker bonds"),
           entry::number("Weak seed strength", &P::weak_seed_strength, {'(', 0.0, 1.0, ']'},
                         "share of their tensile strength and cohesion that the bonds there have"),
           entry::number("Compression step", &P::compression_step, {'(', 0.0, 0.01, ']'},

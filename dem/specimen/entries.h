@@ -14,38 +14,37 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   using P = SpecimenParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
   const EntryFlags of_body{.of_specimen = true}; // one for all variants
-  return {entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
-                        "2: discs in the plane, one metre thick; 3: spheres", of_body),
-          entry::choice("Shape", &P::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
-                        "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
-                        "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
-                        of_body),
-          entry::quantity("Width", &P::width, Measure::length, "mm", ranges::above_zero,
-                          "of the box or cell, across the axis of the tests; at least four radii of the largest grain",
-                          of_rock),
-          entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,
-                          "of the box or cell, along the axis of the tests; at least four radii of the largest grain",
-                          of_rock),
-          entry::quantity("Minimum radius", &P::minimum_radius, Measure::length, "mm", ranges::above_zero,
-                          "of the grains", of_rock),
-          entry::number("Radius ratio", &P::radius_ratio, {'[', 1.0, 100.0, ']'},
-                        "largest over smallest radius; radii are drawn uniformly between them", of_rock),
-          entry::number("Porosity", &P::porosity, {'(', 0.0, 1.0, ')'},
-                        "of the finished packing; with the radii it gives the number of grains; in three dimensions "
-                        "0.36 unless it is given",
-                        of_rock),
-          entry::quantity("Density", &P::bulk_density, Measure::density, "kg/m^3", ranges::above_zero,
-                          "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
-          entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
-                        "mean stress in the packing over Particle contact/Modulus, before the joints are installed",
-                        of_rock),
-          entry::file("Packing file", &P::packing_file,
-                      "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing", of_body),
-          entry::file("Specimen file", &P::specimen_file,
-                      "a finished specimen.h5 to be tested, or, for `feldspar rve`, a volume of `feldspar "
-                      "multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
-                      of_body),
-          entry::choice("Joint law", &P::joint_law, {{"flat joint", "flat joint"}}, "between grains that meet",
-                        of_rock)};
+  return {
+    entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
+                  "2: discs in the plane, one metre thick; 3: spheres", of_body),
+    entry::choice("Shape", &P::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
+                  "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
+                  "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
+                  of_body),
+    entry::quantity("Width", &P::width, Measure::length, "mm", ranges::above_zero,
+                    "of the box or cell, across the axis of the tests; at least four radii of the largest grain",
+                    of_rock),
+    entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,
+                    "of the box or cell, along the axis of the tests; at least four radii of the largest grain",
+                    of_rock),
+    entry::quantity("Minimum radius", &P::minimum_radius, Measure::length, "mm", ranges::above_zero, "of the grains",
+                    of_rock),
+    entry::number("Radius ratio", &P::radius_ratio, {'[', 1.0, 100.0, ']'},
+                  "largest over smallest radius; radii are drawn uniformly between them", of_rock),
+    entry::number("Porosity", &P::porosity, {'(', 0.0, 1.0, ')'},
+                  "of the finished packing; with the radii it gives the number of grains; in three dimensions "
+                  "0.36 unless it is given",
+                  of_rock),
+    entry::quantity("Density", &P::bulk_density, Measure::density, "kg/m^3", ranges::above_zero,
+                    "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
+    entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
+                  "mean stress in the packing over Particle contact/Modulus, before the joints are installed", of_rock),
+    entry::file("Packing file", &P::packing_file,
+                "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing", of_body),
+    entry::file("Specimen file", &P::specimen_file,
+                "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "
+                "of `feldspar multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
+                of_body),
+    entry::choice("Joint law", &P::joint_law, {{"flat joint", "flat joint"}}, "between grains that meet", of_rock)};
 }
 } // namespace feldspar
