@@ -1,6 +1,6 @@
 #include "benchmarks/committed_version.h"
+#include "coupling/network/network.h"
 #include "coupling/rve/homogenisation.h"
-#include "coupling/rve/network.h"
 #include "dem/genesis/genesis.h"
 
 #include <fmt/format.h>

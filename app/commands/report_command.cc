@@ -1,7 +1,7 @@
 #include "app/commands/report_command.h"
 
 #include "app/commands/commands.h"
-#include "app/run/laboratory_curve.h"
+#include "app/input/laboratory_curve.h"
 #include "app/run/output_folder.h"
 #include "base/input_error.h"
 #include "base/quoted.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/rve/link_response.h"
-#include "coupling/rve/network_state.h"
+#include "coupling/network/link_response.h"
+#include "coupling/network/network_state.h"
 
 #include <limits>
 #include <utility>

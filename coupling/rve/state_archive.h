@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/input_error.h"
-#include "coupling/rve/network_state.h"
-#include "coupling/rve/voigt.h"
+#include "coupling/network/network_state.h"
+#include "coupling/network/voigt.h"
 
 #include <cstddef>
 #include <cstring>

@@ -1,7 +1,7 @@
 #include "coupling/rve/tangent.h"
 
 #include "base/fingerprint.h"
-#include "coupling/rve/conjugate_gradients.h"
+#include "coupling/network/conjugate_gradients.h"
 
 #include <array>
 #include <bit>

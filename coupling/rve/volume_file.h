@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/network_state.h"
+#include "coupling/network/network_state.h"
 #include "dem/specimen/specimen.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/rve/network.h"
-#include "coupling/rve/network_state.h"
+#include "coupling/network/network.h"
+#include "coupling/network/network_state.h"
 
 #include <cstdint>
 

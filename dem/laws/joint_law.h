@@ -22,7 +22,7 @@
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
 /// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. Two places
 /// know the flat joint alone, and a static_assert says so to whoever lengthens the list: the response of broken faces
-/// (coupling/rve/link_response.cc), and the closed form of the first break (Network::unit_response), which takes it that
+/// (coupling/network/link_response.cc), and the closed form of the first break (Network::unit_response), which takes it that
 /// the normal and shear stress of an element are all that its bond bears.
 ///
 /// Every element of every law has a bond (bond_strength.h), a shear stress and a mark whether the bond holds; `n_more`

@@ -44,10 +44,12 @@ const std::vector<Room> rooms = {
   {"fem/materials", {"base"}},
   {"fem/solid", {"base", "fem/mesh", "fem/materials"}},
   {"fem", {"base", "fem/mesh", "fem/materials", "fem/solid"}},
-  {"coupling/rve", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
+  {"coupling/network", {"base", "dem/laws", "dem/storage", "dem/specimen"}},
+  {"coupling/rve", {"coupling/network", "base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
+  {"coupling/sample/continua", {"base", "fem/materials"}, {"coupling/sample/sample_parameters.h"}},
   {"coupling/sample",
-   {"base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh", "fem/materials", "fem/solid",
-    "coupling/rve"},
+   {"coupling/sample/continua", "base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh",
+    "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
    {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stop_rule.h"}},
   {"report/pictures", {"base", "results", "results/fits", "results/folder"}},
   {"report/page", {"base", "results", "results/folder", "report/pictures"}},
@@ -221,7 +223,7 @@ TEST(IncludeRules, SeeWhatIsForbidden)
   EXPECT_EQ(n_violations("coupling/rve", "#include \"fem/materials/material.h\"\n"), 1u);
   EXPECT_EQ(n_violations("coupling/sample", "#include <report/page/table.h>\n"), 1u);
   EXPECT_EQ(n_violations("results", "#include \"dem/storage/grains.h\"\n"), 1u);
-  EXPECT_EQ(n_violations("report", "#include \"coupling/rve/network.h\"\n"), 1u);
+  EXPECT_EQ(n_violations("report", "#include \"coupling/network/network.h\"\n"), 1u);
   EXPECT_EQ(n_violations("benchmarks", "#include \"app/input/input.h\"\n"), 1u);
 }
 

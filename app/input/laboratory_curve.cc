@@ -1,4 +1,4 @@
-#include "app/run/laboratory_curve.h"
+#include "app/input/laboratory_curve.h"
 
 #include "app/input/quantity.h"
 #include "base/csv.h"

@@ -1,4 +1,4 @@
-#include "coupling/rve/factorised_network.h"
+#include "coupling/network/factorised_network.h"
 
 #include <Eigen/Cholesky>
 

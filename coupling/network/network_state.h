@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/network.h"
+#include "coupling/network/network.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/link.h"
+#include "coupling/network/link.h"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/voigt.h"
+#include "coupling/network/voigt.h"
 #include "dem/laws/face.h"
 
 #include <cstdint>

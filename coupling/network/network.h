@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/rve/factorised_network.h"
-#include "coupling/rve/link.h"
+#include "coupling/network/factorised_network.h"
+#include "coupling/network/link.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/specimen.h"
 

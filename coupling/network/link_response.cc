@@ -1,4 +1,4 @@
-#include "coupling/rve/link_response.h"
+#include "coupling/network/link_response.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "coupling/rve/link.h"
+#include "coupling/network/link.h"
 
 namespace feldspar
 {

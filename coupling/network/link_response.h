@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/network.h"
+#include "coupling/network/network.h"
 #include "dem/laws/flat_joint_law.h"
 
 /// How a link with unbonded segments answers: the flat-joint law of dem/, in small strains and from one event to the

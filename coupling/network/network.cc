@@ -1,7 +1,7 @@
-#include "coupling/rve/network.h"
+#include "coupling/network/network.h"
 
 #include "base/input_error.h"
-#include "coupling/rve/conjugate_gradients.h"
+#include "coupling/network/conjugate_gradients.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/specimen/neighbours.h"
 
