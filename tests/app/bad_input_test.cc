@@ -84,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
     Mistake{STRENGTH(""), STRENGTH_ERROR("") "a number is missing"},
     Mistake{"subsection Specimen\nset Minimum radius = -0.6 mm\nend", "bad.prm:5: Specimen/Minimum radius = -0.6 mm: "},
     Mistake{"subsection Contact\nset Radius 1 = 0 mm\nend", "bad.prm:5: Contact/Radius 1 = 0 mm: must be > 0 mm"},
-    Mistake{"subsection Specimen\nset Radius ratio = 0.9\nend", "bad.prm:5: Specimen/Radius ratio = 0.9: must be >= 1"},
+    Mistake{"subsection Specimen\nset Radius ratio = 0.9\nend",
+            "bad.prm:5: Specimen/Radius ratio = 0.9: must lie in [1, 100]"},
     Mistake{"subsection Flat joint\nset Segments = 0\nend", "bad.prm:5: Flat joint/Segments = 0: "},
     Mistake{"subsection Flat joint\nset Bond friction angle = 95 deg\nend",
             "bad.prm:5: Flat joint/Bond friction angle = 95 deg: must lie in [0 deg, 90 deg)"},
@@ -137,8 +138,10 @@ INSTANTIATE_TEST_SUITE_P(
     Mistake{"0,0,0\n", "path.csv:1: the header is \"0,0,0\"; it must be \"normal_m,shear_m,rotation_rad\""},
     Mistake{"shear_m,normal_m,rotation_rad\n0,0,0\n", "path.csv:1: the header is "},
     Mistake{"normal_m,shear_m,rotation_rad\n", "path.csv: there is no row"},
-    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n", "path.csv:3: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
-    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0,5\n", "path.csv:2: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0\n0,0\n",
+            "path.csv:3: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
+    Mistake{"normal_m,shear_m,rotation_rad\n0,0,0,5\n",
+            "path.csv:2: there must be 3 values, one for each of normal_m,shear_m,rotation_rad; found"},
     Mistake{"normal_m,shear_m,rotation_rad\n0,nan,0\n", "path.csv:2: shear_m: \"nan\" is not a decimal number"},
     Mistake{"normal_m,shear_m,rotation_rad\n0,0,\n", "path.csv:2: rotation_rad: a number is missing"}));
 

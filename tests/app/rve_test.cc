@@ -384,13 +384,13 @@ TEST(Rve, InterruptedInGenesisKeepsTheSpecimensThatAreFinished)
 
 /// Interrupted once there is a checkpoint; the interrupt writes one more.
 const std::string interrupt_on_path = "\"$@\" &\n"
-                                      "until [ -e broken/checkpoints/rve.h5 ]; do sleep 0.02; done\n"
-                                      "sleep 0.2\nkill -INT $!\nwait $!\n";
+                                      "until [ -e broken/checkpoints/rve.h5 ]; do sleep 0.01; done\n"
+                                      "kill -INT $!\nwait $!\n";
 
 TEST(Rve, ADamagedCheckpointIsRefusedAndTheOneBeforeItUsed)
 {
   const TemporaryFolder folder;
-  folder.write("cell.prm", pulled("  set Largest step = 3e-8\n"));
+  folder.write("cell.prm", pulled("  set Largest step = 1e-8\n"));
   ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output whole --quiet").exit_code, 0);
   folder.write("interrupt", interrupt_on_path);
   ASSERT_EQ(run_feldspar(folder.path(), "rve cell.prm --output broken --quiet", "sh ./interrupt").exit_code, 130);
