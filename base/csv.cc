@@ -85,7 +85,7 @@ double CsvReader::number_or_nan(const std::size_t column) const
 
 double CsvReader::count(const std::size_t column, const double most) const
 {
-  const double value = number(column);
+  const double value = number_or_nan(column);
   if (!(value >= 0.0 && value <= most && value == std::floor(value)))
     throw InputError(
       fmt::format("{}:{}: {} is no count or number of something", name, line_number, in_quotes(cells[column])));

@@ -54,7 +54,7 @@ TEST(SegmentPlace, OfAJointIsThatOfItsFace)
   Grains<2> grains;
   grains.place({1e-3, 2e-3}, {std::vector<double>{0.0, 3.2e-3}, std::vector<double>{0.0, 0.0}});
   Joints<2> joints;
-  joints.divide({2});
+  joints.divide({2}, 0);
   joints.resize_all(1);
   joints.grain_1[0] = 0;
   joints.grain_2[0] = 1;
