@@ -13,7 +13,7 @@
 /// piece. The grains' dynamics (dem/dynamics) and the network of a representative volume (coupling/rve) ask the same law.
 ///
 /// To add one:
-///   1. Its parameters beside FlatJointParameters (parameters.h), with their entries in app/input/parameter_table.cc.
+///   1. Its parameters beside FlatJointParameters (parameters.h), with their entries in entries.h.
 ///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
 ///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
 ///      {1} in the plane and {1, 1} in space.
