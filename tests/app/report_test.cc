@@ -163,8 +163,8 @@ TEST_F(Report, SaysWhatIsMissingInAFolderAndIsStillMade)
   fs::remove(folder.path() / "out/cracks.csv");
   fs::remove_all(folder.path() / "out/grains");
   const std::string words = remade();
-  holds(words, {"curves/uniaxial_compression_seed_1.csv: cannot be read: No such file", "out/cracks.csv: cannot be read: No such file",
-                "No crack map", "Strength envelope"});
+  holds(words, {"curves/uniaxial_compression_seed_1.csv: cannot be read: No such file",
+                "out/cracks.csv: cannot be read: No such file", "No crack map", "Strength envelope"});
 }
 
 TEST_F(Report, OfAnOlderLayoutSaysSoAndIsStillMade)

@@ -247,8 +247,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
     expect_same_run(folder.path() / "whole", folder.path() / name);
   };
   resumed(
-    "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); },
-    "damaged or cut short");
+    "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }, "damaged or cut short");
   resumed(
     "missing", [](const fs::path& file) { fs::remove(file); }, "no such file");
   std::string other = pull;

@@ -172,8 +172,8 @@ TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
   std::string said;
   for (const auto& problem : all[0].problems)
     said += problem + "\n";
-  for (const char* words :
-       {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: cannot be read", "cracks.csv: cannot be read"})
+  for (const char* words : {"layout 0", "does not know was left out", "uniaxial_compression_seed_1.csv: cannot be read",
+                            "cracks.csv: cannot be read"})
     EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
 }
 
@@ -215,8 +215,9 @@ TEST(ResultFolder, ACurveThatIsCutShortIsSaidAndTheRestKept)
   EXPECT_NE(all[0].problems[0].find("uniaxial_compression_seed_3.csv:1: there is no column axial_strain"),
             std::string::npos)
     << all[0].problems[0];
-  EXPECT_NE(all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 20 values, one for each of step,"),
-            std::string::npos)
+  EXPECT_NE(
+    all[0].problems[1].find("uniaxial_compression_seed_4.csv:33: there must be 20 values, one for each of step,"),
+    std::string::npos)
     << all[0].problems[1];
   EXPECT_EQ(all[0].tests[0].record.cracks.size(), 40u);
   EXPECT_TRUE(all[0].tests[0].results.peak_stress.value);
