@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace feldspar
@@ -16,10 +17,10 @@ template <int dim>
 SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
                          const DynamicsParameters& dynamics)
 {
-  const SetUp<dim> set_up = test.protocol.set_up<dim>();
-  if (set_up == nullptr)
+  const std::optional<SetUp<dim>>& set_up = test.protocol.set_up<dim>();
+  if (!set_up)
     throw std::logic_error(fmt::format("{} has no set-up in {} dimensions", test.protocol.kind.name, dim));
-  return set_up(specimen, test.confining_pressure, wanted, dynamics);
+  return (*set_up)(specimen, test.confining_pressure, wanted, dynamics);
 }
 
 template <int dim>

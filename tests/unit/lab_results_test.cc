@@ -232,7 +232,7 @@ TEST(Seating, TakesTheTransitsAskedForAndWastesLessTheLongerItTakes)
     {
       TestParameters wanted;
       wanted.seating_transits = n_transits;
-      const auto seated = triaxial_compression.set_up_2d(specimen, 30e6, wanted, {});
+      const auto seated = triaxial_compression.set_up_2d.value()(specimen, 30e6, wanted, {});
       auto dynamics = seated.dynamics;
       seated.loading.seat(dynamics);
       EXPECT_GE(dynamics.time(), 1.5 * n_transits * transit);

@@ -125,7 +125,7 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   wanted.intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
   const auto box = small_cylinder(1, 1e3, "box");
-  auto set_up = triaxial_compression.set_up_3d(box, 10e6, wanted, {});
+  auto set_up = triaxial_compression.set_up_3d.value()(box, 10e6, wanted, {});
   EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 30e6);
   EXPECT_FALSE(
     LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).record.intermediate_stress); // the same

@@ -85,8 +85,8 @@ TEST(TestKinds, ThatSayTooLittleAreNoProtocol)
         +[](LaboratoryProtocol& p) { p.kind.strength = ""; },
         +[](LaboratoryProtocol& p) { p.kind.sign = TestKind{}.sign; },
         +[](LaboratoryProtocol& p) {
-          p.set_up_2d = nullptr;
-          p.set_up_3d = nullptr;
+          p.set_up_2d.reset();
+          p.set_up_3d.reset();
         }})
     {
       LaboratoryProtocol spoilt = whole;

@@ -58,7 +58,7 @@ std::string objection_to_finite_elements(const TestKind& kind)
 std::string objection_to_grains(const TestKind& kind, const unsigned int dimension)
 {
   const auto is_made = [=](const LaboratoryProtocol& one) {
-    return dimension == 2 ? one.set_up_2d != nullptr : one.set_up_3d != nullptr;
+    return dimension == 2 ? one.set_up_2d.has_value() : one.set_up_3d.has_value();
   };
   if (is_made(protocol_of(kind)))
     return "";
