@@ -81,8 +81,10 @@ RunEnd go(const Run& run)
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
   const auto failed =
     std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
-  if (std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }) &&
-      !tests.empty())
+  const auto has_nothing = [](const FinishedTest& test) {
+    return !test.record.failure.empty() && test.record.curve.empty();
+  };
+  if (!tests.empty() && std::all_of(tests.begin(), tests.end(), has_nothing))
     throw InputError(failed->record.failure);
 
   // Report.

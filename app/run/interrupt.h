@@ -10,8 +10,8 @@ struct Interrupted : std::exception
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From now on the first Ctrl-C, SIGTERM or SIGUSR1 (which mpirun passes on without ending the run itself) only asks the
-/// run to end; the second ends it at once.
+/// From now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has it ignored) or SIGUSR1
+/// (which mpirun passes on without ending the run itself) only asks the run to end; the second ends it at once.
 void watch_for_interrupt();
 
 /// Whether the run was asked to end.

@@ -158,7 +158,7 @@ TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
   return outcome;
 }
 
-/// Runs a test from where it stands to its end or to Ctrl-C.
+/// Runs a test from where it stands to its end or to Ctrl-C. Throws Interrupted where there is nothing to keep.
 template <int dim>
 TestOutcome run(const PlannedTest<dim>& planned, const std::filesystem::path& checkpoint_folder,
                 const std::function<void(const CurveSample&)>& show)
@@ -174,8 +174,18 @@ TestOutcome run(const PlannedTest<dim>& planned, const std::filesystem::path& ch
   std::uint64_t next_checkpoint = test.n_steps() + interval;
   while (!test.has_ended() && !interrupted())
     {
-      test.advance();
-      show(test.last_row());
+      try
+        {
+          test.advance(end_if_interrupted);
+        }
+      catch (const Interrupted&)
+        {
+          if (!test.is_seated())
+            throw; // a seating is begun anew
+        }
+      if (test.went_wrong())
+        break;
+      show(test.curve().back());
       if (test.has_ended() || test.n_steps() >= next_checkpoint || clock.is_due() || interrupted())
         {
           clock.time([&] { checkpoints.write(test); });
@@ -206,6 +216,10 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     try
       {
         outcome = run(planned[k], checkpoint_folder, [&](const CurveSample& row) { board.update(k, row); });
+      }
+    catch (const Interrupted&)
+      {
+        return;
       }
     catch (const InputError& error)
       {

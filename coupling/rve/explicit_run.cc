@@ -76,6 +76,22 @@ NetworkState<dim> ExplicitRun<dim>::state() const
 template <int dim>
 void ExplicitRun<dim>::advance()
 {
+  try
+    {
+      go_an_increment();
+    }
+  catch (const Runaway& error)
+    {
+      // What has broken since the last sample may have broken by wrong numbers.
+      const PathSample<dim>& last = path_record.samples.back();
+      path_record.cracks.resize(last.n_tension_cracks + last.n_shear_cracks);
+      path_record.failure = error.what();
+    }
+}
+
+template <int dim>
+void ExplicitRun<dim>::go_an_increment()
+{
   const std::uint64_t n_increments = course.n_increments(parameters.largest_step);
   const double n_wanted = course.size() / double(n_increments) * 1e3 * double(parameters.steps_per_millistrain);
   const auto n_steps = std::uint64_t(std::max(1.0, std::ceil(n_wanted - 1e-9)));
@@ -92,6 +108,7 @@ void ExplicitRun<dim>::advance()
   for (std::uint64_t s = 1; s <= n_steps; ++s)
     step(served_stress ? served(control_at(s), way) : way);
   ++increment;
+  dynamics.check_motion();
   add_sample();
   if (served_stress)
     judge_servo(end);

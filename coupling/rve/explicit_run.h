@@ -24,7 +24,7 @@ public:
               std::vector<PathLeg<dim>> legs, const ExplicitParameters& parameters);
 
   bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
-  /// To the next sample.
+  /// To the next sample; where numbers go wrong on the way, the record says so and the path has ended.
   void advance();
   /// Share of the path that is behind, 0 … 1.
   double progress() const;
@@ -41,6 +41,7 @@ public:
   void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
 
 private:
+  void go_an_increment();
   void begin_leg();
   Voigt<dim> served(const Control<dim>& control, const Voigt<dim>& way);
   void step(const Voigt<dim>& way);

@@ -6,6 +6,8 @@
 #include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/time_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <variant>
@@ -112,7 +114,10 @@ std::vector<Break> Dynamics<dim>::step()
 template <int dim>
 bool Dynamics<dim>::watch_is_over()
 {
-  return watch.is_due(steps) && watch.may_miss_contacts(body, images.n_own(), wall_set, steps, dt);
+  if (!watch.is_due(steps))
+    return false;
+  check_motion();
+  return watch.may_miss_contacts(body, images.n_own(), wall_set, steps, dt);
 }
 
 template <int dim>
@@ -183,6 +188,7 @@ void Dynamics<dim>::remove_torn_faces()
 template <int dim>
 void Dynamics<dim>::find_contacts()
 {
+  check_motion(); // the search could not place what stands nowhere
   if (body.periodic)
     images.add_within(watch.skin(), body.grains);
   touches.search(body, images, joints_of, watch.skin(), zero_force, ledger);
@@ -195,7 +201,42 @@ void Dynamics<dim>::choose_time_step()
 {
   const double largest = largest_stiffness_over_inertia(body, images.n_own(), joints_of, touches, wall_set);
   dt = parameters.time_step_safety / std::sqrt(largest);
+  if (!(std::isnormal(dt) && current_time + dt > current_time))
+    throw Runaway(
+      fmt::format("numbers went wrong: the time step is {:g} s after {:g} s, for stiffnesses over masses of "
+                  "up to {:g} 1/s²",
+                  dt, current_time, largest));
   contact_made = false;
+}
+
+template <int dim>
+void Dynamics<dim>::check_motion() const
+{
+  if (const auto stray = find_stray_grain(body, images.n_own(), wall_set, dt))
+    throw Runaway(describe_runaway(fmt::format("grain {} {}", stray->grain, stray->motion), circumstances()));
+}
+
+template <int dim>
+Runaway Dynamics<dim>::runaway(const std::string& trouble) const
+{
+  std::uint32_t fastest = 0;
+  for (std::uint32_t i = 1; i < images.n_own(); ++i)
+    if (!(squared_norm<dim>(body.grains.velocity, i) <= squared_norm<dim>(body.grains.velocity, fastest)))
+      fastest = i;
+  return Runaway(describe_runaway(fmt::format("{}, the fastest grain is {},", trouble, fastest), circumstances()));
+}
+
+template <int dim>
+Circumstances Dynamics<dim>::circumstances() const
+{
+  double fastest = images.rate().norm() * body.size.norm();
+  for (const Wall& wall : wall_set.list())
+    fastest = std::max(fastest, std::abs(wall.velocity));
+  for (std::size_t g = 0; g < grips.size(); ++g)
+    fastest = std::max(fastest, grips.velocity(g).norm());
+  const double largest = largest_stiffness_over_inertia(body, images.n_own(), joints_of, touches, wall_set);
+  return {steps, dt, dt * std::sqrt(largest), fastest,
+          *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
 
 template <int dim>

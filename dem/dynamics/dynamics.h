@@ -8,12 +8,14 @@
 #include "dem/dynamics/incidence.h"
 #include "dem/dynamics/joint_sweep.h"
 #include "dem/dynamics/parameters.h"
+#include "dem/dynamics/runaway.h"
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -53,8 +55,13 @@ public:
   /// work.
   void apply_forces(const Components<dim>& forces);
 
-  /// Advances by one step and returns what broke in it.
+  /// Advances by one step and returns what broke in it. Throws Runaway where numbers have gone wrong, which it looks for
+  /// whenever it looks for contacts that may be missed.
   std::vector<Break> step();
+  /// Throws Runaway where a grain moves as none can.
+  void check_motion() const;
+  /// Of trouble that was found of the whole body: names its fastest grain, the step and the likely reason.
+  Runaway runaway(const std::string& trouble) const;
 
   /// After a change of radii, positions or velocities from outside: looks for contacts anew; overlaps count.
   void restart();
@@ -106,6 +113,7 @@ private:
   void number_joints();
   void find_contacts();
   void choose_time_step();
+  Circumstances circumstances() const;
   void integrate();
   std::vector<Break> update_contacts(double dt);
   void add_boundary_work(double dt, double share);

@@ -70,48 +70,74 @@ void LabTest<dim>::start_gauge()
 }
 
 template <int dim>
-bool LabTest<dim>::advance()
+bool LabTest<dim>::advance(const std::function<void()>& check)
 {
   const auto clock = std::chrono::steady_clock::now();
+  try
+    {
+      if (!seated)
+        seat(check);
+      load_to_next_row(check);
+      ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
+    }
+  catch (const Runaway& error)
+    {
+      record.failure = error.what();
+      ended = true;
+    }
+  wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  return !ended;
+}
+
+template <int dim>
+void LabTest<dim>::seat(const std::function<void()>& check)
+{
+  auto& dynamics = set_up.dynamics;
+  if (set_up.loading.seat)
+    set_up.loading.seat(dynamics, check);
+  gauge_positions = dynamics.specimen().grains.position;
+  start_gauge();
+  time_at_start = time_of_last_row = dynamics.time();
+  seated = true;
+  record.curve.push_back(sample());
+  energy_watch.has_grown_without_work(record.curve.back().energies);
+  take_snapshot();
+}
+
+template <int dim>
+void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
+{
   auto& dynamics = set_up.dynamics;
   const auto& loading = set_up.loading;
-  if (!seated)
-    {
-      if (loading.seat)
-        loading.seat(dynamics);
-      gauge_positions = dynamics.specimen().grains.position;
-      start_gauge();
-      time_at_start = dynamics.time();
-      seated = true;
-      record.curve.push_back(sample());
-      take_snapshot();
-    }
-
   const double next_strain = double(record.curve.size()) * loading.sampling_strain;
-  const double time_of_last_row = dynamics.time();
-  double lateral_stress_over_time = 0.0;
-  for (double strain = 0.0; std::abs(strain) < next_strain;)
+  const auto strain = [&] { return loading.strain_rate * (dynamics.time() - time_at_start); };
+  do // at least one step, however long steps are
     {
+      check();
       if (loading.drive)
         loading.drive(dynamics);
       const auto breaks = dynamics.step();
       lateral_stress_over_time += dynamics.time_step() * lateral_stress();
-      strain = loading.strain_rate * (dynamics.time() - time_at_start);
       for (const auto& event : breaks)
         {
-          record.cracks.push_back(crack(dynamics, event, strain));
+          record.cracks.push_back(crack(dynamics, event, strain()));
           ++(event.in_tension ? n_tension : n_shear);
           ++n_broken_segments[dynamics.specimen().joints.grain_1[event.joint]];
           ++n_broken_segments[dynamics.specimen().joints.grain_2[event.joint]];
         }
     }
-  record.curve.push_back(sample());
-  record.curve.back().lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
+  while (std::abs(strain()) < next_strain);
+  dynamics.check_motion();
+  CurveSample row = sample();
+  if (energy_watch.has_grown_without_work(row.energies))
+    throw dynamics.runaway(
+      fmt::format("energy grows without work ({:.3g} J more than were put in)", -row.energies.unaccounted()));
+  row.lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
+  record.curve.push_back(row);
+  time_of_last_row = dynamics.time();
+  lateral_stress_over_time = 0.0;
   if ((record.curve.size() - 1) % rows_between_snapshots == 0)
     take_snapshot();
-  wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-  ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
-  return !ended;
 }
 
 template <int dim>
@@ -176,17 +202,32 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
   TestOutcome result{record, {}, {}};
-  const auto fragment = fragments(specimen.joints, specimen.grains.size());
-  auto& grains = result.appearance.grains_at_end;
-  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
-    grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)),
-                      in_space<dim>(at<dim>(specimen.grains.position, i)), specimen.grains.radius[i], fragment[i]});
-  result.appearance.snapshots = snapshots;
-  result.record.fragments = fragments_of(grains, dim);
-  result.record.interrupted = interrupted;
+  result.record.interrupted = interrupted || !record.failure.empty();
+  if (!record.curve.empty()) // of a row that was begun nothing is reported yet
+    result.record.cracks.resize(record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
   result.bookkeeping.steps = set_up.dynamics.n_steps();
   result.bookkeeping.time_step = set_up.dynamics.time_step();
   result.bookkeeping.wall_time = wall_time;
+  result.appearance.snapshots = snapshots;
+
+  // Where numbers went wrong, the grains stand as they last stood right.
+  const bool went_wrong = !record.failure.empty();
+  if (went_wrong && snapshots.empty())
+    return result;
+  const auto fragment = went_wrong ? snapshots.back().fragment : fragments(specimen.joints, specimen.grains.size());
+  const auto position_of = [&](const std::size_t i) {
+    if (!went_wrong)
+      return in_space<dim>(at<dim>(specimen.grains.position, i));
+    std::array<double, 3> position{};
+    for (int c = 0; c < dim; ++c)
+      position[c] = snapshots.back().position[c][i];
+    return position;
+  };
+  auto& grains = result.appearance.grains_at_end;
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)), position_of(i),
+                      specimen.grains.radius[i], fragment[i]});
+  result.record.fragments = fragments_of(grains, dim);
   return result;
 }
 
@@ -202,6 +243,8 @@ void LabTest<dim>::transfer(Archive& archive)
     archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
   archive.value("wall_time", wall_time);
   archive.value("time_at_start", time_at_start);
+  archive.value("time_of_last_row", time_of_last_row);
+  archive.value("lateral_stress_over_time", lateral_stress_over_time);
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
   archive.value("peak_deviator", stop_rule.peak.highest);
@@ -267,6 +310,8 @@ void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std:
     transfer(archive);
   });
   start_gauge();
+  for (const CurveSample& row : record.curve)
+    energy_watch.has_grown_without_work(row.energies);
   seated = true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/parameters.h"
 #include "dem/lab/stop_rule.h"
@@ -28,7 +29,8 @@ struct Loading
   double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
   double sampling_strain = 0.0;              ///< between two rows of the curve
   std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
-  std::function<void(Dynamics<dim>&)> seat;  ///< brings the specimen to where the strain is zero; may be empty
+  /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
+  std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
   std::function<EndStress(const Dynamics<dim>&)> end_stress;
   std::function<double(const Dynamics<dim>&)> servo_stress; ///< on the sides [Pa]; empty where no servo holds it
@@ -57,15 +59,21 @@ public:
   LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
-  /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the stop rule has
-  /// ended the test. Throws InputError where the confinement cannot be reached.
-  bool advance();
+  /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
+  /// the stop rule, or because numbers went wrong, which its record then says. Calls check() at every step, which may
+  /// throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws InputError where the
+  /// confinement cannot be reached.
+  bool advance(const std::function<void()>& check = [] {});
 
   bool has_ended() const { return ended; }
+  bool is_seated() const { return seated; }
+  /// Whether it has ended because of its numbers.
+  bool went_wrong() const { return !record.failure.empty(); }
   std::uint64_t n_steps() const { return set_up.dynamics.n_steps(); }
-  const CurveSample& last_row() const { return record.curve.back(); }
+  const std::vector<CurveSample>& curve() const { return record.curve; }
 
-  /// The test as it stands, whether it has ended or not.
+  /// The test as it stands, whether it has ended or not. Of one whose numbers went wrong, all that was before the row in
+  /// which they did.
   TestOutcome finish(bool interrupted) const;
 
   /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.
@@ -78,6 +86,8 @@ private:
   void transfer(Archive& archive);
   double lateral_stress() const;
   CurveSample sample() const;
+  void seat(const std::function<void()>& check);
+  void load_to_next_row(const std::function<void()>& check);
   void take_snapshot();
   void start_gauge();
 
@@ -86,12 +96,15 @@ private:
   SetUpTest<dim> set_up;
   TestRecord record;
   std::vector<Snapshot> snapshots;
+  EnergyWatch energy_watch;
   double wall_time = 0.0; ///< [s]
   StrainGauge<dim> gauge;
   bool seated = false;
   bool ended = false;
-  Components<dim> gauge_positions; ///< of all grains when the gauge was set
-  double time_at_start = 0.0;      ///< of the loading, after seating [s]
+  Components<dim> gauge_positions;       ///< of all grains when the gauge was set
+  double time_at_start = 0.0;            ///< of the loading, after seating [s]
+  double time_of_last_row = 0.0;         ///< of the dynamics [s]
+  double lateral_stress_over_time = 0.0; ///< since then [Pa s]
   std::uint64_t n_tension = 0;
   std::uint64_t n_shear = 0;
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints

@@ -126,7 +126,8 @@ std::vector<std::string> warnings(const Series& series)
                                       check.n_tests, check.measure, check.worst, check.bound));
   for (const auto& test : series.tests)
     if (!test.record.failure.empty())
-      sentences.push_back(fmt::format("{} could not be made: {}.", test.name, test.record.failure));
+      sentences.push_back(fmt::format("{} could not be {}: {}.", test.name,
+                                      test.record.curve.empty() ? "made" : "finished", test.record.failure));
     else if (!test.results.peak_stress.value)
       sentences.push_back(fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason));
     else if (!test.record.ended_early.empty())

@@ -182,9 +182,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
 
   for (auto& test : tests)
     {
-      if (!test.record.failure.empty())
-        continue; // it has none of them
       const std::string table = test.name + ".csv";
+      if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
+        continue; // it could not be made
       try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       if (test.record.body == TestBody::grains)
         try_to(problems, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });

@@ -465,6 +465,59 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   EXPECT_NE(json["tests"][3]["peak_stress_Pa_reason"].get<std::string>().find("cannot hold"), std::string::npos);
 }
 
+TEST(Lab, ATestWhoseNumbersGoWrongKeepsItsRowsAndDoesNotCostTheOthers)
+{
+  // The grips of this tension go more than a grain in a step.
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width = 8 mm
+  set Height = 12 mm
+end
+subsection Tests
+  set List = uniaxial_compression, direct_tension
+  set Compression strain rate = 8 1/s
+  set Tension strain rate = 1e7 1/s
+end
+)");
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.error.find("feldspar: direct_tension_seed_1: numbers went wrong: grain "), 0u) << outcome.error;
+  EXPECT_NE(outcome.error.find("a lower rate would help"), std::string::npos) << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  const auto json = summary(folder.path() / "out");
+  ASSERT_EQ(json["tests"].size(), 2u);
+  EXPECT_TRUE(json["tests"][0]["peak_stress_Pa"].is_number());
+  EXPECT_NE(json["tests"][1]["failure"].get<std::string>().find(" in step "), std::string::npos);
+  EXPECT_NE(json["tests"][1]["peak_stress_Pa_reason"].get<std::string>().find("numbers went wrong"), std::string::npos);
+  EXPECT_GE(content(folder.path() / "out/curves/direct_tension_seed_1.csv").size(), 100u);
+  EXPECT_NE(content(folder.path() / "out/report.html").find("could not be finished: numbers went wrong"),
+            std::string::npos);
+}
+
+TEST(Lab, ObeysWithinASecondInALongRowAndInALongSeating)
+{
+  // A row of minutes; a seating of minutes.
+  const TemporaryFolder folder;
+  const std::string rock = "subsection Specimen\n  set Width = 8 mm\n  set Height = 12 mm\nend\nsubsection Tests\n";
+  folder.write("row.prm", rock + "  set List = uniaxial_compression\n  set Compression strain rate = 1e-5 1/s\nend\n");
+  folder.write("seating.prm",
+               rock +
+                 "  set List = triaxial_compression\n  set Confinements = 10 MPa\n  set Seating transits = 1e4\nend\n");
+  for (const auto& [name, signal] : {std::pair<std::string, std::string>{"row", "TERM"}, {"seating", "HUP"}})
+    {
+      const std::string out = name + signal;
+      folder.write("interrupt", "\"$@\" &\nuntil [ -e " + out +
+                                  "/specimen.h5 ]; do sleep 0.02; done\nsleep 0.5\n"
+                                  "kill -" +
+                                  signal + " $!\nsleep 1\nkill -KILL $! 2> no-process\nwait $!\n");
+      const auto outcome =
+        run_feldspar(folder.path(), "lab " + name + ".prm --output " + out + " --quiet", "sh ./interrupt");
+      EXPECT_EQ(outcome.exit_code, 130) << out << ": " << outcome.error;
+      EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar lab --resume " + out + "\n");
+      EXPECT_EQ(fs::exists(folder.path() / out / "checkpoints/uniaxial_compression_seed_1.h5"), name == "row");
+    }
+}
+
 TEST(Lab, ATestThatCannotEvenBeSetUpDoesNotCostTheOthers)
 {
   const TemporaryFolder folder;

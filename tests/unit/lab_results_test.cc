@@ -1,6 +1,7 @@
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
 #include "results/evaluation.h"
+#include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,8 @@ namespace feldspar
 {
 namespace
 {
+using tests::TemporaryFolder;
+
 /// A compression curve with known answers: modulus 70 GPa to 50 MPa, then 35 GPa to the peak of 100 MPa, then down;
 /// Poisson's ratio 0.2, and volumetric strain that turns round at 80 MPa; a crack a row from 42 MPa on.
 TestRecord known_compression()
@@ -155,7 +158,7 @@ TEST(Energies, OfALaboratoryTestBalanceAndADoubledTermShows)
   LabTest<2> test({uniaxial_compression}, small_specimen(), wanted, {});
   while (test.advance())
     ;
-  const Energies energies = test.last_row().energies;
+  const Energies energies = test.curve().back().energies;
   EXPECT_LT(energies.imbalance_over_work(), 0.01);
   for (double Energies::*term : {&Energies::strain, &Energies::slip, &Energies::released, &Energies::damping})
     {
@@ -192,6 +195,51 @@ TEST(Energies, KineticEnergyIsThatOfTheMotionAndTheSteadyStartIsCounted)
       const Energies later = record.curve[5].energies;
       EXPECT_NEAR(later.kinetic, set_off, 0.2 * set_off);
       EXPECT_LT(std::abs(later.unaccounted()), 0.05 * set_off);
+    }
+}
+
+TEST(Curve, ARowThatIsBrokenOffIsGoneOnWithToTheSameBits)
+{
+  struct BrokenOff
+  {
+  };
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const LaboratoryCase wanted{triaxial_compression, 10e6};
+  TestParameters parameters;
+  parameters.seating_transits = 2.0;
+  parameters.compression_sampling_strain = 1e-4;
+  const auto specimen = small_specimen();
+  LabTest<2> whole(wanted, specimen, parameters, {});
+  LabTest<2> broken(wanted, specimen, parameters, {});
+  for (int n = 0; n < 3; ++n)
+    whole.advance();
+  // In the seating there is nothing to keep.
+  EXPECT_THROW(broken.advance([] { throw BrokenOff(); }), BrokenOff);
+  EXPECT_FALSE(broken.is_seated());
+
+  LabTest<2> begun(wanted, specimen, parameters, {});
+  begun.advance();
+  std::uint64_t n_steps = 0;
+  EXPECT_THROW(begun.advance([&] {
+    if (++n_steps > 100)
+      throw BrokenOff();
+  }),
+               BrokenOff);
+  EXPECT_EQ(begun.curve().size(), 2u);
+  begun.write_checkpoint(file, "this one");
+  LabTest<2> resumed(wanted, specimen, parameters, {});
+  resumed.read_checkpoint(file, "this one");
+  for (LabTest<2>* test : {&begun, &resumed})
+    {
+      test->advance();
+      test->advance();
+      ASSERT_EQ(test->n_steps(), whole.n_steps());
+      for (std::size_t k = 0; k < whole.curve().size(); ++k)
+        {
+          EXPECT_EQ(test->curve()[k].axial_stress, whole.curve()[k].axial_stress);
+          EXPECT_EQ(test->curve()[k].lateral_stress, whole.curve()[k].lateral_stress);
+        }
     }
 }
 
@@ -234,7 +282,7 @@ TEST(Seating, TakesTheTransitsAskedForAndWastesLessTheLongerItTakes)
       wanted.seating_transits = n_transits;
       const auto seated = triaxial_compression.set_up_2d.value()(specimen, 30e6, wanted, {});
       auto dynamics = seated.dynamics;
-      seated.loading.seat(dynamics);
+      seated.loading.seat(dynamics, [] {});
       EXPECT_GE(dynamics.time(), 1.5 * n_transits * transit);
       // Raised too fast, the pressure takes longer to come to rest.
       EXPECT_LT(dynamics.time(), (n_transits < 10.0 ? 4.0 : 1.51) * n_transits * transit);
@@ -252,7 +300,7 @@ TEST(StopRules, AreKept)
     LabTest<2> test({direct_tension}, specimen, wanted, {});
     while (test.advance())
       ;
-    return test.last_row();
+    return test.curve().back();
   };
   TestParameters at_strain;
   at_strain.stop_strain = 5e-5;

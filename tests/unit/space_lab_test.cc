@@ -129,7 +129,7 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 30e6);
   EXPECT_FALSE(
     LabTest<3>({triaxial_compression, 30e6}, box, wanted, {}).finish(true).record.intermediate_stress); // the same
-  set_up.loading.seat(set_up.dynamics);
+  set_up.loading.seat(set_up.dynamics, [] {});
   const Tensor<3> stress = set_up.dynamics.mean_stress();
   // Pressures on the walls are within 0.5 %; what the walls cut off the body is of the order of its overlaps.
   EXPECT_NEAR(stress(0, 0), -10e6, 0.03 * 30e6);

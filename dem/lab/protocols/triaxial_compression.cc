@@ -148,13 +148,14 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double confining_pres
   };
 
   // All walls press, raised over some transits of a wave so as not to hit the specimen.
-  test.loading.seat = [=](Dynamics<dim>& state) {
+  test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
     const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
     const double ramp = wanted.seating_transits * height / wave_speed;
     constexpr double tolerance = 0.005;
     constexpr double most_ramps = 20.0;
     for (;;)
       {
+        check();
         const double share = std::min(1.0, state.time() / ramp);
         for (const auto& side : around.sides)
           hold(state, side, share);

@@ -1,0 +1,72 @@
+#include "dem/dynamics/runaway.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+// A fragment that is thrown out flies freely, some thousand diameters of the body in the slowest of tests.
+constexpr double reach_over_size = 1e6;
+
+std::string likely_reason(const Circumstances& now)
+{
+  // Quasi-static loading goes a millionth of a radius in a step.
+  constexpr double hasty = 1e-2;
+  // What lies below is stable whatever the contacts do.
+  constexpr double near_the_edge = 0.95;
+  if (const double way = now.loading_speed * now.dt / now.smallest_radius; way > hasty)
+    return fmt::format("the loading goes {:.2g} radii of the smallest grain in a step; a lower rate would help", way);
+  if (now.share_of_stable_step > near_the_edge)
+    return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller Dynamics/Time step "
+                       "safety would help",
+                       now.share_of_stable_step);
+  return "forces have outgrown its contacts; a smaller Dynamics/Time step safety, more Damping or a lower rate may help";
+}
+} // namespace
+
+template <int dim>
+std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std::size_t n_own, const Walls<dim>& walls,
+                                           const double dt)
+{
+  const auto& grains = body.grains;
+  const Vector<dim> middle = 0.5 * body.size;
+  const double reach = reach_over_size * body.size.maxCoeff();
+  // Written so that a comparison with what is no number tells it.
+  const auto is_near = [&](const std::size_t i) {
+    return (at<dim>(grains.position, i) - middle).squaredNorm() <= reach * reach;
+  };
+  const auto moves = [&](const std::size_t i) { return dt * dt * squared_norm<dim>(grains.velocity, i); };
+  const auto rolls = [&](const std::size_t i) {
+    return dt * dt * grains.radius[i] * grains.radius[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
+  };
+  bool all_are_well = true;
+  for (std::size_t i = 0; i < n_own; ++i)
+    all_are_well = all_are_well & is_near(i) & (moves(i) + rolls(i) <= grains.radius[i] * grains.radius[i]);
+  for (std::uint32_t i = 0; i < n_own && !all_are_well; ++i)
+    {
+      if (!is_near(i))
+        return StrayGrain{i, "stands nowhere near the body"};
+      if (const double way = moves(i) + rolls(i); !(way <= grains.radius[i] * grains.radius[i]))
+        return StrayGrain{i, fmt::format("goes {:.3g} of its radii", std::sqrt(way) / grains.radius[i])};
+    }
+
+  std::optional<StrayGrain> beyond_wall;
+  walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
+    if (!beyond_wall && touch.overlap > touch.zero_distance)
+      beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall"};
+  });
+  return beyond_wall;
+}
+
+std::string describe_runaway(const std::string& trouble, const Circumstances& circumstances)
+{
+  return fmt::format("numbers went wrong: {} in step {}; {}", trouble, circumstances.step,
+                     likely_reason(circumstances));
+}
+
+template std::optional<StrayGrain> find_stray_grain<2>(const Specimen<2>&, std::size_t, const Walls<2>&, double);
+template std::optional<StrayGrain> find_stray_grain<3>(const Specimen<3>&, std::size_t, const Walls<3>&, double);
+} // namespace feldspar

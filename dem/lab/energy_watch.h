@@ -1,0 +1,25 @@
+#pragma once
+
+#include "dem/dynamics/energies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+/// Sees from row to row of a curve whether a body has more energy than it was given.
+class EnergyWatch
+{
+public:
+  /// Whether more has been stored and dissipated than twice what was put in, at the most there has been until now. What the
+  /// scheme itself leaves open is a thousandth of that. Energies that are no numbers count as grown.
+  bool has_grown_without_work(const Energies& now)
+  {
+    most_put_in = std::max(most_put_in, std::abs(now.boundary_work) + now.kinetic_at_start);
+    return !(-now.unaccounted() <= most_put_in);
+  }
+
+private:
+  double most_put_in = 0.0; ///< [J]
+};
+} // namespace feldspar

@@ -1,0 +1,155 @@
+#include "dem/dynamics/runaway.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
+#include "tests/unit/small_specimen.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+/// Numbers that go wrong are caught where they do.
+namespace feldspar
+{
+namespace
+{
+constexpr std::uint64_t most_steps_unseen = 10; // looks for contacts that may be missed are no farther apart
+
+/// The words of the end of a pressed specimen to which something is done after some steps; empty if it goes on.
+std::string end_after(const std::function<void(Grains<2>&)>& harm)
+{
+  Dynamics<2> dynamics(small_specimen(), {}, ZeroForce::as_placed);
+  dynamics.add_wall({1, 1.0, 0.0, 0.0});
+  dynamics.add_wall({1, -1.0, 0.020, -1e-3});
+  for (int n = 0; n < 25; ++n)
+    dynamics.step();
+  harm(dynamics.specimen().grains);
+  try
+    {
+      for (std::uint64_t n = 0; n < most_steps_unseen + 1; ++n)
+        dynamics.step();
+    }
+  catch (const Runaway& error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+TEST(Runaway, IsToldByGrainStepAndReason)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(end_after([](Grains<2>&) {}), "");
+  for (const std::string& words :
+       {end_after([&](Grains<2>& grains) { grains.velocity[0][7] = nan; }),
+        end_after([&](Grains<2>& grains) { grains.spin[0][7] = nan; }),
+        end_after([&](Grains<2>& grains) { grains.position[1][7] = 1e9; }),
+        end_after([&](Grains<2>& grains) { grains.velocity[0][7] = std::numeric_limits<double>::infinity(); })})
+    {
+      EXPECT_EQ(words.find("numbers went wrong: grain "), 0u) << words;
+      EXPECT_NE(words.find(" in step "), std::string::npos) << words;
+      EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+    }
+  // What is in nobody's way shows who it is.
+  const std::string thrown = end_after([](Grains<2>& grains) { grains.velocity[0][7] = 1e9; });
+  EXPECT_NE(thrown.find("grain "), std::string::npos);
+  // A grain in free flight does its own radius in a step at 2 km/s and more, and is not disturbed below.
+  EXPECT_EQ(end_after([](Grains<2>& grains) { grains.velocity[0][7] = 50.0; }), "");
+}
+
+TEST(Runaway, OfAGrainPressedThroughAPlaten)
+{
+  Dynamics<2> dynamics(small_specimen(), {}, ZeroForce::as_placed);
+  const auto upper = dynamics.add_wall({1, -1.0, 0.020, 0.0});
+  dynamics.step();
+  dynamics.wall(upper).position -= 0.019;
+  EXPECT_THROW(for (int n = 0; n < 100; ++n) dynamics.step(), Runaway);
+}
+
+/// Rows, at most so many, and how it ended.
+template <int dim>
+TestOutcome run(LabTest<dim> test, const std::size_t most_rows)
+{
+  while (!test.has_ended() && test.curve().size() < most_rows)
+    test.advance();
+  return test.finish(!test.has_ended());
+}
+
+// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the stiffest
+// grain, by which the step is chosen. What is allowed as safety, 1, is thus stable even without damping.
+TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
+{
+  const auto pressed_with = [](const double safety) {
+    TestParameters parameters;
+    parameters.compression_sampling_strain = 1e-6;
+    return run(LabTest<2>({uniaxial_compression}, small_specimen(), parameters, {0.0, safety}), 200);
+  };
+  EXPECT_EQ(pressed_with(1.0).record.failure, "");
+  for (const double safety : {2.0, 4.0})
+    {
+      const TestOutcome outcome = pressed_with(safety);
+      const TestRecord& record = outcome.record;
+      EXPECT_TRUE(record.interrupted);
+      EXPECT_NE(record.failure.find("grain"), std::string::npos) << record.failure;
+      EXPECT_NE(record.failure.find(" in step "), std::string::npos) << record.failure;
+      EXPECT_NE(record.failure.find("a smaller Dynamics/Time step safety would help"), std::string::npos)
+        << record.failure;
+      ASSERT_FALSE(record.curve.empty());
+      EXPECT_LT(record.curve.back().energies.imbalance(), 1e-3);
+      EXPECT_EQ(record.cracks.size(), record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
+      ASSERT_FALSE(outcome.appearance.grains_at_end.empty());
+      for (const GrainPicture& grain : outcome.appearance.grains_at_end)
+        EXPECT_LT(std::abs(grain.position[0]) + std::abs(grain.position[1]), 0.1);
+    }
+}
+
+TEST(Runaway, SeesEnergyThatGrowsWithoutWork)
+{
+  EnergyWatch watch;
+  Energies energies;
+  energies.boundary_work = 1.0;
+  energies.strain = 0.9;
+  energies.damping = 0.1;
+  EXPECT_FALSE(watch.has_grown_without_work(energies));
+  energies.boundary_work = 0.1; // unloaded, with a loss of nine tenths: what was once put in is the measure
+  energies.strain = 0.0;
+  energies.damping = 0.95;
+  EXPECT_FALSE(watch.has_grown_without_work(energies));
+  energies.damping = 1.2;
+  EXPECT_TRUE(watch.has_grown_without_work(energies));
+  energies.damping = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(watch.has_grown_without_work(energies));
+}
+
+// The corners of what the input accepts. Steps are as many for each, by the rate; energies balance to some percent, for
+// undamped joints that all break at once, and to the thousandth with damping.
+TEST(Runaway, DoesNotSpeakUpInExtremesThatAreAccepted)
+{
+  for (const double stiffness_ratio : {1.0, 1e6})
+    for (const double density : {1e-3, 1e6})
+      for (const double damping : {0.0, 0.7})
+        {
+          SpecimenParameters wanted;
+          wanted.width = 0.012;
+          wanted.height = 0.020;
+          wanted.bulk_density = density;
+          FlatJointParameters flat_joint;
+          flat_joint.coordination_number = 4.2;
+          flat_joint.stiffness_ratio = stiffness_ratio;
+          ParticleContactParameters contact;
+          contact.stiffness_ratio = stiffness_ratio;
+          const auto specimen = make_specimen<2>(wanted, flat_joint, contact, 1, [](std::string_view, double) {});
+          TestParameters parameters;
+          parameters.compression_strain_rate = 10.0 * std::sqrt(2700.0 / density);
+          parameters.compression_sampling_strain = 1e-4;
+          const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
+          const std::string which = fmt::format("ratio {}, density {}, damping {}", stiffness_ratio, density, damping);
+          EXPECT_EQ(outcome.record.failure, "") << which;
+          EXPECT_LT(outcome.record.curve.back().energies.imbalance_over_work(), damping > 0.0 ? 0.01 : 0.1) << which;
+        }
+}
+} // namespace
+} // namespace feldspar
