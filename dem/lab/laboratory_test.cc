@@ -60,13 +60,16 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen,
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
   n_broken_segments.assign(tested.grains.size(), 0);
+  jointed.assign(tested.grains.size(), false);
+  for (std::size_t j = 0; j < tested.joints.size(); ++j)
+    jointed[tested.joints.grain_1[j]] = jointed[tested.joints.grain_2[j]] = true;
 }
 
 template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
-  gauge = StrainGauge<dim>(specimen.size, specimen.round, gauge_positions);
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, gauge_positions, jointed);
 }
 
 template <int dim>

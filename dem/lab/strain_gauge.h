@@ -9,15 +9,16 @@ namespace feldspar
 {
 /// Strain of the middle of a specimen: least-squares gradient of the displacements of the grains within 0.4 of the
 /// width and 0.25 of the height from its centre, where the ends disturb least; in a cylinder 0.4 of the diameter from its
-/// axis.
+/// axis. A grain without a joint lies loose in a pore and need not follow the body: it does not count.
 template <int dim>
 class StrainGauge
 {
 public:
   StrainGauge() = default;
 
-  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m]; round: a cylinder.
-  StrainGauge(const Vector<dim>& size, bool round, const Components<dim>& undeformed);
+  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m]; round: a cylinder; jointed:
+  /// whether each grain has had a joint, [n_grains].
+  StrainGauge(const Vector<dim>& size, bool round, const Components<dim>& undeformed, const std::vector<bool>& jointed);
 
   /// Displacement gradient ∂u_i/∂x_j; NaN where too few grains lie in the gauge to tell.
   Tensor<dim> displacement_gradient(const Grains<dim>& grains) const;
