@@ -77,8 +77,9 @@ void plain_step(benchmark::State& state)
 void engine_sweep(benchmark::State& state)
 {
   Specimen<2> specimen = lattice(std::size_t(state.range(0)));
+  SweepMemory<2> memory(specimen.joints);
   for (auto _ : state)
-    benchmark::DoNotOptimize(sweep_joints(specimen.joints, specimen.grains, 5e-8));
+    benchmark::DoNotOptimize(sweep_joints(specimen.joints, specimen.grains, 5e-8, memory));
   report(state, specimen.joints.size());
 }
 

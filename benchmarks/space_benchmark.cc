@@ -108,8 +108,9 @@ void space_step(benchmark::State& state)
 void space_sweep(benchmark::State& state)
 {
   Specimen<3> specimen = lattice(std::size_t(state.range(0)));
+  SweepMemory<3> memory(specimen.joints);
   for (auto _ : state)
-    benchmark::DoNotOptimize(sweep_joints(specimen.joints, specimen.grains, 5e-8));
+    benchmark::DoNotOptimize(sweep_joints(specimen.joints, specimen.grains, 5e-8, memory));
   report(state, specimen.joints);
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/hdf5_archive.h"
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "dem/dynamics/contact_stress.h"
 #include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/time_step.h"
@@ -22,7 +23,12 @@ bool face_outlives_bonds(const Joints<dim>& joints)
   return std::visit([](const auto& law) { return law.face_outlives_bonds; }, joints.law);
 }
 
-double sign(const double value) { return double(value > 0.0) - double(value < 0.0); }
+/// 1, 0 or -1.
+template <typename Real>
+Real sign(const Real& value)
+{
+  return simd::select(value > 0.0, Real(1.0), simd::select(value < 0.0, Real(-1.0), Real(0.0)));
+}
 } // namespace
 
 template <int dim>
@@ -32,6 +38,7 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , zero_force(where)
   , images(body)
   , grips(body.grains.size())
+  , sweep_memory(body.joints)
   , watch(body.grains)
   , ledger(body.grains.size())
 {
@@ -55,9 +62,9 @@ template <int dim>
 double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 {
   const auto& grains = body.grains;
-  return grips.held()[i] ? 0.0
-                         : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
-                             0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
+  return grips.holds(i) ? 0.0
+                        : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
+                            0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
 }
 
 template <int dim>
@@ -151,9 +158,10 @@ template <int dim>
 void Dynamics<dim>::number_joints()
 {
   const auto& joints = body.joints;
-  joints_of = incidence(
+  joints_of = IncidenceBySide(incidence(
     images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
-    [&](const std::uint32_t grain) { return images.owner(grain); });
+    [&](const std::uint32_t grain) { return images.owner(grain); }));
+  sweep_memory = SweepMemory<dim>(joints);
 }
 
 /// The grains of a joint that has lost its face may touch again.
@@ -243,48 +251,43 @@ template <int dim>
 void Dynamics<dim>::integrate()
 {
   auto& grains = body.grains;
-  // Component by component, without branches and with copies of the members: so the compiler can make packs of it.
-  const double step = dt;
-  const double step_before = previous_dt;
-  const double kick = 0.5 * (step_before + step);
-  const double alpha = parameters.damping;
-  const auto advance = [=, this](const std::size_t begin, const std::size_t end, const auto& force_on,
-                                 const std::vector<double>& inertia, std::vector<double>& velocities) {
-    const double* const inertia_of = inertia.data();
-    const std::uint8_t* const is_held = grips.held().data();
-    double* const velocity = velocities.data();
-    double* const dissipated = ledger.damping_work.data();
-    for (std::size_t i = begin; i < end; ++i)
-      {
-        const double force = force_on(i);
-        const double old_velocity = velocity[i];
-        const double damping_force = -alpha * std::abs(force) * sign(old_velocity);
-        const double free_velocity = old_velocity + kick * (force + damping_force) * (1.0 / inertia_of[i]);
-        const double work = 0.5 * damping_force * (step_before * old_velocity + step * free_velocity);
-        velocity[i] = is_held[i] ? old_velocity : free_velocity;
-        dissipated[i] -= is_held[i] ? 0.0 : work;
-      }
+  const double kick = 0.5 * (previous_dt + dt);
+  // Of a pack of neighbouring grains, or of one.
+  const auto advance = [&]<typename Real>(Real, const std::size_t i, const Real& force,
+                                          const std::vector<double>& inertia, std::vector<double>& velocity) {
+    const Real old_velocity = simd::load<Real>(&velocity[i]);
+    const Real is_free = simd::load<Real>(&grips.freedom()[i]);
+    const Real damping_force = -parameters.damping * simd::absolute(force) * sign(old_velocity);
+    const Real change = kick * (force + damping_force) * (1.0 / simd::load<Real>(&inertia[i]));
+    const Real free_velocity = old_velocity + change;
+    const Real work = 0.5 * damping_force * (previous_dt * old_velocity + dt * free_velocity);
+    simd::store(old_velocity + is_free * change, &velocity[i]);
+    simd::store(simd::load<Real>(&ledger.damping_work[i]) - is_free * work, &ledger.damping_work[i]);
   };
-  for_each_block(images.n_own(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  const auto advance_all = [&]<typename Real>(Real real, const std::size_t i) {
     for (int c = 0; c < dim; ++c)
       {
-        const auto force_on = [force = grains.force[c].data(), mass = grains.mass.data(),
-                               pull = gravity[c]](const std::size_t i) { return force[i] + mass[i] * pull; };
-        advance(begin, end, force_on, grains.mass, grains.velocity[c]);
-        for (std::size_t i = begin; i < end; ++i)
-          grains.position[c][i] += step * grains.velocity[c][i];
+        const Real weight = simd::load<Real>(&grains.mass[i]) * gravity[c];
+        advance(real, i, simd::load<Real>(&grains.force[c][i]) + weight, grains.mass, grains.velocity[c]);
+        const Real way = dt * simd::load<Real>(&grains.velocity[c][i]);
+        simd::store(simd::load<Real>(&grains.position[c][i]) + way, &grains.position[c][i]);
       }
     for (int c = 0; c < n_rotations<dim>; ++c)
-      advance(
-        begin, end, [couple = grains.couple[c].data()](const std::size_t i) { return couple[i]; },
-        grains.moment_of_inertia, grains.spin[c]);
+      advance(real, i, simd::load<Real>(&grains.couple[c][i]), grains.moment_of_inertia, grains.spin[c]);
+  };
+  for_each_block(images.n_own(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    std::size_t i = begin;
+    for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
+      advance_all(simd::Pack(), i);
+    for (; i < end; ++i)
+      advance_all(double(), i);
   });
 }
 
 template <int dim>
 std::vector<Break> Dynamics<dim>::update_contacts(const double step)
 {
-  auto breaks = sweep_joints(body.joints, body.grains, step);
+  auto breaks = sweep_joints(body.joints, body.grains, step, sweep_memory);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step) || contact_made;
   sum_forces(body, images.n_own(), joints_of, touches);
   contact_made = wall_set.press(step, body) || contact_made;
@@ -346,7 +349,7 @@ Energies Dynamics<dim>::energies() const
     {
       sum.damping += ledger.damping_work[i];
       sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
-      if (grips.held()[i])
+      if (grips.holds(i))
         continue;
       for (int c = 0; c < dim; ++c)
         centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
@@ -362,7 +365,7 @@ double Dynamics<dim>::unbalanced_force_ratio() const
   double unbalanced = 0.0;
   std::size_t n_free = 0;
   for (std::size_t i = 0; i < images.n_own(); ++i)
-    if (!grips.held()[i])
+    if (!grips.holds(i))
       {
         unbalanced += std::sqrt(squared_norm<dim>(body.grains.force, i));
         ++n_free;

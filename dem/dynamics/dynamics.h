@@ -128,7 +128,8 @@ private:
   Touches<dim> touches;
   Walls<dim> wall_set;
   Grips<dim> grips;
-  Incidence joints_of; ///< each grain
+  IncidenceBySide joints_of; ///< each grain
+  SweepMemory<dim> sweep_memory;
   ContactWatch<dim> watch;
   EnergyLedger ledger;
   Components<dim> position_at_start;

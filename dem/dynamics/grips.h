@@ -15,7 +15,7 @@ class Grips
 {
 public:
   explicit Grips(const std::size_t n_grains)
-    : is_held(n_grains, 0)
+    : free(n_grains, 1.0)
   {
   }
 
@@ -24,7 +24,7 @@ public:
   {
     for (const auto i : members)
       {
-        is_held[i] = 1;
+        free[i] = 0.0;
         set<dim>(grains.velocity, i, velocity);
       }
     grips.push_back({std::move(members), velocity});
@@ -32,8 +32,9 @@ public:
   }
 
   std::size_t size() const { return grips.size(); }
-  /// 1 for a grain that belongs to a grip, 0 for a free one; [n_grains].
-  const std::vector<std::uint8_t>& held() const { return is_held; }
+  bool holds(const std::size_t grain) const { return free[grain] == 0.0; }
+  /// 0 for a grain that belongs to a grip, 1 for a free one: a factor for what moves it; [n_grains].
+  const std::vector<double>& freedom() const { return free; }
   const Vector<dim>& velocity(const std::size_t grip) const { return grips[grip].velocity; }
 
   /// Sum of the forces on a grip's grains [N].
@@ -53,6 +54,6 @@ private:
   };
 
   std::vector<Grip> grips;
-  std::vector<std::uint8_t> is_held;
+  std::vector<double> free;
 };
 } // namespace feldspar

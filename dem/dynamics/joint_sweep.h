@@ -1,7 +1,9 @@
 #pragma once
 
+#include "base/page_allocator.h"
 #include "dem/storage/joints.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,11 +18,40 @@ struct Break
   double released_energy; ///< [J]
 };
 
+/// What a sweep makes for itself and keeps for the next.
+template <int dim>
+struct SweepMemory
+{
+  /// Anew after joints have gone or bonds were changed from outside.
+  explicit SweepMemory(const Joints<dim>& joints);
+
+  static constexpr std::size_t tensile_strength = 0, cohesion = 1, n_weakest = 2;
+  /// The least strengths of each joint's bonds [Pa]; below every stress where not all of them hold.
+  PackedRows weakest;
+
+  /// Of each grain its centre [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
+  /// in the plane both in one four: x, y, φ.
+  static constexpr std::size_t record_size = dim == 2 ? 4 : 8;
+  std::vector<double, PageAllocator<double>> grain_records;
+};
+
 /// Carries every joint over one step of dt [s]: reads the grains' positions (at its end) and spins (at its middle),
 /// updates the segments and leaves forces and couples in the joints. Breaks come in the order of joint and segment,
 /// whatever the number of threads.
 template <int dim>
-std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt);
+std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt, SweepMemory<dim>& memory);
+
+/// The same with nothing kept from step to step.
+template <int dim>
+std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, const double dt)
+{
+  SweepMemory<dim> memory(joints);
+  return sweep_joints(joints, grains, dt, memory);
+}
+
+/// τ of a segment, stored or known by the law [Pa].
+template <int dim>
+std::array<double, dim - 1> shear_stress(const Joints<dim>& joints, unsigned int segment, std::size_t joint);
 
 /// Whether a joint has a face still. It loses it when nothing holds and both sides have slid or opened past each other, or
 /// at once by a law whose faces go with their bonds.

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/simd_transpose.h"
 #include "dem/dynamics/joint_sweep.h"
 #include "dem/laws/joint_law.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 /// The sweep over all joints, written over the law: made for each law of the list in joint_sweep.cc.
@@ -15,50 +17,92 @@ namespace feldspar
 namespace joint_sweep
 {
 inline constexpr std::size_t packs_ahead = 2;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Asks for the same row of a pack some way on. One row at a time, so that asking runs beside computing: a processor that
-/// is asked for a whole pack at once computes nothing until it has come.
-template <typename Real>
-void ask_ahead(const PackedRow& row, const double* const here)
+/// The rows of a joint, or of a pack of neighbouring ones, in a table; distances between them are known at compile time.
+/// One row at a time is asked for some packs ahead, so that asking runs beside computing: a processor that is asked for a
+/// whole pack at once computes nothing until it has come.
+template <typename Real, std::size_t n_rows>
+struct RowsOfPack
 {
-  if constexpr (simd::width < Real >> 1)
-    __builtin_prefetch(here + packs_ahead * row.pack_size());
-}
+  double* first;
 
-/// Where: a joint, or a segment and a joint.
-template <typename Real, typename... Where>
-Real take(const PackedRow& row, const Where... where)
+  double* row(const std::size_t r) const { return first + r * pack_width; }
+  Real take(const std::size_t r) const
+  {
+    if constexpr (simd::width < Real >> 1)
+      __builtin_prefetch(row(r) + packs_ahead * n_rows * pack_width);
+    return simd::load<Real>(row(r));
+  }
+  void put(const std::size_t r, const Real& value) const { simd::store(value, row(r)); }
+
+  template <std::size_t n>
+  std::array<Real, n> take_all(const std::size_t r) const
+  {
+    std::array<Real, n> values;
+    for (std::size_t c = 0; c < n; ++c)
+      values[c] = take(r + c);
+    return values;
+  }
+  template <std::size_t n>
+  void put_all(const std::size_t r, const std::array<Real, n>& values) const
+  {
+    for (std::size_t c = 0; c < n; ++c)
+      put(r + c, values[c]);
+  }
+};
+
+/// Where a face stands at the beginning of a step.
+template <int dim, typename Real>
+struct FaceBefore
 {
-  const double* const from = row.pack(where...);
-  ask_ahead<Real>(row, from);
-  return simd::load<Real>(from);
-}
+  std::array<Real, n_rotations<dim>> rotation;
+  std::array<Real, dim - 1> slip;
+  decltype(Real() < Real()) is_whole; ///< all its bonds hold, and its law answers for it as for one
+};
 
 /// The segments of one joint, or of a pack of neighbouring ones, in the tables of all joints.
 template <typename Law, int dim, typename Real>
 struct StoredSegments
 {
   using State = typename Law::template State<Real>;
+  using Mask = decltype(Real() < Real());
 
   Joints<dim>& joints;
   const std::size_t first;
+  const Face<Real>& face;
+  const FaceBefore<dim, Real>& before;
   std::vector<Break>& breaks;
+  Mask some_broke{false};
+
+  static constexpr std::size_t n_rows = JointTables<dim>::n_segment_rows;
+
+  double* state_row(const unsigned int i, const std::size_t row) const
+  {
+    return joints.segment_state.at(0, first) + (i * n_rows + row) * pack_width;
+  }
 
   Bond<Real> bond(const unsigned int i) const
   {
-    return {take<Real>(joints.tensile_strength, i, first), take<Real>(joints.cohesion, i, first),
-            joints.friction_slope};
+    const double* const strength = joints.tensile_strength.pack(i, first);
+    return {simd::load<Real>(strength), simd::load<Real>(strength + pack_width), joints.friction_slope};
   }
 
   State state(const unsigned int i) const
   {
     State state;
     for (int c = 0; c < dim - 1; ++c)
-      state.shear_stress[c] = take<Real>(joints.shear_stress[c], i, first);
-    state.bonded = take<Real>(joints.bonded, i, first) > 0.5;
+      state.shear_stress[c] = simd::load<Real>(state_row(i, c));
+    state.bonded = simd::load<Real>(state_row(i, dim - 1)) > 0.5;
     if constexpr (Law::n_more > 0)
       for (std::size_t k = 0; k < Law::n_more; ++k)
-        state.more[k] = take<Real>(joints.more(k), i, first);
+        state.more[k] = simd::load<Real>(joints.more(k).pack(i, first));
+    if constexpr (AnswersAsOne<Law, dim, Real>)
+      {
+        const State whole = Law::whole_state(face, joints.elements[i], before.rotation, before.slip);
+        for (int c = 0; c < dim - 1; ++c)
+          state.shear_stress[c] = simd::select(before.is_whole, whole.shear_stress[c], state.shear_stress[c]);
+      }
     return state;
   }
 
@@ -66,131 +110,185 @@ struct StoredSegments
   void set(const unsigned int i, const Update& update)
   {
     for (int c = 0; c < dim - 1; ++c)
-      simd::store(update.state.shear_stress[c], joints.shear_stress[c].pack(i, first));
+      simd::store(update.state.shear_stress[c], state_row(i, c));
     if constexpr (Law::n_more > 0)
       for (std::size_t k = 0; k < Law::n_more; ++k)
         simd::store(update.state.more[k], joints.more(k).pack(i, first));
-    if (simd::any(update.tension_break || update.shear_break))
-      for (std::size_t j = 0; j < simd::width<Real>; ++j)
-        if (const bool in_tension = simd::lane(update.tension_break, j);
-            in_tension || simd::lane(update.shear_break, j))
-          {
-            joints.bonded.pack(i, first)[j] = 0.0;
-            breaks.push_back({std::uint32_t(first + j), i, in_tension, simd::lane(update.released_energy, j)});
-          }
+    const Mask broke = update.tension_break || update.shear_break;
+    if (!simd::any(broke))
+      return;
+    some_broke = some_broke || broke;
+    for (std::size_t j = 0; j < simd::width<Real>; ++j)
+      if (simd::lane(broke, j))
+        {
+          state_row(i, dim - 1)[j] = 0.0;
+          breaks.push_back(
+            {std::uint32_t(first + j), i, simd::lane(update.tension_break, j), simd::lane(update.released_energy, j)});
+        }
   }
 };
 
-template <typename Real, std::size_t n>
-std::array<Real, n> gather(const Components<n>& from, const std::uint32_t* index)
+/// The segments one by one; a face whose bonds still hold all answers as one.
+template <typename Real, typename Law, int dim>
+[[gnu::flatten, gnu::noinline]] FaceResultants<dim, Real> update_segments(
+  const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const Face<Real>& face,
+  const FaceMotion<dim, Real>& motion, const FaceBefore<dim, Real>& before, const FaceResultants<dim, Real>& as_one,
+  const std::size_t j, std::vector<Break>& breaks)
 {
-  std::array<Real, n> value;
-  for (std::size_t c = 0; c < n; ++c)
-    value[c] = simd::gather<Real>(from[c].data(), index);
-  return value;
+  StoredSegments<Law, dim, Real> segments{joints, j, face, before, breaks};
+  FaceResultants<dim, Real> sum = law.update(face, joints.elements, motion, segments);
+  const auto is_whole = before.is_whole && !segments.some_broke;
+  sum.normal_force = simd::select(is_whole, as_one.normal_force, sum.normal_force);
+  for (std::size_t c = 0; c < sum.shear_force.size(); ++c)
+    sum.shear_force[c] = simd::select(is_whole, as_one.shear_force[c], sum.shear_force[c]);
+  for (std::size_t c = 0; c < sum.moment.size(); ++c)
+    sum.moment[c] = simd::select(is_whole, as_one.moment[c], sum.moment[c]);
+
+  if (simd::any(before.is_whole && segments.some_broke))
+    for (const std::size_t row : {memory.tensile_strength, memory.cohesion})
+      {
+        double* const least = memory.weakest.at(row, j);
+        simd::store(simd::select(segments.some_broke, Real(-infinity), simd::load<Real>(least)), least);
+      }
+  double* const slip_energy = joints.slip_energy.pack(j);
+  simd::store(simd::load<Real>(slip_energy) + sum.slip_energy, slip_energy);
+  return sum;
 }
 
-template <typename Real, std::size_t n>
-std::array<Real, n> load(const PackedComponents<n>& from, const std::size_t i)
+/// Centres and turns of the grains at one side of the joints.
+template <int dim, typename Real>
+struct GrainMotion
 {
-  std::array<Real, n> value;
-  for (std::size_t c = 0; c < n; ++c)
-    value[c] = take<Real>(from[c], i);
-  return value;
-}
+  std::array<Real, dim> centre;
+  std::array<Real, n_rotations<dim>> turn;
+};
 
-template <typename Real, std::size_t n>
-void store(const std::array<Real, n>& value, PackedComponents<n>& to, const std::size_t i)
+template <int dim, typename Real>
+GrainMotion<dim, Real> gather(const SweepMemory<dim>& memory, const std::uint32_t* const grain)
 {
-  for (std::size_t c = 0; c < n; ++c)
-    simd::store(value[c], to[c].pack(i));
+  constexpr std::size_t size = SweepMemory<dim>::record_size;
+  const auto first = simd::gather_records<Real>(memory.grain_records.data(), size, grain);
+  if constexpr (dim == 2)
+    return {{first[0], first[1]}, {first[2]}};
+  else
+    {
+      const auto second = simd::gather_records<Real>(memory.grain_records.data() + 4, size, grain);
+      return {{first[0], first[1], first[2]}, {second[0], second[1], second[2]}};
+    }
 }
 
 /// Joint by joint, as Joints<dim>::answer has them.
-template <typename Real, int dim>
-void store_answer(const ContactForce<dim, Real>& answer, double* const to)
+template <typename Real>
+void store_answer(const ContactForce<2, Real>& answer, double* const to)
 {
-  constexpr std::size_t n_joints = simd::width<Real>, n = JointTables<dim>::n_answer_rows;
-  std::array<std::array<double, n_joints>, n> rows;
-  for (std::size_t c = 0; c < n_rotations<dim>; ++c)
-    {
-      simd::store(answer.couple_1[c], rows[c].data());
-      simd::store(answer.couple_2[c], rows[JointTables<dim>::first_couple_2 + c].data());
-    }
-  for (std::size_t c = 0; c < dim; ++c)
-    simd::store(answer.force[c], rows[JointTables<dim>::first_force + c].data());
-  for (std::size_t j = 0; j < n_joints; ++j)
-    for (std::size_t c = 0; c < n; ++c)
-      to[j * n + c] = rows[c][j];
-  if constexpr (n_joints > 1)
-    for (std::size_t c = 0; c < n; ++c)
-      __builtin_prefetch(to + (packs_ahead * n + c) * n_joints, 1);
+  simd::store_records<Real>({answer.force[0], answer.force[1], answer.couple_1[0], answer.couple_2[0]}, to, 4);
+}
+
+template <typename Real>
+void store_answer(const ContactForce<3, Real>& answer, double* const to)
+{
+  const auto& [force, couple_1, couple_2] = answer;
+  simd::store_records<Real>({force[0], force[1], force[2], couple_1[0]}, to, 9);
+  simd::store_records<Real>({couple_1[1], couple_1[2], couple_2[0], couple_2[1]}, to + 4, 9);
+  for (std::size_t j = 0; j < simd::width<Real>; ++j)
+    to[9 * j + 8] = simd::lane(couple_2[2], j);
 }
 
 /// Joint j, or the pack of joints that begins at j. Flattened: packs handed to functions go by way of memory, which
 /// takes half as long again as the work.
 template <typename Real, typename Law, int dim>
-[[gnu::flatten]] void update_joint(const Law& law, Joints<dim>& joints, const Grains<dim>& grains, const double dt,
-                                   const std::size_t j, std::vector<Break>& breaks)
+[[gnu::flatten]] void update_joint(const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const std::size_t j,
+                                   std::vector<Break>& breaks)
 {
-  constexpr std::size_t n_turns = n_rotations<dim>;
-  const std::uint32_t* const grain_1 = &joints.grain_1[j];
-  const std::uint32_t* const grain_2 = &joints.grain_2[j];
-  const Real rest_distance = take<Real>(joints.rest_distance, j);
-  const Real half_radius_difference = take<Real>(joints.half_radius_difference, j);
-  const Real opening_before = take<Real>(joints.opening, j);
-
-  auto turn_1 = gather<Real, n_turns>(grains.spin, grain_1);
-  auto turn_2 = gather<Real, n_turns>(grains.spin, grain_2);
-  for (std::size_t c = 0; c < n_turns; ++c)
-    {
-      turn_1[c] *= dt;
-      turn_2[c] *= dt;
-    }
-  ContactFrame<dim, Real> before;
-  before.normal = load<Real, dim>(joints.normal, j);
-  before.distance = rest_distance + opening_before;
-  if constexpr (dim == 3)
-    before.tangent = load<Real, 3>(joints.tangent, j);
-  const auto contact = Law::motion(before, gather<Real, dim>(grains.position, grain_1),
-                                   gather<Real, dim>(grains.position, grain_2), half_radius_difference, turn_1, turn_2);
+  using Row = typename JointTables<dim>::Row;
+  constexpr std::size_t n_turns = n_rotations<dim>, n_shear = dim - 1;
+  const RowsOfPack<Real, Row::count> rows{joints.state.at(0, j)};
+  const Real rest_distance = rows.take(Row::rest_distance);
+  const Real half_radius_difference = rows.take(Row::half_radius_difference);
   FaceMotion<dim, Real> motion;
-  motion.opening_before = opening_before;
-  motion.opening = contact.frame.distance - rest_distance;
-  motion.rotation_before = load<Real, n_turns>(joints.rotation, j);
-  for (std::size_t c = 0; c < n_turns; ++c)
-    motion.rotation[c] = motion.rotation_before[c] + contact.rotation[c];
-  motion.slip_increment = contact.slip;
+  motion.opening_before = rows.take(Row::opening);
 
-  const Face<Real> face{take<Real>(joints.normal_stiffness, j), take<Real>(joints.shear_stiffness, j),
-                        take<Real>(joints.half_length, j), joints.thickness, joints.friction};
-  const auto resultants = law.update(face, joints.elements, motion, StoredSegments<Law, dim, Real>{joints, j, breaks});
-  const auto answer = Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
-                                 resultants.moment);
-
-  store<Real, dim>(contact.frame.normal, joints.normal, j);
+  ContactFrame<dim, Real> frame_before;
+  frame_before.normal = rows.template take_all<dim>(Row::normal);
+  frame_before.distance = rest_distance + motion.opening_before;
   if constexpr (dim == 3)
-    store<Real, 3>(contact.frame.tangent, joints.tangent, j);
-  simd::store(motion.opening, joints.opening.pack(j));
-  store<Real, n_turns>(motion.rotation, joints.rotation, j);
-  for (int c = 0; c < dim - 1; ++c)
-    simd::store(take<Real>(joints.slip[c], j) + contact.slip[c], joints.slip[c].pack(j));
-  simd::store(take<Real>(joints.slip_energy, j) + resultants.slip_energy, joints.slip_energy.pack(j));
-  store_answer<Real, dim>(answer, joints.answer.at(0, j));
+    frame_before.tangent = rows.template take_all<3>(Row::tangent);
+  const auto one = gather<dim, Real>(memory, &joints.grain_1[j]);
+  const auto two = gather<dim, Real>(memory, &joints.grain_2[j]);
+  const auto contact = Law::motion(frame_before, one.centre, two.centre, half_radius_difference, one.turn, two.turn);
+  rows.template put_all<dim>(Row::normal, contact.frame.normal);
+  if constexpr (dim == 3)
+    rows.template put_all<3>(Row::tangent, contact.frame.tangent);
+
+  FaceBefore<dim, Real> before{rows.template take_all<n_turns>(Row::rotation),
+                               rows.template take_all<n_shear>(Row::slip), decltype(Real() < Real())(false)};
+  motion.opening = contact.frame.distance - rest_distance;
+  motion.rotation_before = before.rotation;
+  motion.slip_increment = contact.slip;
+  std::array<Real, n_shear> slip;
+  for (std::size_t c = 0; c < n_turns; ++c)
+    motion.rotation[c] = before.rotation[c] + contact.rotation[c];
+  for (std::size_t c = 0; c < n_shear; ++c)
+    slip[c] = before.slip[c] + contact.slip[c];
+  rows.put(Row::opening, motion.opening);
+  rows.template put_all<n_turns>(Row::rotation, motion.rotation);
+  rows.template put_all<n_shear>(Row::slip, slip);
+
+  const Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
+                        joints.thickness, joints.friction};
+  FaceResultants<dim, Real> resultants;
+  if constexpr (AnswersAsOne<Law, dim, Real>)
+    {
+      const RowsOfPack<Real, SweepMemory<dim>::n_weakest> weakest{memory.weakest.at(0, j)};
+      const Bond<Real> least{weakest.take(memory.tensile_strength), weakest.take(memory.cohesion),
+                             joints.friction_slope};
+      resultants = Law::whole_response(face, joints.whole, motion.opening, motion.rotation, slip);
+      if (!simd::all(Law::surely_holds(face, joints.whole, least, motion.opening, motion.rotation, slip)))
+        {
+          before.is_whole = least.tensile_strength >= 0.0;
+          resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
+        }
+    }
+  else
+    resultants =
+      update_segments<Real>(law, joints, memory, face, motion, before, FaceResultants<dim, Real>{}, j, breaks);
+  store_answer(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
+                          resultants.moment),
+               joints.answer.at(0, j));
+}
+
+/// x, y, φ, or x, y, z, -, φ_x, φ_y, φ_z, - of every grain.
+template <int dim>
+void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>& memory)
+{
+  constexpr std::size_t size = SweepMemory<dim>::record_size, first_turn = size - (dim == 2 ? 2 : 4);
+  memory.grain_records.resize(size * grains.size());
+  for_each_block(grains.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    double* const records = memory.grain_records.data();
+    for (std::size_t i = begin; i < end; ++i)
+      {
+        for (std::size_t c = 0; c < dim; ++c)
+          records[size * i + c] = grains.position[c][i];
+        for (std::size_t c = 0; c < n_rotations<dim>; ++c)
+          records[size * i + first_turn + c] = dt * grains.spin[c][i];
+      }
+  });
 }
 } // namespace joint_sweep
 
 /// sweep_joints() with the law known.
 template <int dim, JointLaw<dim> Law>
-std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grains<dim>& grains, const double dt)
+std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grains<dim>& grains, const double dt,
+                                SweepMemory<dim>& memory)
 {
+  joint_sweep::record_grains(grains, dt, memory);
   std::vector<std::vector<Break>> breaks(n_blocks(joints.size()));
   for_each_block(joints.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
     std::size_t j = begin;
     for (; j + simd::width<simd::Pack> <= end; j += simd::width<simd::Pack>)
-      joint_sweep::update_joint<simd::Pack>(law, joints, grains, dt, j, breaks[block]);
+      joint_sweep::update_joint<simd::Pack>(law, joints, memory, j, breaks[block]);
     for (; j < end; ++j)
-      joint_sweep::update_joint<double>(law, joints, grains, dt, j, breaks[block]);
+      joint_sweep::update_joint<double>(law, joints, memory, j, breaks[block]);
   });
 
   std::vector<Break> all;
@@ -202,6 +300,33 @@ std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grain
   return all;
 }
 
+/// What a segment remembers, stored or known from the motion of its face.
+template <int dim, JointLaw<dim> Law>
+typename Law::template State<double> segment_state(const Law&, const Joints<dim>& joints, const unsigned int i,
+                                                   const std::size_t j)
+{
+  const std::size_t segment = joints.segment(i, j);
+  typename Law::template State<double> state;
+  for (int c = 0; c < dim - 1; ++c)
+    state.shear_stress[c] = joints.shear_stress[c][segment];
+  state.bonded = joints.bonded[segment] > 0.5;
+  if constexpr (Law::n_more > 0)
+    for (std::size_t k = 0; k < Law::n_more; ++k)
+      state.more[k] = *joints.more_state.at(i * Law::n_more + k, j);
+  if constexpr (AnswersAsOne<Law, dim, double>)
+    if (joints.holds_wholly(j))
+      {
+        std::array<double, n_rotations<dim>> rotation;
+        for (int c = 0; c < n_rotations<dim>; ++c)
+          rotation[c] = joints.rotation[c][j];
+        std::array<double, dim - 1> slip;
+        for (int c = 0; c < dim - 1; ++c)
+          slip[c] = joints.slip[c][j];
+        return Law::whole_state(joints.face(j), joints.elements[i], rotation, slip);
+      }
+  return state;
+}
+
 /// joint_energy() with the law known.
 template <int dim, JointLaw<dim> Law>
 double joint_energy(const Law& law, const Joints<dim>& joints, const std::size_t j)
@@ -209,17 +334,7 @@ double joint_energy(const Law& law, const Joints<dim>& joints, const std::size_t
   std::array<double, n_rotations<dim>> rotation;
   for (int c = 0; c < n_rotations<dim>; ++c)
     rotation[c] = joints.rotation[c][j];
-  const auto state_of = [&](const unsigned int i) {
-    const std::size_t segment = joints.segment(i, j);
-    typename Law::template State<double> state;
-    for (int c = 0; c < dim - 1; ++c)
-      state.shear_stress[c] = joints.shear_stress[c][segment];
-    state.bonded = joints.bonded[segment] > 0.5;
-    if constexpr (Law::n_more > 0)
-      for (std::size_t k = 0; k < Law::n_more; ++k)
-        state.more[k] = *joints.more_state.at(i * Law::n_more + k, j);
-    return state;
-  };
+  const auto state_of = [&](const unsigned int i) { return segment_state<dim>(law, joints, i, j); };
   return law.stored_energy(joints.face(j), joints.elements, joints.opening[j], rotation, state_of);
 }
 

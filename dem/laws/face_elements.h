@@ -102,6 +102,32 @@ requires(dim == 3) std::vector<FaceElement<dim>> face_elements(const unsigned in
   return elements;
 }
 
+/// A face as one spring, while all its elements are bonded: sums over them, in units of R̄. Their first moments and, in 3D,
+/// their product of inertia vanish by the symmetry of the division.
+template <int dim>
+struct WholeFace
+{
+  double area = 0.0;                           ///< over R̄t in 2D, over R̄² in 3D
+  std::array<double, dim - 1> second_moment{}; ///< of the offsets along each axis, own ones included: over R̄³t, R̄⁴
+  std::array<double, dim - 1> farthest_offset{}; ///< of a centroid along each axis
+};
+
+template <int dim>
+WholeFace<dim> whole_face(const std::vector<FaceElement<dim>>& elements)
+{
+  WholeFace<dim> whole;
+  for (const auto& element : elements)
+    {
+      whole.area += element.area;
+      for (int c = 0; c < dim - 1; ++c)
+        {
+          whole.second_moment[c] += element.area * element.offset[c] * element.offset[c] + element.second_moment;
+          whole.farthest_offset[c] = std::max(whole.farthest_offset[c], std::abs(element.offset[c]));
+        }
+    }
+  return whole;
+}
+
 /// How a face is divided: {N}, or {N_r, N_α}.
 template <int dim>
 using FaceDivision = std::array<unsigned int, dim - 1>;

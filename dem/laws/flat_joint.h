@@ -104,6 +104,72 @@ double face_energy(const Face<double>& face, const std::vector<FaceElement<dim>>
     }
   return sum;
 }
+
+/// Forces of a face whose segments are all bonded, from its motion since installation. Sums over the segments of (7), (10)
+/// and (13): F_n = -k_n A U_n, F_s = -k_s A U_s, M = -k_n I θ; in three dimensions with the lumped sums of its elements, and
+/// a twist M_n = -k_s (I_1 + I_2) θ_n.
+template <typename Real>
+FaceResultants<2, Real> whole_face_response(const Face<Real>& face, const WholeFace<2>& whole, const Real& opening,
+                                            const std::array<Real, 1>& rotation, const std::array<Real, 1>& slip)
+{
+  const Real r = face.half_length;
+  const Real area = r * (whole.area * face.thickness);
+  const Real second_moment = r * r * r * (whole.second_moment[0] * face.thickness);
+  return {-face.normal_stiffness * area * opening,
+          {-face.shear_stiffness * area * slip[0]},
+          {-face.normal_stiffness * second_moment * rotation[0]},
+          Real(0.0)};
+}
+
+template <typename Real>
+FaceResultants<3, Real> whole_face_response(const Face<Real>& face, const WholeFace<3>& whole, const Real& opening,
+                                            const std::array<Real, 3>& rotation, const std::array<Real, 2>& slip)
+{
+  const Real r_squared = face.half_length * face.half_length;
+  const Real normal = face.normal_stiffness * r_squared;
+  const Real shear = face.shear_stiffness * r_squared;
+  return {-whole.area * normal * opening,
+          {-whole.area * shear * slip[0], -whole.area * shear * slip[1]},
+          {-(whole.second_moment[0] + whole.second_moment[1]) * (shear * r_squared) * rotation[0],
+           -whole.second_moment[1] * (normal * r_squared) * rotation[1],
+           -whole.second_moment[0] * (normal * r_squared) * rotation[2]},
+          Real(0.0)};
+}
+
+/// Not below the gap at the centroid of any segment [m].
+template <typename Real>
+Real widest_gap(const Face<Real>& face, const WholeFace<2>& whole, const Real& opening,
+                const std::array<Real, 1>& rotation)
+{
+  return opening + flat_joint::absolute(rotation[0]) * (face.half_length * whole.farthest_offset[0]);
+}
+
+template <typename Real>
+Real widest_gap(const Face<Real>& face, const WholeFace<3>& whole, const Real& opening,
+                const std::array<Real, 3>& rotation)
+{
+  return opening + face.half_length * (flat_joint::absolute(rotation[1]) * whole.farthest_offset[1] +
+                                       flat_joint::absolute(rotation[2]) * whole.farthest_offset[0]);
+}
+
+/// Not below the square of the shear of any segment [m²].
+template <typename Real>
+Real farthest_slip_squared(const Face<Real>& /*face*/, const WholeFace<2>& /*whole*/,
+                           const std::array<Real, 1>& /*rotation*/, const std::array<Real, 1>& slip)
+{
+  return slip[0] * slip[0];
+}
+
+template <typename Real>
+Real farthest_slip_squared(const Face<Real>& face, const WholeFace<3>& whole, const std::array<Real, 3>& rotation,
+                           const std::array<Real, 2>& slip)
+{
+  const Real twist = flat_joint::absolute(rotation[0]) * face.half_length;
+  const Real along_1 = flat_joint::absolute(slip[0]) + twist * whole.farthest_offset[1];
+  const Real along_2 = flat_joint::absolute(slip[1]) + twist * whole.farthest_offset[0];
+  return along_1 * along_1 + along_2 * along_2;
+}
+
 /// As a joint law (joint_law.h). All that it is told of a face is common to the faces of every law, so that it has no
 /// numbers of its own.
 template <int dim>
@@ -144,6 +210,40 @@ struct FlatJoint : CarriedPlane<dim>
                                    const FaceMotion<dim, Real>& motion, Elements&& states) const
   {
     return update_face<dim, Real>(face, elements, motion, std::forward<Elements>(states));
+  }
+
+  /// Whether no bond of a face breaks whose weakest bonds, each the least of its kind, these are: sufficient, and cheap.
+  template <typename Real>
+  static auto surely_holds(const Face<Real>& face, const WholeFace<dim>& whole, const Bond<Real>& least,
+                           const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
+                           const std::array<Real, dim - 1>& slip)
+  {
+    const Real highest_stress = face.normal_stiffness * widest_gap(face, whole, opening, rotation); // (10)
+    const Real strength = shear_strength(least, highest_stress);                                    // (15)
+    const Real k_s = face.shear_stiffness;
+    return highest_stress <= least.tensile_strength &&
+           k_s * k_s * farthest_slip_squared(face, whole, rotation, slip) <= strength * strength;
+  }
+
+  template <typename Real>
+  static FaceResultants<dim, Real> whole_response(const Face<Real>& face, const WholeFace<dim>& whole,
+                                                  const Real& opening,
+                                                  const std::array<Real, n_rotations<dim>>& rotation,
+                                                  const std::array<Real, dim - 1>& slip)
+  {
+    return whole_face_response(face, whole, opening, rotation, slip);
+  }
+
+  /// τ of a segment of a face whose segments are all bonded: (13) over the whole way.
+  template <typename Real>
+  static State<Real> whole_state(const Face<Real>& face, const FaceElement<dim>& element,
+                                 const std::array<Real, n_rotations<dim>>& rotation,
+                                 const std::array<Real, dim - 1>& slip)
+  {
+    auto shear = flat_joint::slip_at(slip, rotation[0], place_segment(face, element).offset);
+    for (Real& component : shear)
+      component = -face.shear_stiffness * component;
+    return {shear, decltype(Real() < Real())(true)};
   }
 
   template <typename StateOf>

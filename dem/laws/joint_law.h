@@ -82,6 +82,25 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
     } -> std::same_as<FaceResultants<dim, Real>>;
 };
 
+/// A law may know the answer of a face whose elements are all bonded from its motion since installation. The sweep then
+/// looks at elements one by one only where a bond may break or one has broken, and their shear stress need not be stored.
+template <typename Law, int dim, typename Real>
+concept AnswersAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
+                                const FaceElement<dim> element, const Real opening,
+                                const std::array<Real, n_rotations<dim>> rotation, const std::array<Real, dim - 1> slip)
+{
+  // Whether it is certain that no bond breaks; the bond has the least strengths of the face.
+  {
+    Law::surely_holds(face, whole, least, opening, rotation, slip)
+    } -> std::same_as<decltype(Real() < Real())>;
+  {
+    Law::whole_response(face, whole, opening, rotation, slip)
+    } -> std::same_as<FaceResultants<dim, Real>>;
+  {
+    Law::whole_state(face, element, rotation, slip)
+    } -> std::same_as<typename Law::template State<Real>>;
+};
+
 template <typename Law, int dim>
 concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && UpdatesFaces<Law, dim, double> &&
   UpdatesFaces<Law, dim, simd::Pack> && std::constructible_from<Law, const typename Law::Parameters&> &&

@@ -54,33 +54,45 @@ struct JointTables
   PackedRows strength;      ///< of the segments' bonds
   PackedRows more_state;    ///< what else the law has its segments remember; in the order of segment_state
 
-  static constexpr std::size_t first_normal = 5;
-  static constexpr std::size_t first_tangent = first_normal + dim;
-  static constexpr std::size_t first_rotation = first_tangent + n_tangents + 1;
-  static constexpr std::size_t first_slip = first_rotation + n_rotations<dim>;
-  static constexpr std::size_t n_state_rows = first_slip + n_shear + 1;
+  /// Numbers of the rows of `state`.
+  struct Row
+  {
+    static constexpr std::size_t normal_stiffness = 0;
+    static constexpr std::size_t shear_stiffness = 1;
+    static constexpr std::size_t half_length = 2;
+    static constexpr std::size_t half_radius_difference = 3;
+    static constexpr std::size_t rest_distance = 4;
+    static constexpr std::size_t normal = 5;
+    static constexpr std::size_t tangent = normal + dim;
+    static constexpr std::size_t opening = tangent + n_tangents;
+    static constexpr std::size_t rotation = opening + 1;
+    static constexpr std::size_t slip = rotation + n_rotations<dim>;
+    static constexpr std::size_t slip_energy = slip + n_shear;
+    static constexpr std::size_t count = slip_energy + 1;
+  };
 
-  PackedRow normal_stiffness{state, 0};       ///< k_n [Pa/m]
-  PackedRow shear_stiffness{state, 1};        ///< k_s [Pa/m]
-  PackedRow half_length{state, 2};            ///< R̄ [m]
-  PackedRow half_radius_difference{state, 3}; ///< ½(R1 - R2) [m]
-  PackedRow rest_distance{state, 4};          ///< centre distance at which the gap is zero [m]
+  PackedRow normal_stiffness{state, Row::normal_stiffness};             ///< k_n [Pa/m]
+  PackedRow shear_stiffness{state, Row::shear_stiffness};               ///< k_s [Pa/m]
+  PackedRow half_length{state, Row::half_length};                       ///< R̄ [m]
+  PackedRow half_radius_difference{state, Row::half_radius_difference}; ///< ½(R1 - R2) [m]
+  PackedRow rest_distance{state, Row::rest_distance}; ///< centre distance at which the gap is zero [m]
 
   /// From grain 1 to grain 2.
-  PackedComponents<dim> normal = packed_components<dim>(state, first_normal);
+  PackedComponents<dim> normal = packed_components<dim>(state, Row::normal);
   /// t_1 in space, carried with the contact plane; t_2 = n × t_1.
-  PackedComponents<n_tangents> tangent = packed_components<n_tangents>(state, first_tangent);
-  PackedRow opening{state, first_rotation - 1}; ///< g_0 + U_n [m]
+  PackedComponents<n_tangents> tangent = packed_components<n_tangents>(state, Row::tangent);
+  PackedRow opening{state, Row::opening}; ///< g_0 + U_n [m]
   /// θ of grain 2 against grain 1, about k, or n, t_1 and t_2 [rad].
-  PackedComponents<n_rotations<dim>> rotation = packed_components<n_rotations<dim>>(state, first_rotation);
+  PackedComponents<n_rotations<dim>> rotation = packed_components<n_rotations<dim>>(state, Row::rotation);
   /// Relative shear since installation [m].
-  PackedComponents<n_shear> slip = packed_components<n_shear>(state, first_slip);
-  PackedRow slip_energy{state, n_state_rows - 1}; ///< dissipated by friction since installation [J]
+  PackedComponents<n_shear> slip = packed_components<n_shear>(state, Row::slip);
+  PackedRow slip_energy{state, Row::slip_energy}; ///< dissipated by friction since installation [J]
 
   static constexpr std::size_t n_segment_rows = n_shear + 1;
   static constexpr std::size_t n_strength_rows = 2;
 
-  /// τ of each segment [Pa].
+  /// τ of each segment [Pa]. Of a face whose segments are all bonded it is left as it was: its law may know it from the
+  /// motion of the face (AnswersAsOne in dem/laws/joint_law.h).
   PackedComponents<n_shear> shear_stress = packed_components<n_shear>(segment_state, 0, n_segment_rows);
   PackedRow bonded{segment_state, n_shear, n_segment_rows}; ///< 1 bonded, 0 not (a double: it is a mask in the sweep)
   PackedRow tensile_strength{strength, 0, n_strength_rows}; ///< σ_b of each segment [Pa]
@@ -88,13 +100,13 @@ struct JointTables
 
   static constexpr std::size_t n_answer_rows = dim + 2 * n_rotations<dim>;
 
-  static constexpr std::size_t first_force = n_rotations<dim>;
-  static constexpr std::size_t first_couple_2 = first_force + dim;
+  static constexpr std::size_t first_couple_1 = dim;
+  static constexpr std::size_t first_couple_2 = first_couple_1 + n_rotations<dim>;
 
-  /// On grain 1 [N m].
-  PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(answer, 0);
   /// On grain 2 [N].
-  PackedComponents<dim, 1> force = packed_components<dim>(answer, first_force);
+  PackedComponents<dim, 1> force = packed_components<dim>(answer, 0);
+  /// On grain 1 [N m].
+  PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(answer, first_couple_1);
   /// On grain 2 [N m].
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(answer, first_couple_2);
 };
@@ -111,6 +123,7 @@ struct Joints : JointTables<dim>
   FaceDivision<dim> division{};           ///< set by divide()
   unsigned int n_segments = 0;            ///< of every face
   std::vector<FaceElement<dim>> elements; ///< the same of every face; [n_segments]
+  WholeFace<dim> whole{};                 ///< the same of every face; set by divide()
   double thickness = 1.0;                 ///< of the plane [m]
   double friction = 0.0;                  ///< μ of broken segments
   double friction_slope = 0.0;            ///< tan φ_b
@@ -128,6 +141,7 @@ struct Joints : JointTables<dim>
     n_more = numbers_of_the_law;
     elements = face_elements<dim>(into);
     n_segments = unsigned(elements.size());
+    whole = whole_face<dim>(elements);
   }
 
   /// Of each segment, number k of those of the law.
@@ -159,6 +173,14 @@ struct Joints : JointTables<dim>
       if (this->bonded[segment(i, joint)] > 0.0)
         return true;
     return false;
+  }
+
+  bool holds_wholly(const std::size_t joint) const
+  {
+    for (unsigned int i = 0; i < n_segments; ++i)
+      if (!(this->bonded[segment(i, joint)] > 0.0))
+        return false;
+    return true;
   }
 
   /// What each joint is and remembers, but for its grains, its number and its answer; for whoever stores or permutes.
@@ -212,7 +234,7 @@ struct Joints : JointTables<dim>
     grain_1.resize(n);
     grain_2.resize(n);
     number.resize(n);
-    this->state.resize(this->n_state_rows, n);
+    this->state.resize(JointTables<dim>::Row::count, n);
     this->answer.resize(this->n_answer_rows, n);
     this->segment_state.resize(n_segments * this->n_segment_rows, n);
     this->strength.resize(n_segments * this->n_strength_rows, n);

@@ -202,7 +202,8 @@ TYPED_TEST(JointLawBoundary, AForeignLawIsInstalledSweptAndForgottenByItsOwnRule
       grains.position[0][j + 1] = x += grains.radius[j] + grains.radius[j + 1] + share * opening(j);
   };
   open(1.0);
-  const auto breaks = sweep_joints(law, joints, grains, 1.0);
+  SweepMemory<dim> memory(joints);
+  const auto breaks = sweep_joints(law, joints, grains, 1.0, memory);
 
   std::size_t n_broken = 0;
   for (std::size_t j = 0; j < n; ++j)
@@ -230,7 +231,7 @@ TYPED_TEST(JointLawBoundary, AForeignLawIsInstalledSweptAndForgottenByItsOwnRule
 
   // Let go by half: the number of the law's own stays, here and in a copy of which joints have gone.
   open(0.5);
-  EXPECT_TRUE(sweep_joints(law, joints, grains, 1.0).empty());
+  EXPECT_TRUE(sweep_joints(law, joints, grains, 1.0, memory).empty());
   Joints<dim> kept = joints;
   std::vector<std::size_t> odd;
   for (std::size_t j = 1; j < n; j += 2)
@@ -261,7 +262,8 @@ TYPED_TEST(JointLawBoundary, SlipBreaksItByTheCriterionOfAllLaws)
       const double angle = share * wanted.bond_cohesion / joints.shear_stiffness[0] / distance;
       auto& spin = specimen.grains.spin.back(); // about the axis across the row that makes it slip in the plane
       std::fill(spin.begin(), spin.end(), angle);
-      const auto breaks = sweep_joints(law, joints, specimen.grains, 1.0);
+      SweepMemory<dim> memory(joints);
+      const auto breaks = sweep_joints(law, joints, specimen.grains, 1.0, memory);
       // k_s ∝ 1/(R1 + R2) and slips ∝ R1 + R2: the same stress everywhere.
       EXPECT_EQ(breaks.size(), share > 1.0 ? joints.size() : 0u);
       for (const Break& event : breaks)

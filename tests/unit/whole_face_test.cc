@@ -1,0 +1,149 @@
+// A face whose segments are all bonded answers as one spring: the same forces, breaks and energies as segment by segment.
+
+#include "dem/dynamics/joint_sweep_of_law.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace feldspar
+{
+namespace
+{
+/// The flat joint without its answer as one: segment by segment from the first step on.
+template <int dim>
+struct SegmentBySegment : FlatJoint<dim>
+{
+  using FlatJoint<dim>::FlatJoint;
+  void whole_response() = delete;
+};
+static_assert(AnswersAsOne<FlatJoint<2>, 2, simd::Pack> && AnswersAsOne<FlatJoint<3>, 3, double>);
+static_assert(!AnswersAsOne<SegmentBySegment<2>, 2, simd::Pack> && !AnswersAsOne<SegmentBySegment<3>, 3, double>);
+
+template <int dim>
+Specimen<dim> specimen_of()
+{
+  if constexpr (dim == 2)
+    return small_specimen(1, 6.0);
+  else
+    return small_cylinder(1, 6.0);
+}
+
+/// Sets the grains where smooth paths lead that stretch, shear, bend and twist the specimen until much of it is broken.
+template <int dim>
+void drive(Grains<dim>& grains, const Components<dim>& start, const int step, const double dt)
+{
+  const double t = step * dt;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    {
+      for (int c = 0; c < dim; ++c)
+        grains.position[c][i] = start[c][i] + 5e-7 * t * std::sin((2.0 + c) * t + 1.3 * double(i));
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        grains.spin[c][i] = 1e-3 * t * std::cos((4.0 - c) * t + 0.3 * double(i));
+    }
+}
+
+template <typename Dimension>
+class WholeFace : public testing::Test
+{
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(WholeFace, Dimensions, );
+
+TYPED_TEST(WholeFace, AnswersAndBreaksAsItsSegmentsDo)
+{
+  constexpr int dim = TypeParam::value;
+  Specimen<dim> specimen = specimen_of<dim>();
+  auto& grains = specimen.grains;
+  Joints<dim>& as_one = specimen.joints;
+  Joints<dim> by_segments = as_one;
+  SweepMemory<dim> memory(as_one), memory_by_segments(by_segments);
+  const SegmentBySegment<dim> segment_by_segment;
+  const FlatJoint<dim> law;
+  const Components<dim> start = grains.position;
+  const double dt = 0.02;
+  std::size_t n_broken = 0, n_whole = 0, n_steps_with_breaks = 0;
+  for (int step = 1; step <= 200; ++step)
+    {
+      drive<dim>(grains, start, step, dt);
+      const auto breaks = sweep_joints<dim>(law, as_one, grains, dt, memory);
+      const auto expected = sweep_joints<dim>(segment_by_segment, by_segments, grains, dt, memory_by_segments);
+      ASSERT_EQ(breaks.size(), expected.size()) << "step " << step;
+      for (std::size_t k = 0; k < breaks.size(); ++k)
+        {
+          EXPECT_EQ(breaks[k].joint, expected[k].joint);
+          EXPECT_EQ(breaks[k].segment, expected[k].segment);
+          EXPECT_EQ(breaks[k].in_tension, expected[k].in_tension);
+          EXPECT_NEAR(breaks[k].released_energy, expected[k].released_energy, 1e-9 * expected[k].released_energy);
+        }
+      n_broken += breaks.size();
+      n_steps_with_breaks += !breaks.empty();
+    }
+  // Sums of 200 steps in another order: some 1e-13 of the largest force, moment and stress.
+  double largest_force = 0.0, largest_couple = 0.0;
+  for (std::size_t j = 0; j < as_one.size(); ++j)
+    {
+      largest_force = std::max(largest_force, at<dim>(by_segments.force, j).norm());
+      largest_couple = std::max(largest_couple, at<n_rotations<dim>>(by_segments.couple_1, j).norm());
+    }
+  for (std::size_t j = 0; j < as_one.size(); ++j)
+    {
+      n_whole += as_one.holds_wholly(j);
+      EXPECT_LT((at<dim>(as_one.force, j) - at<dim>(by_segments.force, j)).norm(), 1e-11 * largest_force);
+      for (const auto couple : {&JointTables<dim>::couple_1, &JointTables<dim>::couple_2})
+        EXPECT_LT((at<n_rotations<dim>>(as_one.*couple, j) - at<n_rotations<dim>>(by_segments.*couple, j)).norm(),
+                  1e-11 * largest_couple);
+      const double energy = joint_energy<dim>(segment_by_segment, by_segments, j);
+      EXPECT_NEAR(joint_energy(as_one, j), energy, 1e-10 * energy + 1e-15);
+      EXPECT_NEAR(as_one.slip_energy[j], by_segments.slip_energy[j], 1e-9 * by_segments.slip_energy[j] + 1e-15);
+      for (unsigned int i = 0; i < as_one.n_segments; ++i)
+        for (int c = 0; c < dim - 1; ++c)
+          EXPECT_NEAR(shear_stress(as_one, i, j)[c], by_segments.shear_stress[c][by_segments.segment(i, j)],
+                      1e-11 * 1e9);
+    }
+  // Faces that broke, faces that broke in part and faces that hold were all among them, at many steps.
+  EXPECT_GT(n_whole, as_one.size() / 20);
+  EXPECT_LT(n_whole, as_one.size() - as_one.size() / 20);
+  EXPECT_GT(n_broken, as_one.size());
+  EXPECT_GT(n_steps_with_breaks, 50u);
+}
+
+TYPED_TEST(WholeFace, HasTheSameBitsWhateverItsNeighboursInAPack)
+{
+  // Without the first joints all others stand elsewhere in their packs, and some are updated alone.
+  constexpr int dim = TypeParam::value;
+  Specimen<dim> specimen = specimen_of<dim>();
+  auto& grains = specimen.grains;
+  Joints<dim>& all = specimen.joints;
+  Joints<dim> others = all;
+  constexpr std::size_t n_left_out = 3;
+  std::vector<std::size_t> kept;
+  for (std::size_t j = n_left_out; j < all.size(); ++j)
+    kept.push_back(j);
+  others.keep(kept);
+  SweepMemory<dim> memory(all), memory_of_others(others);
+  const Components<dim> start = grains.position;
+  const double dt = 0.02;
+  for (int step = 1; step <= 200; ++step)
+    {
+      drive<dim>(grains, start, step, dt);
+      sweep_joints(all, grains, dt, memory);
+      sweep_joints(others, grains, dt, memory_of_others);
+    }
+  std::size_t n_whole = 0;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    {
+      n_whole += others.holds_wholly(k);
+      for (std::size_t row = 0; row < all.answer.n_rows(); ++row)
+        EXPECT_EQ(*others.answer.at(row, k), *all.answer.at(row, kept[k]));
+      for (std::size_t row = 0; row < all.state.n_rows(); ++row)
+        EXPECT_EQ(*others.state.at(row, k), *all.state.at(row, kept[k]));
+    }
+  EXPECT_GT(n_whole, kept.size() / 20);
+  EXPECT_LT(n_whole, kept.size() - kept.size() / 20);
+}
+} // namespace
+} // namespace feldspar
