@@ -7,8 +7,10 @@
 #include "feldspar_version.h"
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -177,14 +179,35 @@ void say(std::string text)
   constexpr std::size_t most_characters = 2000; // whatever it repeats
   std::fputs(fmt::format("feldspar: {}\n", excerpt(text, most_characters)).c_str(), stderr);
 }
+
+/// Where a standard stream is closed, the first file to be opened would take its number, and what is printed would go
+/// into it.
+void open_standard_streams()
+{
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1)
+      open("/dev/null", O_RDWR); // the lowest number that is free
+}
+
+/// The exit code of a command whose words may not have got through.
+int after_output(const int code)
+{
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+    return code;
+  say("standard output: cannot be written");
+  return code == 0 ? exit_code::output_error : code;
+}
 } // namespace
 
 int main(const int argc, const char* const* argv)
 {
-  std::signal(SIGXFSZ, SIG_IGN); // a limit on the size of files comes as an error of the write, which can be said
+  open_standard_streams();
+  // A limit on the size of files and a reader that has gone come as errors of the write, which can be said.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try
     {
-      return CommandLine().run(argc, argv);
+      return after_output(CommandLine().run(argc, argv));
     }
   catch (const Interrupted&)
     {

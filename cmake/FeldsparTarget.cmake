@@ -27,6 +27,9 @@ if(FELDSPAR_SANITIZE)
   # instantiate the linker keeps one, and Ceres's take blocks from malloc as they are.
   target_compile_definitions(feldspar_settings INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+if(FELDSPAR_FUZZ)
+  target_compile_options(feldspar_settings INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # The settings are for building here, not part of what is installed.
 function(feldspar_add_library name)

@@ -2,7 +2,9 @@
 
 #include "base/input_error.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -85,5 +87,22 @@ void OutputFolder::remove_empty() const
 {
   for (auto last = made.rbegin(); last != made.rend(); ++last)
     rmdir(last->c_str()); // which keeps a folder with something in it
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+  : descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+{
+  if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    {
+      close(descriptor);
+      throw InputError(
+        fmt::format("{}: another feldspar works in this folder; wait for its end, or choose another", folder.string()));
+    }
+}
+
+FolderLock::~FolderLock()
+{
+  if (descriptor >= 0)
+    close(descriptor);
 }
 } // namespace feldspar

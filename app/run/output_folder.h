@@ -30,4 +30,18 @@ private:
   std::filesystem::path folder;
   std::vector<std::filesystem::path> made;
 };
+
+/// Keeps a folder to one run as long as it lives. The lock is of the process: it goes with it, however it ends.
+class FolderLock
+{
+public:
+  /// Throws InputError where another run has the folder. A file system without locks grants every one.
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+private:
+  int descriptor;
+};
 } // namespace feldspar

@@ -78,20 +78,23 @@ void Progress::draw(const std::vector<std::string>& lines, const bool last)
 {
   if (is_quiet)
     return;
+  std::string text;
   if (!on_terminal)
-    fmt::print("{}\n", fmt::join(lines, "\n"));
+    text = fmt::format("{}\n", fmt::join(lines, "\n"));
   else
     {
       // Back to the first line of the last drawing, and clear from there down.
       if (n_lines_above > 0)
-        fmt::print("\x1b[{}A", n_lines_above);
-      fmt::print("\r\x1b[J");
+        text += fmt::format("\x1b[{}A", n_lines_above);
+      text += "\r\x1b[J";
       for (std::size_t k = 0; k < lines.size(); ++k)
-        fmt::print("{}{}", k > 0 ? "\n" : "", lines[k].substr(0, terminal_width() - 1));
+        text += fmt::format("{}{}", k > 0 ? "\n" : "", lines[k].substr(0, terminal_width() - 1));
       if (last)
-        fmt::print("\n");
+        text += "\n";
       n_lines_above = last ? 0 : lines.size() - 1;
     }
+  // Who reads along and goes away, or a full disk behind standard output, does not end the work.
+  std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
 }
 } // namespace feldspar

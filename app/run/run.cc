@@ -61,6 +61,8 @@ int go_on(const RunCommand& command, const Run& run)
 
 int resume(const RunCommand& command, const CommonOptions& options)
 {
+  std::optional<FolderLock> lock;
+  command.processes.first([&] { lock.emplace(*options.resume); });
   const RunRecord record = read_run_record(command.name, *options.resume);
   if (record.complete)
     {
@@ -79,8 +81,10 @@ int begin(const RunCommand& command, const CommonOptions& options)
   command.check(input, options.input);
   // The first process makes the folder and begins the record of the run; the others learn its name.
   std::optional<OutputFolder> made;
+  std::optional<FolderLock> lock;
   processes.first([&] {
     made.emplace(options.output, options.input, options.force);
+    lock.emplace(made->path());
     remove_run(made->path()); // with --force: what an earlier run left would be taken for this one's
     try
       {

@@ -1,6 +1,7 @@
 #include "dem/genesis/packing_file.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "dem/specimen/neighbours.h"
 
 #include <fmt/format.h>
@@ -32,8 +33,8 @@ std::vector<double> numbers(const std::string& line, const std::size_t n, const 
       double value = 0.0;
       const auto [rest, error] = std::from_chars(at, end, value);
       if (error != std::errc() || !std::isfinite(value))
-        throw InputError(fmt::format("{}: \"{}\" holds something that is not a number; a line is {}", where, line,
-                                     n == 3 ? "x y radius" : "x y z radius"));
+        throw InputError(fmt::format("{}: {} holds something that is not a number; a line is {}", where,
+                                     in_quotes(line), n == 3 ? "x y radius" : "x y z radius"));
       values.push_back(value);
       at = rest;
     }

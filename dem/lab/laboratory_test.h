@@ -97,7 +97,7 @@ private:
   TestRecord record;
   std::vector<Snapshot> snapshots;
   EnergyWatch energy_watch;
-  double wall_time = 0.0; ///< [s]
+  double wall_time = 0.0;    ///< [s]
   std::vector<bool> jointed; ///< each grain, before anything broke
   StrainGauge<dim> gauge;
   bool seated = false;

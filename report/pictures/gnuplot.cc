@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
+#include <atomic>
+#include <csignal>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -18,23 +22,51 @@ namespace feldspar
 {
 namespace
 {
-/// Runs a program in a folder; false if there is no such program or it failed.
-bool run(std::vector<std::string> command, const std::filesystem::path& folder)
+enum class End
+{
+  done,
+  failed, ///< or there is no such program
+  hung
+};
+
+/// Runs a program in a folder, with a process group of its own so that what it starts ends with it.
+End run(std::vector<std::string> command, const std::filesystem::path& folder, const std::chrono::milliseconds longest)
 {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
   std::vector<char*> arguments;
   for (std::string& word : command)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const bool started = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ) == 0;
+  const bool started = posix_spawnp(&child, arguments.front(), &actions, &attributes, arguments.data(), environ) == 0;
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  if (!started)
+    return End::failed;
+
+  const auto deadline = std::chrono::steady_clock::now() + longest;
+  constexpr std::chrono::milliseconds between_looks(5);
   int status = -1;
-  return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0)
+    {
+      if (std::chrono::steady_clock::now() > deadline)
+        {
+          kill(-child, SIGKILL);
+          waitpid(child, &status, 0);
+          return End::hung;
+        }
+      std::this_thread::sleep_for(between_looks);
+    }
+  return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::done : End::failed;
 }
 
 /// File endings with the terminals that make them. 1 px is 1/40 cm on paper: 640 px are a page's width.
@@ -66,18 +98,33 @@ std::string whole_script(const Picture& picture)
   return script;
 }
 
-std::string draw_one(const Picture& picture, const std::filesystem::path& folder)
+/// Whether each of the programs that draw has hung.
+using Hung = std::array<std::atomic<bool>, 2>;
+
+std::string draw_one(const Picture& picture, const std::filesystem::path& folder,
+                     const std::chrono::milliseconds longest, Hung& hung)
 {
   if (!is_plain_name(picture.name))
     throw std::logic_error("a picture is named " + in_quotes(picture.name));
   const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
   const std::string script = picture.name + (by_vtk ? ".py" : ".gp");
   write_whole_file(folder / script, whole_script(picture));
+  auto& has_hung = hung[std::size_t(picture.drawn_by)];
+  if (has_hung)
+    return fmt::format("{} was not drawn: {} did not end with another picture", picture.name,
+                       by_vtk ? "VTK" : "gnuplot");
   // Debian's Python: another that comes first in the path lacks Debian's modules. Isolated (-I), for it would rather
   // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
-  const bool done = by_vtk ? run({"/usr/bin/python3", "-I", script}, folder) : run({"gnuplot", "-d", script}, folder);
+  const End end =
+    by_vtk ? run({"/usr/bin/python3", "-I", script}, folder, longest) : run({"gnuplot", "-d", script}, folder, longest);
+  if (end == End::hung)
+    {
+      has_hung = true;
+      return fmt::format("{} was not drawn: {} did not end within {} s", picture.name, by_vtk ? "VTK" : "gnuplot",
+                         std::chrono::duration<double>(longest).count());
+    }
   for (const auto& [ending, terminal] : outputs(picture))
-    if (!done || !std::filesystem::exists(folder / (picture.name + ending)))
+    if (end == End::failed || !std::filesystem::exists(folder / (picture.name + ending)))
       return fmt::format("{} was not drawn: {} installed?", picture.name + ending,
                          by_vtk ? "are VTK and Xvfb (packages python3-vtk9 and xvfb)"
                                 : "is gnuplot (package gnuplot-nox)");
@@ -85,11 +132,13 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
 }
 } // namespace
 
-std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder)
+std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
+                              const std::chrono::milliseconds longest)
 {
   std::vector<std::string> problems(pictures.size());
+  Hung hung{};
   tbb::parallel_for(std::size_t(0), pictures.size(),
-                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder); });
+                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder, longest, hung); });
   return problems;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -31,9 +32,10 @@ struct Picture
 };
 
 /// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
-/// it drawn otherwise: run there, it draws into the folder it is run in. Returns for each why it could not be drawn, or
-/// nothing.
-std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder);
+/// it drawn otherwise: run there, it draws into the folder it is run in. A program that takes longer than `longest` for a
+/// picture is ended, and draws no other. Returns for each why it could not be drawn, or nothing.
+std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
+                              std::chrono::milliseconds longest = std::chrono::minutes(5));
 
 /// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not
 /// written in our sources enters a script through this: gnuplot has no switch that forbids a script to start programs

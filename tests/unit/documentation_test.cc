@@ -135,3 +135,25 @@ TEST(Documentation, EveryRoomStandsOnTheCodeMap)
           EXPECT_NE(map.find("`" + room + "`"), std::string::npos) << "docs/code-map.md has no line for " << room;
         }
 }
+
+// `Suite.Test` in docs/reliability.md is a test, and `scripts/...` a script.
+TEST(Documentation, TestsThatPromisesStandOnExist)
+{
+  static const std::regex test(R"re(\b(?:TEST|TEST_F|TEST_P)\(\s*(\w+\s*,\s*\w+)\s*\))re");
+  std::set<std::string> tests;
+  for (const char* folder : {"tests/unit", "tests/app", "tests/verification", "tests/fuzz"})
+    for (const auto& entry : fs::directory_iterator(root / folder))
+      if (entry.path().extension() == ".cc")
+        for (std::string name : matches(content(entry.path()), test))
+          {
+            name.erase(std::remove_if(name.begin(), name.end(), [](const char c) { return std::isspace(c) != 0; }),
+                       name.end());
+            name[name.find(',')] = '.';
+            tests.insert(name);
+          }
+  static const std::regex named(R"(`([A-Z]\w*\.[A-Z]\w*)`)");
+  const auto all_named = matches(content(root / "docs/reliability.md"), named);
+  EXPECT_GT(all_named.size(), 30u);
+  for (const std::string& name : all_named)
+    EXPECT_TRUE(tests.contains(name)) << "docs/reliability.md: there is no test " << name;
+}

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -165,6 +166,33 @@ TEST(Draw, WorksInAFolderOfAnyNameAndTakesPlainNamesAlone)
   EXPECT_THROW(draw({picture("../line", "plot x\n")}, odd), std::logic_error);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     EXPECT_NE(entry.path().filename(), "marker");
+}
+TEST(Gnuplot, ThatHangsIsEndedAndNotAskedAgain)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "bin");
+  // What it starts would outlive it: it must go too.
+  fs::permissions(folder.write("bin/gnuplot", "#!/bin/sh\nsleep 600 &\necho $! > sleeper\nwait\n"),
+                  fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((folder.path() / "bin").string() + ":" + path).c_str(), 1);
+  const std::vector<Picture> pictures(10, picture("a", "plot x\n"));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto problems = draw(pictures, folder.path(), std::chrono::milliseconds(300));
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  for (const std::string& problem : problems)
+    EXPECT_EQ(problem.find("a was not drawn: gnuplot did not end "), 0u) << problem;
+  std::ifstream file(folder.path() / "sleeper");
+  int sleeper = 0;
+  ASSERT_TRUE(file >> sleeper);
+  // Gone, or dead and not yet fetched by who inherited it.
+  std::ifstream status("/proc/" + std::to_string(sleeper) + "/stat");
+  std::string number;
+  std::string name;
+  std::string state = "Z";
+  status >> number >> name >> state;
+  EXPECT_EQ(state, "Z");
 }
 } // namespace
 } // namespace feldspar::tests

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Readers of files from outside under libFuzzer and the sanitizers (clang), one after the other on one core.
+#
+#   scripts/fuzz.sh                      an hour over all readers
+#   scripts/fuzz.sh SECONDS [READER...]  so long in all, over these readers
+#
+# Inputs that are new to the code are kept in build/fuzz/corpus/READER, from where a later call goes on. What a reader
+# takes badly is left in build/fuzz/found; copied to tests/fuzz/corpus/READER it is read again by every build
+# (fuzz_replay_tests).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+seconds=${1:-3600}
+shift || true
+readers=("$@")
+if ((${#readers[@]} == 0)); then
+  for folder in tests/fuzz/corpus/*/; do
+    readers+=("$(basename "$folder")")
+  done
+fi
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --parallel "$(nproc)"
+
+memory=/dev/shm # files that are read once
+[[ -w $memory ]] || memory=${TMPDIR:-/tmp}
+mkdir -p build/fuzz/found
+# HDF5 and MPI keep what they have made until the end.
+export TMPDIR=$memory ASAN_OPTIONS=detect_leaks=0
+bad=0
+for reader in "${readers[@]}"; do
+  mkdir -p "build/fuzz/corpus/$reader"
+  log=build/fuzz/$reader.log
+  verdict="nothing found"
+  FELDSPAR_FUZZED_READER=$reader build/fuzz/tests/fuzz/fuzz_readers -max_total_time=$((seconds / ${#readers[@]})) \
+    -timeout=10 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
+    "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
+    verdict="FOUND: see $log and build/fuzz/found"
+    bad=1
+  }
+  inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  printf '%-12s %9s inputs  %s\n' "$reader" "${inputs:-?}" "$verdict"
+done
+exit $bad

@@ -1,0 +1,259 @@
+#include "tests/fuzz/readers.h"
+
+#include "app/input/input.h"
+#include "app/input/laboratory_curve.h"
+#include "app/input/strain_path.h"
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "base/quoted.h"
+#include "dem/genesis/packing_file.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_file.h"
+#include "fem/mesh/gmsh_check.h"
+#include "results/folder/reference.h"
+#include "results/folder/result_folder.h"
+#include "results/sample_fields.h"
+#include "tests/unit/small_specimen.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_characters_of_message = 2000; // main.cc cuts there
+
+fs::path write(const fs::path& file, const std::string_view content)
+{
+  std::ofstream(file, std::ios::binary) << content;
+  return file;
+}
+
+std::string objection_to(const std::string& words)
+{
+  if (words.empty())
+    return "no words";
+  if (printable(words) != words)
+    return "not one printable line";
+  return words.size() > most_characters_of_message ? "too long" : "";
+}
+
+void read_any_input(const fs::path& file)
+{
+  const Input input = read_input(file);
+  expected_grains(input.specimen);
+  variants(input);
+}
+
+/// By both dimensions; what one refuses may be right for the other.
+template <typename Read>
+void read_in_plane_or_space(const Read& read_as)
+{
+  try
+    {
+      read_as(std::integral_constant<int, 2>());
+    }
+  catch (const InputError&)
+    {
+      read_as(std::integral_constant<int, 3>());
+    }
+}
+
+/// A result folder as one text: each file begins after a line `@@ NAME`.
+void read_results(const std::string& content, const fs::path& folder)
+{
+  const std::vector<std::string> names{"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "fields/a.xdmf"};
+  const fs::path results = folder / "results";
+  fs::remove_all(results);
+  for (const char* part : {"curves", "grains", "fields"})
+    fs::create_directories(results / part);
+  for (const std::string& name : names)
+    {
+      const std::string mark = "@@ " + name + "\n";
+      const std::size_t at = content.find(mark);
+      if (at == std::string::npos)
+        continue;
+      const std::size_t begin = at + mark.size();
+      const std::size_t end = std::min(content.find("@@ ", begin), content.size());
+      write(results / name, std::string_view(content).substr(begin, end - begin));
+    }
+  for (const Series& series : read_result_folder(results, test_kinds()))
+    for (const std::string& problem : series.problems)
+      if (const std::string objection = objection_to(problem); !objection.empty())
+        throw std::logic_error("a problem of a result folder is " + objection + ": " + problem);
+}
+
+/// A content as numbers, one after the other; zeros when it is used up.
+class Numbers
+{
+public:
+  explicit Numbers(const std::string& of)
+    : content(of)
+  {
+  }
+
+  bool is_used_up() const { return at >= content.size(); }
+
+  template <typename Number>
+  Number next()
+  {
+    Number number{};
+    for (std::size_t k = 0; k < sizeof(Number); ++k, ++at)
+      reinterpret_cast<unsigned char*>(&number)[k] = at < content.size() ? static_cast<unsigned char>(content[at]) : 0;
+    return number;
+  }
+
+private:
+  const std::string& content;
+  std::size_t at = 0;
+};
+
+/// A specimen that is whole as a file but wrong in some of its numbers, which the content names: field, place, value. The
+/// seal, which any change of the bytes would break, is right.
+void read_changed_specimen(const std::string& content, const fs::path& folder)
+{
+  static const Specimen<2> whole = small_specimen();
+  Specimen<2> changed = whole;
+  Numbers numbers(content);
+  for (int n = 0; n < 16 && !numbers.is_used_up(); ++n)
+    {
+      const auto field = numbers.next<std::uint8_t>();
+      const auto place = numbers.next<std::uint16_t>();
+      const auto value = numbers.next<double>();
+      int k = 0;
+      const auto change = [&](auto& of) {
+        if (k++ == field)
+          of = static_cast<std::remove_reference_t<decltype(of)>>(value);
+      };
+      const auto change_count = [&](auto& of) {
+        if (k++ == field)
+          of = static_cast<std::remove_reference_t<decltype(of)>>(std::bit_cast<std::uint64_t>(value));
+      };
+      const auto change_one = [&](auto& values) {
+        if (k++ == field)
+          values[place % values.size()] = value;
+      };
+      const auto change_one_count = [&](auto& values) {
+        if (k++ == field && !values.empty())
+          values[place % values.size()] = std::uint32_t(std::bit_cast<std::uint64_t>(value));
+      };
+      change(changed.size[0]);
+      change(changed.size[1]);
+      change(changed.thickness);
+      change(changed.bulk_density);
+      change(changed.particle_contact.modulus);
+      change(changed.particle_contact.stiffness_ratio);
+      change(changed.particle_contact.friction);
+      change(changed.report.mean_radius);
+      change_count(changed.report.n_grains);
+      change_count(changed.report.n_joints);
+      for (int c = 0; c < 2; ++c)
+        change_one(changed.grains.position[c]);
+      change_one(changed.grains.radius);
+      change_one(changed.grains.mass);
+      change_one(changed.grains.moment_of_inertia);
+      change_one_count(changed.joints.grain_1);
+      change_one_count(changed.joints.grain_2);
+      change_one_count(changed.joints.number);
+      change_one_count(changed.joints.division);
+      const auto visit = [&](const std::string&, auto& values) { change_one(values); };
+      changed.joints.visit_per_joint(visit);
+      changed.joints.visit_per_segment(visit);
+    }
+  const fs::path file = folder / "specimen.h5";
+  write_specimen(changed, file);
+  // Whoever is let in must be fit to be tested.
+  Dynamics<2> dynamics(read_specimen<2>(file), {}, ZeroForce::as_placed);
+  for (int n = 0; n < 3; ++n)
+    dynamics.step();
+}
+
+/// A checkpoint of which the content changes bytes: place, what to add to it. Every change must be seen.
+void read_changed_checkpoint(const std::string& content, const fs::path& folder)
+{
+  static const Specimen<2> specimen = small_specimen();
+  static LabTest<2> test({uniaxial_compression}, specimen, {}, {});
+  const fs::path file = folder / "checkpoint.h5";
+  const auto written = [&] {
+    LabTest<2> begun({uniaxial_compression}, specimen, {}, {});
+    begun.advance();
+    begun.write_checkpoint(file, "this one");
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  static const std::string whole = written();
+  std::string changed = whole;
+  Numbers numbers(content);
+  for (int n = 0; n < 64 && !numbers.is_used_up(); ++n)
+    {
+      char& byte = changed[numbers.next<std::uint32_t>() % changed.size()];
+      byte = char(byte + numbers.next<char>());
+    }
+  test.read_checkpoint(write(file, changed), "this one");
+  if (changed != whole)
+    throw std::logic_error("damage to a checkpoint was not seen");
+}
+} // namespace
+
+const std::vector<FuzzedReader>& fuzzed_readers()
+{
+  using Content = const std::string&;
+  using Folder = const fs::path&;
+  static const std::vector<FuzzedReader> readers{
+    {"prm", [](Content content, Folder folder) { read_any_input(write(folder / "input.prm", content)); }},
+    {"json", [](Content content, Folder folder) { read_any_input(write(folder / "input.json", content)); }},
+    {"reference", [](Content content, Folder folder) { read_reference(write(folder / "r.json", content)); }},
+    {"table", [](Content content, Folder folder) { read_csv(write(folder / "t.csv", content), "normal_m,shear_m"); }},
+    {"curve", [](Content content, Folder folder) { read_laboratory_curve(write(folder / "c.csv", content)); }},
+    {"path",
+     [](Content content, Folder folder) {
+       StrainPathParameters path;
+       path.path_file = write(folder / "p.csv", content).string();
+       read_in_plane_or_space([&](const auto dim) { path_legs<dim()>(path); });
+     }},
+    {"packing",
+     [](Content content, Folder folder) {
+       SpecimenParameters wanted;
+       wanted.packing_file = write(folder / "packing.txt", content).string();
+       read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
+     }},
+    {"mesh",
+     [](Content content, Folder) {
+       try
+         {
+           fem::check_gmsh(content, 2);
+         }
+       catch (const InputError&)
+         {
+           fem::check_gmsh(content, 3);
+         }
+     }},
+    {"results", read_results},
+    {"specimen", read_changed_specimen},
+    {"checkpoint", read_changed_checkpoint}};
+  return readers;
+}
+
+Reading read(const FuzzedReader& reader, const std::string& content, const fs::path& folder)
+{
+  try
+    {
+      reader.read(content, folder);
+    }
+  catch (const InputError& error)
+    {
+      return {false, error.what(), objection_to(error.what())};
+    }
+  return {true, "", ""};
+}
+} // namespace feldspar::tests
