@@ -177,6 +177,16 @@ GrainMotion<dim, Real> gather(const SweepMemory<dim>& memory, const std::uint32_
     }
 }
 
+/// Asks for the answers of a pack some way on, to be written.
+template <typename Real, std::size_t n_rows>
+void ask_for_answers(double* const here)
+{
+  constexpr std::size_t n_numbers = n_rows * simd::width<Real>, line = 8;
+  if constexpr (simd::width < Real >> 1)
+    for (std::size_t k = 0; k < n_numbers; k += line)
+      __builtin_prefetch(here + packs_ahead * n_numbers + k, 1);
+}
+
 /// Joint by joint, as Joints<dim>::answer has them.
 template <typename Real>
 void store_answer(const ContactForce<2, Real>& answer, double* const to)
@@ -192,6 +202,16 @@ void store_answer(const ContactForce<3, Real>& answer, double* const to)
   simd::store_records<Real>({couple_1[1], couple_1[2], couple_2[0], couple_2[1]}, to + 4, 9);
   for (std::size_t j = 0; j < simd::width<Real>; ++j)
     to[9 * j + 8] = simd::lane(couple_2[2], j);
+}
+
+template <int dim, typename Real>
+void ask_for_grains(const Joints<dim>& joints, const SweepMemory<dim>& memory, const std::size_t j)
+{
+  constexpr std::size_t ahead = packs_ahead * simd::width<Real>;
+  if constexpr (simd::width < Real >> 1)
+    if (j + ahead + simd::width<Real> <= joints.size())
+      for (std::size_t k = 0; k < simd::width<Real>; ++k)
+        __builtin_prefetch(memory.grain_records.data() + memory.record_size * joints.grain_2[j + ahead + k]);
 }
 
 /// Joint j, or the pack of joints that begins at j. Flattened: packs handed to functions go by way of memory, which
@@ -213,6 +233,7 @@ template <typename Real, typename Law, int dim>
   frame_before.distance = rest_distance + motion.opening_before;
   if constexpr (dim == 3)
     frame_before.tangent = rows.template take_all<3>(Row::tangent);
+  ask_for_grains<dim, Real>(joints, memory, j);
   const auto one = gather<dim, Real>(memory, &joints.grain_1[j]);
   const auto two = gather<dim, Real>(memory, &joints.grain_2[j]);
   const auto contact = Law::motion(frame_before, one.centre, two.centre, half_radius_difference, one.turn, two.turn);
@@ -252,6 +273,7 @@ template <typename Real, typename Law, int dim>
   else
     resultants =
       update_segments<Real>(law, joints, memory, face, motion, before, FaceResultants<dim, Real>{}, j, breaks);
+  ask_for_answers<Real, JointTables<dim>::n_answer_rows>(joints.answer.at(0, j));
   store_answer(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
                           resultants.moment),
                joints.answer.at(0, j));
