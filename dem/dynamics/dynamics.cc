@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "dem/dynamics/contact_stress.h"
-#include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/time_step.h"
 
 #include <fmt/format.h>
@@ -158,9 +157,10 @@ template <int dim>
 void Dynamics<dim>::number_joints()
 {
   const auto& joints = body.joints;
-  joints_of = IncidenceBySide(incidence(
+  joints_of = incidence(
     images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
-    [&](const std::uint32_t grain) { return images.owner(grain); }));
+    [&](const std::uint32_t grain) { return images.owner(grain); });
+  sum_order = SumOrder(joints_of);
   sweep_memory = SweepMemory<dim>(joints);
 }
 
@@ -289,7 +289,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
 {
   auto breaks = sweep_joints(body.joints, body.grains, step, sweep_memory);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step) || contact_made;
-  sum_forces(body, images.n_own(), joints_of, touches);
+  sum_forces(body, sum_order, touches);
   contact_made = wall_set.press(step, body) || contact_made;
   for (int c = 0; c < dim; ++c)
     for (std::size_t i = 0; i < applied_force[c].size(); ++i)

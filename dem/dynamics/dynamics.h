@@ -3,6 +3,7 @@
 #include "dem/dynamics/contact_watch.h"
 #include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
+#include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/grips.h"
 #include "dem/dynamics/images.h"
 #include "dem/dynamics/incidence.h"
@@ -128,7 +129,8 @@ private:
   Touches<dim> touches;
   Walls<dim> wall_set;
   Grips<dim> grips;
-  IncidenceBySide joints_of; ///< each grain
+  Incidence joints_of; ///< each grain
+  SumOrder sum_order;
   SweepMemory<dim> sweep_memory;
   ContactWatch<dim> watch;
   EnergyLedger ledger;

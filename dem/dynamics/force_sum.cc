@@ -3,8 +3,12 @@
 #include "base/parallel.h"
 #include "base/simd_transpose.h"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
 #include <type_traits>
+#include <utility>
 
 namespace feldspar
 {
@@ -52,61 +56,114 @@ struct LoadInSpace
   }
 };
 
+/// On the grain at a place of the order.
 template <int dim>
-Load<dim> load_from_joints(const Joints<dim>& joints, const IncidenceBySide& joints_of, const std::size_t grain)
+Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
 {
   constexpr std::size_t size = JointTables<dim>::n_answer_rows, ahead = 32;
   const double* const answers = joints.answer.at(0, 0);
+  const std::uint32_t* const joint = order.joint.data();
+  const std::uint32_t middle = order.first_as_one[place], end = order.first_as_two[place + 1];
+  // Answers lie far from each other: asked for some grains ahead.
+  const auto ask = [&](const std::uint32_t e) {
+    const double* const later = answers + size * joint[std::min<std::size_t>(e + ahead, order.joint.size() - 1)];
+    __builtin_prefetch(later);
+    __builtin_prefetch(later + size - 1);
+  };
   std::conditional_t<dim == 2, LoadInPlane, LoadInSpace> load;
-  const auto middle = joints_of.first_as_one[grain], end = joints_of.first[grain + 1];
-  for (auto e = joints_of.first[grain]; e < middle; ++e)
+  for (std::uint32_t e = order.first_as_two[place]; e < middle; ++e)
     {
-      // Answers of joints with grains of lower numbers lie far back: asked for some grains ahead.
-      if (e + ahead < joints_of.entries.size())
-        {
-          const double* const later = answers + size * (joints_of.entries[e + ahead] / 2);
-          __builtin_prefetch(later);
-          __builtin_prefetch(later + size - 1);
-        }
-      load.add_as_two(answers + size * (joints_of.entries[e] / 2));
+      ask(e);
+      load.add_as_two(answers + size * joint[e]);
     }
-  for (auto e = middle; e < end; ++e)
-    load.add_as_one(answers + size * (joints_of.entries[e] / 2));
+  for (std::uint32_t e = middle; e < end; ++e)
+    {
+      ask(e);
+      load.add_as_one(answers + size * joint[e]);
+    }
   return load.sum();
+}
+
+template <int dim>
+void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_t grain, Grains<dim>& grains)
+{
+  const double direction = as_second ? 1.0 : -1.0;
+  for (int c = 0; c < dim; ++c)
+    grains.force[c][grain] += direction * touch.force[c];
+  for (int c = 0; c < n_rotations<dim>; ++c)
+    grains.couple[c][grain] += (as_second ? touch.couple_2 : touch.couple_1)[c];
 }
 } // namespace
 
+SumOrder::SumOrder(const Incidence& joints_of)
+  : grain(joints_of.first.size() - 1)
+{
+  // As many as keep their answers in the cache while they are gone through in this order.
+  constexpr std::size_t n_neighbours = 64;
+  const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
+  const auto entries_of = [&](const std::uint32_t i) {
+    return std::span(joints_of.entries).subspan(joints_of.first[i], joints_of.first[i + 1] - joints_of.first[i]);
+  };
+  const auto counts = [&](const std::uint32_t i) {
+    const auto entries = entries_of(i);
+    const auto n_as_two = std::count_if(entries.begin(), entries.end(), is_second);
+    return std::pair(std::size_t(n_as_two), entries.size());
+  };
+  std::iota(grain.begin(), grain.end(), 0);
+  for (std::size_t begin = 0; begin < grain.size(); begin += n_neighbours)
+    std::stable_sort(grain.begin() + std::ptrdiff_t(begin),
+                     grain.begin() + std::ptrdiff_t(std::min(begin + n_neighbours, grain.size())),
+                     [&](const std::uint32_t a, const std::uint32_t b) { return counts(a) < counts(b); });
+  for (const std::uint32_t i : grain)
+    {
+      const auto entries = entries_of(i);
+      first_as_two.push_back(std::uint32_t(joint.size()));
+      for (const std::uint32_t entry : entries)
+        if (is_second(entry))
+          joint.push_back(entry / 2);
+      first_as_one.push_back(std::uint32_t(joint.size()));
+      for (const std::uint32_t entry : entries)
+        if (!is_second(entry))
+          joint.push_back(entry / 2);
+    }
+  first_as_two.push_back(std::uint32_t(joint.size()));
+}
+
 template <int dim>
-void sum_forces(Specimen<dim>& body, const std::size_t n_own, const IncidenceBySide& joints_of,
-                const Touches<dim>& touches)
+void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches)
 {
   auto& grains = body.grains;
   const auto& joints = body.joints;
+  const std::size_t n_grains = order.grain.size();
   const Incidence& touches_of = touches.incidence();
-  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+  // To each grain come its touches by their numbers, whether it is grains or touches that are gone through.
+  constexpr std::size_t grains_per_touch = 8;
+  const bool few_touch = grains_per_touch * touches.touching().size() < n_grains;
+  for_each_block(n_grains, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    for (std::size_t place = begin; place < end; ++place)
       {
-        auto [force, couple] = load_from_joints(joints, joints_of, i);
-        for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
-          {
-            const std::uint32_t entry = touches_of.entries[e];
-            if (!touches.is_touching(entry / 2))
-              continue;
-            const Touch<dim>& touch = touches.list()[entry / 2];
-            const double direction = entry % 2 ? 1.0 : -1.0;
-            for (int c = 0; c < dim; ++c)
-              force[c] += direction * touch.force[c];
-            for (int c = 0; c < n_rotations<dim>; ++c)
-              couple[c] += (entry % 2 ? touch.couple_2 : touch.couple_1)[c];
-          }
+        const std::uint32_t i = order.grain[place];
+        const auto [force, couple] = load_from_joints(joints, order, place);
         for (int c = 0; c < dim; ++c)
           grains.force[c][i] = force[c];
         for (int c = 0; c < n_rotations<dim>; ++c)
           grains.couple[c][i] = couple[c];
+        if (few_touch)
+          continue;
+        for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
+          if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
+            add_touch(touches.list()[entry / 2], entry % 2, i, grains);
       }
   });
+  if (few_touch)
+    for (const std::uint32_t k : touches.touching())
+      {
+        const Touch<dim>& touch = touches.list()[k];
+        add_touch(touch, false, touch.grain_1, grains);
+        add_touch(touch, true, touches.owner_2(k), grains);
+      }
 }
 
-template void sum_forces<2>(Specimen<2>&, std::size_t, const IncidenceBySide&, const Touches<2>&);
-template void sum_forces<3>(Specimen<3>&, std::size_t, const IncidenceBySide&, const Touches<3>&);
+template void sum_forces<2>(Specimen<2>&, const SumOrder&, const Touches<2>&);
+template void sum_forces<3>(Specimen<3>&, const SumOrder&, const Touches<3>&);
 } // namespace feldspar

@@ -2,9 +2,7 @@
 
 #include "dem/specimen/neighbours.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -41,23 +39,4 @@ Incidence incidence(const std::size_t n_grains, const std::size_t n_contacts, En
     }
   return result;
 }
-
-/// The same with those as grain 2 first and those as grain 1 after them, each kind by the contact's number.
-struct IncidenceBySide : Incidence
-{
-  IncidenceBySide() = default;
-  explicit IncidenceBySide(Incidence of)
-    : Incidence(std::move(of))
-  {
-    const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
-    for (std::size_t grain = 0; grain + 1 < first.size(); ++grain)
-      {
-        const auto middle =
-          std::stable_partition(entries.begin() + first[grain], entries.begin() + first[grain + 1], is_second);
-        first_as_one.push_back(std::uint32_t(middle - entries.begin()));
-      }
-  }
-
-  std::vector<std::uint32_t> first_as_one; ///< of each grain's entries as grain 1; [n_grains]
-};
 } // namespace feldspar

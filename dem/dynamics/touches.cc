@@ -45,7 +45,7 @@ void Touches<dim>::number(const Images<dim>& images)
     [&](const std::uint32_t grain) { return images.owner(grain); });
   looks.clear();
   for (const auto& touch : touches)
-    looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, touch.touching});
+    looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
 }
 
 template <int dim>
@@ -164,6 +164,10 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         touch.couple_2 = answer.couple_2;
       }
   });
+  touching_ones.clear();
+  for (std::size_t k = 0; k < looks.size(); ++k)
+    if (looks[k].touching)
+      touching_ones.push_back(std::uint32_t(k));
   return contact_made;
 }
 

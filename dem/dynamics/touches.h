@@ -50,6 +50,10 @@ public:
   const Incidence& incidence() const { return contacts_of; }
   /// Of one by its number; does not read the touch itself.
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
+  /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
+  std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }
+  /// Numbers of those that touch, ascending.
+  const std::vector<std::uint32_t>& touching() const { return touching_ones; }
 
   /// Notes the pairs within `skin` [m]; those with a face are told by the joints.
   void search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of, double skin,
@@ -79,6 +83,7 @@ private:
   {
     std::uint32_t grain_1, grain_2;
     double zero_distance;
+    std::uint32_t owner_2;
     bool touching;
   };
 
@@ -86,6 +91,7 @@ private:
 
   std::vector<Touch<dim>> touches;
   std::vector<Look> looks; ///< of each touch
+  std::vector<std::uint32_t> touching_ones;
   Incidence contacts_of;
 };
 } // namespace feldspar
