@@ -32,7 +32,7 @@ for reader in "${readers[@]}"; do
   log=build/fuzz/$reader.log
   verdict="nothing found"
   FELDSPAR_FUZZED_READER=$reader build/fuzz/tests/fuzz/fuzz_readers -max_total_time=$((seconds / ${#readers[@]})) \
-    -timeout=10 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
+    -timeout=60 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
     "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
     verdict="FOUND: see $log and build/fuzz/found"
     bad=1

@@ -42,15 +42,17 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
   const auto rolls = [&](const std::size_t i) {
     return dt * dt * grains.radius[i] * grains.radius[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
   };
-  bool all_are_well = true;
+  const auto is_slow = [&](const std::size_t i) { return moves(i) + rolls(i) <= grains.radius[i] * grains.radius[i]; };
+  std::size_t n_objections = 0; // counted without branches: nearly always there are none
   for (std::size_t i = 0; i < n_own; ++i)
-    all_are_well = all_are_well & is_near(i) & (moves(i) + rolls(i) <= grains.radius[i] * grains.radius[i]);
-  for (std::uint32_t i = 0; i < n_own && !all_are_well; ++i)
+    n_objections += std::size_t(!is_near(i)) + std::size_t(!is_slow(i));
+  for (std::uint32_t i = 0; i < n_own && n_objections > 0; ++i)
     {
       if (!is_near(i))
         return StrayGrain{i, "stands nowhere near the body"};
-      if (const double way = moves(i) + rolls(i); !(way <= grains.radius[i] * grains.radius[i]))
-        return StrayGrain{i, fmt::format("goes {:.3g} of its radii", std::sqrt(way) / grains.radius[i])};
+      if (!is_slow(i))
+        return StrayGrain{i,
+                          fmt::format("goes {:.3g} of its radii", std::sqrt(moves(i) + rolls(i)) / grains.radius[i])};
     }
 
   std::optional<StrayGrain> beyond_wall;
