@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/input/nearest_name.h"
 #include "app/run/interrupt.h"
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
@@ -43,6 +44,8 @@ public:
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_report();
     add_parameters();
+    add_help();
+    add_examples();
   }
 
   /// Returns the exit code.
@@ -59,7 +62,7 @@ public:
       }
     if (!chosen)
       {
-        fmt::print("{}", app.help());
+        print_result("{}", app.help());
         return 0;
       }
     std::optional<tbb::global_control> limit;
@@ -76,10 +79,18 @@ private:
     command.add_option("--output", common.output, "folder of the results (default: INPUT-results-001, ...)")
       ->type_name("DIR");
     command.add_flag("--force", common.force, "write over what is in the folder");
+    add_settings(command, common.settings);
     add_threads(command);
-    command.add_flag("--quiet", common.quiet, "no progress on standard output");
+    command.add_flag("--quiet", common.quiet, "no progress, and of the results only where they are");
     command.callback([this, run_command] { chosen = [this, run_command] { return run_command(common); }; });
     return command;
+  }
+
+  static CLI::Option* add_settings(CLI::App& command, std::vector<std::string>& settings)
+  {
+    return command.add_option("--set", settings, "an entry in place of what INPUT says; may be repeated")
+      ->type_name("'SECTION/ENTRY = VALUE'")
+      ->allow_extra_args(false);
   }
 
   CLI::App& add_resume(CLI::App& command)
@@ -88,6 +99,7 @@ private:
       command.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")
         ->type_name("DIR");
     command.get_option("INPUT")->required(false)->excludes(resume);
+    command.get_option("--set")->excludes(resume);
     command.get_option("--output")->excludes(resume);
     command.get_option("--force")->excludes(resume);
     return command;
@@ -136,10 +148,50 @@ private:
   void add_parameters()
   {
     CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
-    command.add_option("SECTION", parameters.section, "only this one");
-    command.add_option("--check", parameters.check, "only check this input file")->type_name("INPUT");
+    command.add_option("SECTION", parameters.section, "only this one, or the entries that have this word");
+    CLI::Option* const check = command.add_option("--check", parameters.check, "only check this input file");
+    check->type_name("INPUT");
+    add_settings(command, parameters.settings)->needs(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
+  }
+
+  void add_help()
+  {
+    CLI::App& help = *app.add_subcommand("help", "the same as --help, or as COMMAND --help");
+    help.add_option("COMMAND", helped, "a command");
+    help.callback([this] {
+      chosen = [this] {
+        check_name(helped.empty() ? "help" : helped);
+        print_result("{}", (helped.empty() ? app : *app.get_subcommand(helped)).help());
+        return 0;
+      };
+    });
+    app.add_subcommand("version", "the same as --version")->callback([this] {
+      chosen = [] {
+        print_result("feldspar {}\n", version);
+        return 0;
+      };
+    });
+  }
+
+  /// With what a user would type.
+  void add_examples()
+  {
+    for (const auto& [command, example] :
+         {std::pair("lab", "feldspar lab granite.prm --output granite --threads 4\n"
+                           "  feldspar lab granite.prm --set 'Seeds/Seeds = 1..10' --set 'Specimen/Width = 30 mm'\n"
+                           "  feldspar lab --resume granite"),
+          {"rve", "feldspar rve cell.prm"},
+          {"multiscale", "feldspar multiscale sample.prm\n  mpirun -np 8 feldspar multiscale sample.prm\n"
+                         "  feldspar multiscale sample-results-001 --extract 12:0"},
+          {"specimen", "feldspar specimen granite.prm"},
+          {"contact", "feldspar contact contact.prm"},
+          {"report", "feldspar report granite slate --reference rock.json\n"
+                     "  feldspar report granite --curve core.csv"},
+          {"parameters", "feldspar parameters Tests\n  feldspar parameters friction\n"
+                         "  feldspar parameters --check granite.prm"}})
+      app.get_subcommand(command)->footer(fmt::format("Examples:\n  {}", example));
   }
 
   /// Prints help or version, which CLI11 throws too, or what is wrong.
@@ -158,16 +210,23 @@ private:
   {
     if (argc < 2 || std::string_view(argv[1]).starts_with('-'))
       return;
-    const std::vector<std::string_view> names{"lab",     "rve",    "multiscale", "specimen",
-                                              "contact", "report", "parameters"};
-    if (std::find(names.begin(), names.end(), argv[1]) == names.end())
-      throw InputError(fmt::format("{}: no such command{}", argv[1], suggestion(argv[1], names)));
+    check_name(argv[1]);
+  }
+
+  void check_name(const std::string_view name) const
+  {
+    std::vector<std::string> names;
+    for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("{}: no such command{}", name, suggestion(name, {names.begin(), names.end()})));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and flat joints", "feldspar"};
   CommonOptions common;
   ReportOptions report;
   ParametersOptions parameters;
+  std::string helped; ///< the command that help is asked for
   std::optional<unsigned int> n_threads;
   std::function<int()> chosen;
 };

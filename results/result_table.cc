@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace feldspar
 {
@@ -64,55 +65,65 @@ ResultEntry of_run(const std::string_view name, T RunBookkeeping::*member, const
   return number(
     name, [member](auto& test) -> auto& { return test.bookkeeping.*member; }, reason_for_nan);
 }
+
+/// The same figures, and none of a test that could not be made: what a record of it holds was not measured.
+std::vector<ResultEntry> of_tests_made(std::vector<ResultEntry> entries)
+{
+  for (ResultEntry& entry : entries)
+    entry.value = [value = std::move(entry.value)](const FinishedTest& test) {
+      return test.record.failure.empty() ? value(test) : Figure{std::nullopt, test.record.failure};
+    };
+  entries.insert(entries.begin(), of_test("confining_pressure_Pa", &TestRecord::confining_pressure)); // it was wanted
+  return entries;
+}
 } // namespace
 
 const std::vector<ResultEntry>& result_table()
 {
   static const std::string without_energies = "its material does not tell its energies";
   static const std::string without_time = "equilibrium is sought without time";
-  static const std::vector<ResultEntry> table{
-    of_test("confining_pressure_Pa", &TestRecord::confining_pressure),
-    of_test("strain_rate_per_s", &TestRecord::strain_rate, without_time),
-    result("peak_stress_Pa", &TestResults::peak_stress),
-    result("strain_at_peak", &TestResults::strain_at_peak),
-    result("youngs_modulus_initial_Pa", &TestResults::youngs_modulus_initial),
-    result("youngs_modulus_tangent_Pa", &TestResults::youngs_modulus_tangent),
-    result("youngs_modulus_secant_Pa", &TestResults::youngs_modulus_secant),
-    result("poissons_ratio_initial", &TestResults::poissons_ratio_initial),
-    result("poissons_ratio_secant", &TestResults::poissons_ratio_secant),
-    result("crack_initiation_stress_Pa", &TestResults::crack_initiation_stress),
-    result("crack_initiation_stress_lateral_Pa", &TestResults::crack_initiation_stress_lateral),
-    result("crack_damage_stress_Pa", &TestResults::crack_damage_stress),
-    result("post_peak_drop", &TestResults::post_peak_drop),
-    result("residual_deviator_ratio", &TestResults::residual_deviator_ratio),
-    of_results("n_tension_cracks", &TestResults::n_tension_cracks),
-    of_results("n_shear_cracks", &TestResults::n_shear_cracks),
-    result("n_tension_cracks_at_peak", &TestResults::n_tension_cracks_at_peak),
-    result("n_shear_cracks_at_peak", &TestResults::n_shear_cracks_at_peak),
-    result("shear_share_at_peak", &TestResults::shear_share_at_peak),
-    result("n_fragments", &TestResults::n_fragments),
-    result("largest_fragment_share", &TestResults::largest_fragment_share),
-    of_specimen("n_grains", &SpecimenReport::n_grains),
-    of_specimen("n_joints", &SpecimenReport::n_joints),
-    of_specimen("coordination_number", &SpecimenReport::coordination_number),
-    of_specimen("coordination_number_core", &SpecimenReport::coordination_number_core,
-                "no grain lies more than three mean diameters from the walls"),
-    of_specimen("installation_gap_ratio", &SpecimenReport::installation_gap_ratio),
-    of_specimen("porosity", &SpecimenReport::porosity),
-    of_specimen("mean_overlap_ratio", &SpecimenReport::mean_overlap_ratio),
-    of_specimen("resolution", &SpecimenReport::resolution),
-    of_specimen("radius_multiplier", &SpecimenReport::radius_multiplier),
-    of_results("energy_imbalance", &TestResults::energy_imbalance, without_energies),
-    of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work, without_energies),
-    result("kinetic_to_strain_energy", &TestResults::kinetic_to_strain_energy),
-    result("unbalanced_force_ratio", &TestResults::unbalanced_force_ratio),
-    result("end_stress_difference", &TestResults::end_stress_difference),
-    result("p_wave_transits_to_peak", &TestResults::p_wave_transits_to_peak),
-    result("servo_error", &TestResults::servo_error),
-    result("servo_error_largest", &TestResults::servo_error_largest),
-    of_run("steps", &RunBookkeeping::steps),
-    of_run("time_step_s", &RunBookkeeping::time_step, without_time),
-    of_run("wall_time_s", &RunBookkeeping::wall_time)};
+  static const std::vector<ResultEntry> table =
+    of_tests_made({of_test("strain_rate_per_s", &TestRecord::strain_rate, without_time),
+                   result("peak_stress_Pa", &TestResults::peak_stress),
+                   result("strain_at_peak", &TestResults::strain_at_peak),
+                   result("youngs_modulus_initial_Pa", &TestResults::youngs_modulus_initial),
+                   result("youngs_modulus_tangent_Pa", &TestResults::youngs_modulus_tangent),
+                   result("youngs_modulus_secant_Pa", &TestResults::youngs_modulus_secant),
+                   result("poissons_ratio_initial", &TestResults::poissons_ratio_initial),
+                   result("poissons_ratio_secant", &TestResults::poissons_ratio_secant),
+                   result("crack_initiation_stress_Pa", &TestResults::crack_initiation_stress),
+                   result("crack_initiation_stress_lateral_Pa", &TestResults::crack_initiation_stress_lateral),
+                   result("crack_damage_stress_Pa", &TestResults::crack_damage_stress),
+                   result("post_peak_drop", &TestResults::post_peak_drop),
+                   result("residual_deviator_ratio", &TestResults::residual_deviator_ratio),
+                   of_results("n_tension_cracks", &TestResults::n_tension_cracks),
+                   of_results("n_shear_cracks", &TestResults::n_shear_cracks),
+                   result("n_tension_cracks_at_peak", &TestResults::n_tension_cracks_at_peak),
+                   result("n_shear_cracks_at_peak", &TestResults::n_shear_cracks_at_peak),
+                   result("shear_share_at_peak", &TestResults::shear_share_at_peak),
+                   result("n_fragments", &TestResults::n_fragments),
+                   result("largest_fragment_share", &TestResults::largest_fragment_share),
+                   of_specimen("n_grains", &SpecimenReport::n_grains),
+                   of_specimen("n_joints", &SpecimenReport::n_joints),
+                   of_specimen("coordination_number", &SpecimenReport::coordination_number),
+                   of_specimen("coordination_number_core", &SpecimenReport::coordination_number_core,
+                               "no grain lies more than three mean diameters from the walls"),
+                   of_specimen("installation_gap_ratio", &SpecimenReport::installation_gap_ratio),
+                   of_specimen("porosity", &SpecimenReport::porosity),
+                   of_specimen("mean_overlap_ratio", &SpecimenReport::mean_overlap_ratio),
+                   of_specimen("resolution", &SpecimenReport::resolution),
+                   of_specimen("radius_multiplier", &SpecimenReport::radius_multiplier),
+                   of_results("energy_imbalance", &TestResults::energy_imbalance, without_energies),
+                   of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work, without_energies),
+                   result("kinetic_to_strain_energy", &TestResults::kinetic_to_strain_energy),
+                   result("unbalanced_force_ratio", &TestResults::unbalanced_force_ratio),
+                   result("end_stress_difference", &TestResults::end_stress_difference),
+                   result("p_wave_transits_to_peak", &TestResults::p_wave_transits_to_peak),
+                   result("servo_error", &TestResults::servo_error),
+                   result("servo_error_largest", &TestResults::servo_error_largest),
+                   of_run("steps", &RunBookkeeping::steps),
+                   of_run("time_step_s", &RunBookkeeping::time_step, without_time),
+                   of_run("wall_time_s", &RunBookkeeping::wall_time)});
   return table;
 }
 } // namespace feldspar

@@ -37,6 +37,9 @@ struct FinishedTest
   TestResults results; ///< read off the record
   TestAppearance appearance;
   RunBookkeeping bookkeeping;
+
+  /// Whether it ran to its end, so that its figures may be averaged with others.
+  bool was_made() const { return record.failure.empty() && !record.interrupted; }
 };
 
 /// With the figures read off its record.

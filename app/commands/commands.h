@@ -36,6 +36,7 @@ struct ParametersOptions
 {
   std::string section; ///< empty: all
   std::optional<std::filesystem::path> check;
+  std::vector<std::string> settings; ///< of the input to be checked, as CommonOptions has them
   bool markdown = false;
 };
 

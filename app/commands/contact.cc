@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
 #include "app/run/output_folder.h"
+#include "app/screen/print_result.h"
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
@@ -138,7 +139,7 @@ std::string answer(const Input& input)
 
 int run_contact(const CommonOptions& options)
 {
-  const Input input = read_input(options.input);
+  const Input input = read_input(options.input, {}, options.settings);
   if (input.contact.path_file.empty())
     throw InputError(
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", options.input.string()));
@@ -146,7 +147,7 @@ int run_contact(const CommonOptions& options)
   const OutputFolder folder(options.output, options.input, options.force);
   write_whole_file(folder.path() / "contact.csv", table);
   if (!options.quiet)
-    fmt::print("{}\n", (folder.path() / "contact.csv").string());
+    print_result("{}\n", (folder.path() / "contact.csv").string());
   return 0;
 }
 } // namespace feldspar

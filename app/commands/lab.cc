@@ -4,9 +4,10 @@
 #include "app/input/parameter_table.h"
 #include "app/run/interrupt.h"
 #include "app/run/lab_run.h"
-#include "app/run/progress.h"
 #include "app/run/provenance.h"
 #include "app/run/specimen_source.h"
+#include "app/screen/print_result.h"
+#include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "report/sections/comparison.h"
@@ -14,6 +15,7 @@
 #include "results/folder/field_output.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
+#include "results/trust.h"
 
 #include <fmt/format.h>
 
@@ -52,12 +54,24 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
           found != envelopes.end() && found->second.data.points.size() > 1)
         text += as_text(found->second) + "\n";
     }
-  for (const auto& test : tests)
-    if (!test.results.peak_stress.value)
-      text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
+  text += trust_as_text(tests);
   for (const auto& sentence : missing)
     text += sentence + "\n";
   return text;
+}
+
+/// Refuses entries that have no use on this body.
+void check_bodies(const std::vector<Variant>& all, const Body body, const std::filesystem::path& file)
+{
+  for (const Variant& variant : all)
+    try
+      {
+        check_body(variant.input, body);
+      }
+    catch (const InputError& error)
+      {
+        throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+      }
 }
 
 /// Specimens, tests and report of a run in its folder, from wherever it stands.
@@ -76,6 +90,13 @@ RunEnd go(const Run& run)
       throw InputError(fmt::format("{}: Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen "
                                    "between walls (feldspar rve takes a cell)",
                                    input_file.string()));
+
+  if (!input.specimen.specimen_file.empty()) // it brought its own shape
+    check_bodies(all_variants,
+                 dim == 2                  ? Body::plane_box
+                 : specimens.front().round ? Body::cylinder
+                                           : Body::box,
+                 input_file);
 
   // Break it.
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
@@ -101,8 +122,8 @@ RunEnd go(const Run& run)
   const std::string text = describe_run(all_variants, specimens, tests, envelopes, missing);
   write_whole_file(folder / "log.txt", text);
   if (!quiet)
-    fmt::print("\n{}\n", text);
-  fmt::print("{}\n", folder.string());
+    print_result("\n{}\n", text);
+  print_result("{}\n", folder.string());
   return {was_interrupted, failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }
 
@@ -127,16 +148,8 @@ void check(const Input& input, const std::filesystem::path& file)
       for (const TestKind& kind : variant.input.test_list)
         if (const std::string objection = objection_to_grains(kind, specimen.dimension); !objection.empty())
           refuse(objection);
-      if (!specimen.specimen_file.empty())
-        continue; // it brings its own shape
-      try
-        {
-          check_body(variant.input, body_of(specimen));
-        }
-      catch (const InputError& error)
-        {
-          refuse(error.what());
-        }
+      if (specimen.specimen_file.empty())
+        check_bodies({variant}, body_of(specimen), file);
       const bool is_confined = any_takes_confining_pressure(variant.input.test_list);
       for (const double confinement : variant.input.confinements)
         if (is_confined && tests.intermediate_stress && *tests.intermediate_stress < confinement)

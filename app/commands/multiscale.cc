@@ -7,6 +7,8 @@
 #include "app/run/multiscale_run.h"
 #include "app/run/provenance.h"
 #include "app/run/specimen_source.h"
+#include "app/screen/print_result.h"
+#include "app/screen/test_board.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "coupling/sample/ranks.h"
@@ -14,6 +16,7 @@
 #include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
+#include "results/trust.h"
 
 #include <deal.II/base/mpi.h>
 #include <fmt/format.h>
@@ -23,7 +26,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <limits>
 
 /// `feldspar multiscale`: laboratory tests on a mesh of finite elements with a representative volume at every point.
 namespace feldspar
@@ -44,11 +46,7 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   text += as_text(compare(tests, reference)) + "\n";
   if (const auto found = envelopes.find(""); found != envelopes.end() && found->second.data.points.size() > 1)
     text += as_text(found->second) + "\n";
-  for (const auto& test : tests)
-    if (!test.results.peak_stress.value)
-      text += fmt::format("{}: {}\n", test.name, test.results.peak_stress.reason);
-    else if (!test.record.ended_early.empty())
-      text += fmt::format("{}: {}\n", test.name, test.record.ended_early);
+  text += trust_as_text(tests);
   for (const auto& test : tests)
     if (const RankBalance& of_ranks = test.bookkeeping.ranks; ranks::number() > 1 && of_ranks.mean > 0.0)
       text += fmt::format(
@@ -171,22 +169,25 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     }
   ranks::first([&] { std::filesystem::create_directories(folder / "fields"); });
   std::vector<FinishedTest> tests;
-  progress.start("tests");
+  std::vector<BoardTest> shown;
+  for (const PlannedSample& one : planned)
+    shown.push_back({one.name, one.test, &input,
+                     1.0 / (one.test.kind.sign > 0.0 ? input.sample.tension_step : input.sample.compression_step)});
+  TestBoard board(progress, shown);
   for (const PlannedSample& one : planned)
     {
       if (ranks::any(interrupted()))
         break;
-      std::string last;
-      tests.push_back(run_test(one, input, folder, [&](const std::string& text) {
-        const bool is_row = text.starts_with(':');
-        if (is_row)
-          last = text;
-        progress.update(
-          std::numeric_limits<double>::quiet_NaN(),
-          fmt::format("{} of {} done; {}{}{}", tests.size(), planned.size(), one.name, last, is_row ? "" : text));
+      const std::size_t k = tests.size();
+      tests.push_back(run_test(one, input, folder, [&](const CurveSample* const row, const std::string& more) {
+        row ? board.update(k, *row, more) : board.update(k, more);
       }));
+      board.finish(k);
     }
-  progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+  progress.finish(
+    fmt::format("{} of {} done",
+                std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.was_made(); }),
+                planned.size()));
 
   const auto failed =
     std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
@@ -208,8 +209,8 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     const std::string text = describe_run(input, rocks, tests, envelopes, remarks);
     write_whole_file(folder / "log.txt", text);
     if (!quiet)
-      fmt::print("\n{}\n", text);
-    fmt::print("{}\n", folder.string());
+      print_result("\n{}\n", text);
+    print_result("{}\n", folder.string());
   });
   return {was_interrupted, failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }

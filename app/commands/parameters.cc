@@ -2,7 +2,10 @@
 #include "app/input/input.h"
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
+#include "results/folder/reference.h"
 
 #include <fmt/format.h>
 
@@ -15,26 +18,46 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : text;
 
 void print_plain(const std::string_view section)
 {
-  fmt::print("{}\n", section);
+  print_result("{}\n", section);
   for (const Parameter& parameter : parameter_table())
     if (parameter.section == section)
-      fmt::print("  {}\n    unit {}; default {}; range {}\n    {}\n", parameter.entry, or_dash(parameter.unit),
-                 parameter.default_text(), parameter.range, parameter.meaning);
+      print_result("  {}\n    unit {}; default {}; range {}\n    {}\n", parameter.entry, or_dash(parameter.unit),
+                   parameter.default_text(), parameter.range, parameter.meaning);
 }
 
 void print_markdown(const std::string_view section)
 {
-  fmt::print("\n## {}\n\n| entry | unit | default | range | meaning |\n|---|---|---|---|---|\n", section);
+  print_result("\n## {}\n\n| entry | unit | default | range | meaning |\n|---|---|---|---|---|\n", section);
   for (const Parameter& parameter : parameter_table())
     if (parameter.section == section)
-      fmt::print("| {} | {} | {} | {} | {} |\n", parameter.entry, or_dash(parameter.unit), parameter.default_text(),
-                 parameter.range, parameter.meaning);
+      print_result("| {} | {} | {} | {} | {} |\n", parameter.entry, or_dash(parameter.unit), parameter.default_text(),
+                   parameter.range, parameter.meaning);
 }
 
-void check_section(const std::string& section)
+std::string in_small_letters(const std::string_view text)
 {
-  if (entry_names(section).empty())
-    throw InputError(fmt::format("{}: no such section{}", section, suggestion(section, section_names())));
+  std::string small(text);
+  for (char& c : small)
+    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return small;
+}
+
+/// The entries that have a word in their name, meaning or choices, capital or small; throws InputError where none has.
+void print_found(const std::string& word)
+{
+  const std::string wanted = in_small_letters(word);
+  bool found = false;
+  for (const Parameter& parameter : parameter_table())
+    if (in_small_letters(fmt::format("{} {} {}", parameter.name(), parameter.meaning, parameter.range)).find(wanted) !=
+        std::string::npos)
+      {
+        print_result("{}\n    unit {}; default {}; range {}\n    {}\n", parameter.name(), or_dash(parameter.unit),
+                     parameter.default_text(), parameter.range, parameter.meaning);
+        found = true;
+      }
+  if (!found)
+    throw InputError(fmt::format("{}: no such section, and no entry has it in its name, meaning or choices{}",
+                                 excerpt(word), suggestion(word, section_names())));
 }
 } // namespace
 
@@ -42,14 +65,18 @@ int run_parameters(const ParametersOptions& options)
 {
   if (options.check)
     {
-      read_input(*options.check);
-      fmt::print("{}: OK\n", options.check->string());
+      if (const Input input = read_input(*options.check, {}, options.settings); !input.reference_file.empty())
+        read_reference(input.reference_file);
+      print_result("{}: OK\n", options.check->string());
       return 0;
     }
-  if (!options.section.empty())
-    check_section(options.section);
+  if (!options.section.empty() && entry_names(options.section).empty())
+    {
+      print_found(options.section);
+      return 0;
+    }
   if (options.markdown)
-    fmt::print("# Parameters\n\nWritten by `feldspar parameters --markdown`.\n");
+    print_result("# Parameters\n\nWritten by `feldspar parameters --markdown`.\n");
   for (const std::string_view section : section_names())
     if (options.section.empty() || options.section == section)
       options.markdown ? print_markdown(section) : print_plain(section);

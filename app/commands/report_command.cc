@@ -3,11 +3,13 @@
 #include "app/commands/commands.h"
 #include "app/input/laboratory_curve.h"
 #include "app/run/output_folder.h"
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
 #include "results/fits/strength_data.h"
+#include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -59,14 +61,16 @@ int run_report(const ReportOptions& options)
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
   // Of one folder the report goes into it, beside its results.
   const bool beside_results = order.result_folders.size() == 1 && !options.output;
+  if (options.reference)
+    read_reference(*options.reference); // before anything is written
   const OutputFolder folder(beside_results ? order.result_folders.front() : options.output, "report",
                             beside_results || options.force);
   order.output = folder.path();
   const auto missing = report_on(order);
   if (!options.quiet)
     for (const auto& sentence : missing)
-      fmt::print("{}\n", printable(sentence));
-  fmt::print("{}\n", (order.output / result_file::page).string());
+      print_result("{}\n", printable(sentence));
+  print_result("{}\n", (order.output / result_file::page).string());
   return 0;
 }
 } // namespace feldspar

@@ -4,11 +4,12 @@
 #include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
-#include "app/run/progress.h"
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
 #include "app/run/rve_results.h"
 #include "app/run/specimen_source.h"
+#include "app/screen/print_result.h"
+#include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "coupling/rve/explicit_run.h"
@@ -183,8 +184,8 @@ RunEnd go(const Run& run)
     text += describe(volume) + "\n";
   write_whole_file(folder / "log.txt", text);
   if (!quiet)
-    fmt::print("\n{}", text);
-  fmt::print("{}\n", folder.string());
+    print_result("\n{}", text);
+  print_result("{}\n", folder.string());
   const auto failed = std::find_if(volumes.begin(), volumes.end(),
                                    [](const FinishedVolume<dim>& volume) { return !volume.record.failure.empty(); });
   return {was_interrupted, failed == volumes.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};

@@ -2,8 +2,9 @@
 #include "app/input/input.h"
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
-#include "app/run/progress.h"
 #include "app/run/specimen_source.h"
+#include "app/screen/print_result.h"
+#include "app/screen/progress.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ int make_specimens(const CommonOptions& options, const Input& input)
 {
   const OutputFolder folder(options.output, options.input, options.force);
   Progress progress(options.quiet);
-  watch_for_interrupt();
+  watch_for_interrupt(!options.quiet);
 
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
@@ -41,8 +42,8 @@ int make_specimens(const CommonOptions& options, const Input& input)
   for (std::size_t k = 0; k < orders.size(); ++k)
     {
       if (!options.quiet)
-        fmt::print("\nSeed {}\n{}", specimens[k].seed, describe(specimens[k].report));
-      fmt::print("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
+        print_result("\nSeed {}\n{}", specimens[k].seed, describe(specimens[k].report));
+      print_result("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
     }
   return 0;
 }
@@ -50,7 +51,7 @@ int make_specimens(const CommonOptions& options, const Input& input)
 
 int run_specimen(const CommonOptions& options)
 {
-  const Input input = read_input(options.input);
+  const Input input = read_input(options.input, {}, options.settings);
   return input.specimen.dimension == 2 ? make_specimens<2>(options, input) : make_specimens<3>(options, input);
 }
 } // namespace feldspar

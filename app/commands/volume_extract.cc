@@ -3,6 +3,7 @@
 #include "app/run/multiscale_run.h"
 #include "app/run/run_record.h"
 #include "app/run/volume_view.h"
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "coupling/rve/volume_file.h"
 #include "results/folder/field_output.h"
@@ -109,7 +110,7 @@ int extract_volume(const std::filesystem::path& folder, const std::string& cell_
                                  : extract<3>(one, test, of_sample, place, folder / "extracted");
       ++n_extracted;
       if (!quiet)
-        fmt::print("{}", text);
+        print_result("{}", text);
     }
   if (n_extracted == 0)
     throw InputError(fmt::format("--extract {}: no test in {} has a state yet", cell_and_point, folder.string()));

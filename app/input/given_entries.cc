@@ -3,6 +3,7 @@
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "base/quoted.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,23 @@ std::string read_text(const std::filesystem::path& file)
     }
   return text;
 }
+
+/// Section/Entry = value, of the command line.
+GivenEntry setting_of(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  const std::size_t slash = text.find('/');
+  if (equals == std::string::npos || slash > equals)
+    throw InputError(
+      fmt::format("--set {}: write \"Section/Entry = value\", e.g. \"Specimen/Width = 30 mm\"", in_quotes(text)));
+  const std::string_view all = text;
+  GivenEntry given{std::string(trim(all.substr(0, slash))),
+                   std::string(trim(all.substr(slash + 1, equals - slash - 1))),
+                   std::string(trim(all.substr(equals + 1))), "--set"};
+  check_section(given.section, given.place);
+  check_name(given);
+  return given;
+}
 } // namespace
 
 void check_section(const std::string& section, const std::string& place)
@@ -62,7 +80,7 @@ void check_name(const GivenEntry& given)
                                  suggestion(given.entry, entry_names(given.section))));
 }
 
-GivenEntries::GivenEntries(const std::filesystem::path& file)
+GivenEntries::GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings)
   : name(file.string())
 {
   const std::string text = read_text(file);
@@ -72,6 +90,20 @@ GivenEntries::GivenEntries(const std::filesystem::path& file)
     entries = scan_json(name, text);
   else
     throw InputError(fmt::format("{}: the name must end in .prm or .json", name));
+
+  for (const std::string& setting : settings)
+    {
+      const GivenEntry given = setting_of(setting);
+      const auto same = std::find_if(entries.begin(), entries.end(), [&](const GivenEntry& one) {
+        return one.section == given.section && one.entry == given.entry;
+      });
+      if (same == entries.end())
+        entries.push_back(given);
+      else if (same->place == given.place)
+        throw InputError(fmt::format("--set: {}/{}: is given twice", given.section, given.entry));
+      else
+        *same = given;
+    }
 }
 
 std::string GivenEntries::value(const std::string_view section, const std::string_view entry) const

@@ -37,8 +37,9 @@ void check_name(const GivenEntry& given);
 class GivenEntries
 {
 public:
-  /// Reads a .prm or .json file. Throws InputError.
-  explicit GivenEntries(const std::filesystem::path& file);
+  /// Reads a .prm or .json file. `settings`: Section/Entry = value each, in place of what the file says. Throws
+  /// InputError.
+  explicit GivenEntries(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
   const std::vector<GivenEntry>& all() const { return entries; }
 

@@ -56,7 +56,10 @@ void check_variants(const Input& input, const GivenEntries& values)
     }
   catch (const InputError& error)
     {
-      throw values.error("Variants", "Values", error.what());
+      const bool has_commas =
+        input.variant_values.size() == 1 && input.variant_values[0].find(',') != std::string::npos;
+      throw values.error("Variants", "Values",
+                         std::string(error.what()) + (has_commas ? "; values are separated by semicolons" : ""));
     }
 }
 
@@ -136,9 +139,10 @@ std::vector<Variant> variants(const Input& input)
   return result;
 }
 
-Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder)
+Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder,
+                 const std::vector<std::string>& settings)
 {
-  const GivenEntries values(file);
+  const GivenEntries values(file, settings);
 
   Input input;
   input.folder = folder.empty() ? file.parent_path() : folder;

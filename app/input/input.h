@@ -75,8 +75,10 @@ struct Variant
 };
 
 /// Reads and checks a .prm or .json file. A mistake in it throws InputError, one line with file, line and entry.
-/// folder: what relative paths in it are relative to; its own folder if empty.
-Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {});
+/// folder: what relative paths in it are relative to; its own folder if empty. settings: Section/Entry = value each, in
+/// place of what the file says.
+Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {},
+                 const std::vector<std::string>& settings = {});
 
 /// How many grains genesis will pack.
 double expected_grains(const SpecimenParameters& specimen);

@@ -1,5 +1,6 @@
 #include "app/input/input_entries.h"
 
+#include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
@@ -76,12 +77,24 @@ std::string read_variant_entry(const std::string_view text)
 {
   if (text == none)
     return "";
-  const std::size_t slash = text.find('/');
-  const Parameter* parameter =
-    slash == std::string_view::npos ? nullptr : find_parameter(text.substr(0, slash), text.substr(slash + 1));
-  if (parameter == nullptr || !parameter->flags.varies)
-    throw InputError("is not an entry that can vary; write Section/Entry, e.g. Flat joint/Segments");
-  return std::string(text);
+  std::vector<std::string> names;      // of all that can vary
+  std::vector<std::string> with_entry; // of these, with this entry
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.name() == text && !parameter.flags.varies)
+      throw InputError("is one for all variants; it cannot vary");
+    else if (parameter.flags.varies)
+      {
+        names.push_back(parameter.name());
+        if (parameter.entry == text)
+          with_entry.push_back(parameter.name());
+      }
+  if (std::find(names.begin(), names.end(), text) != names.end())
+    return std::string(text);
+  if (!with_entry.empty())
+    throw InputError(fmt::format("lacks its section; write Section/Entry: {}", fmt::join(with_entry, " or ")));
+  const std::string nearest = suggestion(text, {names.begin(), names.end()});
+  throw InputError("is not an entry that can vary; write Section/Entry" +
+                   (nearest.starts_with("; there are") ? ", e.g. Flat joint/Segments" : nearest));
 }
 
 std::vector<std::string> read_variant_values(std::string_view text)
@@ -107,6 +120,9 @@ std::vector<std::uint64_t> read_seeds(const std::string_view text)
   for (const std::string_view piece : split_at_commas(text))
     {
       const std::size_t dots = piece.find("..");
+      if (const std::size_t dash = piece.find('-'); dash != std::string_view::npos && dash > 0)
+        throw InputError(fmt::format("{}: a range is written with two dots, {}..{}", in_quotes(piece),
+                                     excerpt(trim(piece.substr(0, dash))), excerpt(trim(piece.substr(dash + 1)))));
       const std::uint64_t first = parse_count(piece.substr(0, dots));
       const std::uint64_t last = dots == std::string_view::npos ? first : parse_count(piece.substr(dots + 2));
       if (last < first)

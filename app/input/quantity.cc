@@ -181,6 +181,8 @@ double parse_quantity(const std::string_view text, const Dimension& dimension)
 
 std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
 {
+  if (text.find(';') != std::string_view::npos)
+    throw InputError("numbers are separated by commas and the unit stands once, e.g. \"5, 10, 20 MPa\"");
   std::vector<std::string_view> numbers = split_at_commas(text);
   const std::string_view last = numbers.back();
   const std::size_t space = find_space(last, dimension);

@@ -2,7 +2,10 @@
 
 #include <csignal>
 
+#include <unistd.h>
+
 #include <atomic>
+#include <string_view>
 
 namespace feldspar
 {
@@ -12,11 +15,21 @@ namespace
 std::atomic<bool> was_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void note_interrupt(int) { was_interrupted = true; }
+std::atomic<bool> is_acknowledged = false;
+
+void note_interrupt(int)
+{
+  was_interrupted = true;
+  constexpr std::string_view answer =
+    "\nfeldspar: asked to end; what runs is kept first (a second signal ends at once)\n";
+  if (is_acknowledged && write(STDERR_FILENO, answer.data(), answer.size()) < 0)
+    is_acknowledged = false; // nobody listens
+}
 } // namespace
 
-void watch_for_interrupt()
+void watch_for_interrupt(const bool acknowledged)
 {
+  is_acknowledged = acknowledged;
   struct sigaction action = {};
   action.sa_handler = note_interrupt;
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);

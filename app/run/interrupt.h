@@ -12,7 +12,8 @@ struct Interrupted : std::exception
 
 /// From now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has it ignored) or SIGUSR1
 /// (which mpirun passes on without ending the run itself) only asks the run to end; the second ends it at once.
-void watch_for_interrupt();
+/// `acknowledged`: at once by a line on standard error.
+void watch_for_interrupt(bool acknowledged);
 
 /// Whether the run was asked to end.
 bool interrupted();

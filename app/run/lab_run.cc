@@ -4,6 +4,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
+#include "app/screen/test_board.h"
 #include "base/input_error.h"
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
@@ -11,8 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -68,78 +67,24 @@ std::vector<std::size_t> longest_first(const std::vector<PlannedTest<dim>>& plan
   return order;
 }
 
-/// Tells the progress how all running tests stand.
-template <int dim>
-class Board
+/// Magnitude of the strain rate [1/s].
+double strain_rate(const TestKind& kind, const TestParameters& tests)
 {
-public:
-  Board(Progress& shown, const std::vector<PlannedTest<dim>>& planned)
-    : progress(shown)
-  {
-    for (const auto& test : planned)
-      entries.push_back({&test, PeakWatch(test.test.kind.peak_rule)});
-    progress.start("tests");
-  }
+  return kind.envelope_role == EnvelopeRole::indirect_tension ? tests.brazilian_strain_rate
+         : kind.sign > 0.0                                    ? tests.tension_strain_rate
+                                                              : tests.compression_strain_rate;
+}
 
-  void update(const std::size_t k, const CurveSample& row)
-  {
-    const std::lock_guard lock(showing);
-    Entry& entry = entries[k];
-    const TestKind& kind = entry.planned->test.kind;
-    entry.row = row;
-    if (entry.peak.is_highest(kind.stress(row)))
-      entry.strain_at_peak = kind.strain(row);
-    // Only a curve that has left its peak tells where it will end.
-    const double stop = entry.planned->variant->input.tests.stop_strain_over_peak_strain;
-    entry.fraction = kind.stress(row) < 0.95 * entry.peak.highest
-                       ? std::min(1.0, kind.strain(row) / (stop * entry.strain_at_peak))
-                       : 0.0;
-    entry.running = true;
-    draw();
-  }
-
-  void finish(const std::size_t k)
-  {
-    const std::lock_guard lock(showing);
-    entries[k].running = false;
-    entries[k].fraction = 1.0;
-    ++n_finished;
-    draw();
-  }
-
-private:
-  struct Entry
-  {
-    const PlannedTest<dim>* planned;
-    PeakWatch peak;
-    CurveSample row{};
-    double strain_at_peak = 0.0;
-    double fraction = 0.0;
-    bool running = false;
-  };
-
-  void draw()
-  {
-    double sum = 0.0;
-    std::vector<ProgressDetail> details;
-    for (const auto& entry : entries)
-      {
-        sum += entry.fraction;
-        const TestKind& kind = entry.planned->test.kind;
-        if (entry.running)
-          details.push_back({entry.fraction, fmt::format("{}: {:.4f} %, {:.1f} MPa, {} cracks", entry.planned->name,
-                                                         100.0 * kind.strain(entry.row), kind.stress(entry.row) / 1e6,
-                                                         entry.row.n_tension_cracks + entry.row.n_shear_cracks)});
-      }
-    progress.update(sum > 0.0 ? sum / double(entries.size()) : std::numeric_limits<double>::quiet_NaN(),
-                    fmt::format("{} of {} done", n_finished, entries.size()), details);
-  }
-
-  Progress& progress;
-  std::mutex showing;
-  std::vector<Entry> entries;
-  std::size_t n_finished = 0;
-};
+/// Steps cost as the grains that they move, and a strain takes the more of them the lower its rate.
+template <int dim>
+std::vector<BoardTest> for_board(const std::vector<PlannedTest<dim>>& planned)
+{
+  std::vector<BoardTest> shown;
+  for (const auto& one : planned)
+    shown.push_back({one.name, one.test, &one.variant->input,
+                     double(one.specimen->grains.size()) / strain_rate(one.test.kind, one.variant->input.tests)});
+  return shown;
+}
 
 /// Of a test that could not be made.
 template <int dim>
@@ -206,7 +151,7 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   std::filesystem::create_directories(checkpoint_folder);
 
-  Board<dim> board(progress, planned);
+  TestBoard board(progress, for_board(planned));
   std::vector<std::optional<FinishedTest>> slots(planned.size());
   for_each_job(planned.size(), [&](const std::size_t position) {
     const std::size_t k = order[position];
@@ -215,7 +160,9 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     TestOutcome outcome;
     try
       {
-        outcome = run(planned[k], checkpoint_folder, [&](const CurveSample& row) { board.update(k, row); });
+        outcome = run(planned[k], checkpoint_folder, [&](const CurveSample& row) {
+          board.update(k, row, fmt::format(", {} cracks", row.n_tension_cracks + row.n_shear_cracks));
+        });
       }
     catch (const Interrupted&)
       {
@@ -225,6 +172,8 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
       {
         // One test that cannot be made must not cost the others.
         outcome = failure(planned[k], error.what());
+        if (planned.size() > 1) // else the run ends with it
+          board.say(fmt::format("{} cannot be made: {}", planned[k].name, error.what()));
       }
     board.finish(k);
     slots[k] = finished(std::move(outcome), planned[k].group, planned[k].name, planned[k].variant->label);
@@ -234,7 +183,12 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   for (auto& slot : slots)
     if (slot)
       tests.push_back(std::move(*slot));
-  progress.finish(fmt::format("{} of {} done", tests.size(), planned.size()));
+  const auto n_made =
+    std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.was_made(); });
+  const auto n_failed =
+    std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
+  progress.finish(
+    fmt::format("{} of {} done{}", n_made, planned.size(), n_failed > 0 ? fmt::format(", {} failed", n_failed) : ""));
   return tests;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "app/run/progress.h"
 #include "app/run/specimen_source.h"
+#include "app/screen/progress.h"
 #include "dem/specimen/specimen.h"
 #include "results/run.h"
 

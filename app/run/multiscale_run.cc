@@ -192,7 +192,7 @@ SampleTest open(const PlannedSample& planned, const Input& input, const std::fil
 }
 
 FinishedTest run_test(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
-                      const std::function<void(const std::string&)>& show)
+                      const SampleListener& show)
 {
   SampleTest test = open(planned, input, folder);
   CheckpointClock clock;
@@ -205,8 +205,8 @@ FinishedTest run_test(const PlannedSample& planned, const Input& input, const st
     if (ranks::any(interrupted()))
       throw Interrupted();
     if (standing.n_newton_iterations + standing.n_cascades > 0)
-      show(
-        fmt::format(", {} iterations and {} cascades in this step", standing.n_newton_iterations, standing.n_cascades));
+      show(nullptr, fmt::format(", {} iterations and {} cascades in this step", standing.n_newton_iterations,
+                                standing.n_cascades));
   };
   bool was_interrupted = false;
   std::string failure;
@@ -220,10 +220,9 @@ FinishedTest run_test(const PlannedSample& planned, const Input& input, const st
           });
           const CurveSample& row = test.last_row();
           const SampleStanding standing = test.standing();
-          show(fmt::format(": {:.4f} %, {:.1f} MPa, {} broken segments, {:.0f} % of the points damaged",
-                           100.0 * sign * row.axial_strain, sign * row.axial_stress / 1e6,
-                           row.n_tension_cracks + row.n_shear_cracks,
-                           100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
+          show(&row, fmt::format(", {} broken segments, {:.0f} % of points damaged",
+                                 row.n_tension_cracks + row.n_shear_cracks,
+                                 100.0 * double(standing.n_damaged_points) / double(standing.n_points)));
           if (sign * row.axial_strain >= double(test.n_fields_written()) * strain_between_fields || test.has_ended())
             test.write_fields(folder / "fields", planned.name);
           if (test.has_ended())

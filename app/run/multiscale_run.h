@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "app/run/progress.h"
+#include "app/screen/progress.h"
 #include "coupling/sample/sample_run.h"
 #include "dem/specimen/specimen.h"
 #include "results/run.h"
@@ -73,7 +73,10 @@ std::filesystem::path state_folder(const std::filesystem::path& folder, const Pl
 /// has it, else from the start.
 SampleTest open(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder);
 
-/// Runs a test to its end, or to Ctrl-C. `show` gets ": …" for every row and ", …" within one.
+/// Hears of every row of a test, and, with none, of the work between two rows; and what else is to be said.
+using SampleListener = std::function<void(const CurveSample* row, const std::string& more)>;
+
+/// Runs a test to its end, or to Ctrl-C.
 FinishedTest run_test(const PlannedSample& planned, const Input& input, const std::filesystem::path& folder,
-                      const std::function<void(const std::string&)>& show);
+                      const SampleListener& show);
 } // namespace feldspar

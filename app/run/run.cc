@@ -3,6 +3,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
 #include "app/run/run_record.h"
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 
@@ -67,7 +68,7 @@ int resume(const RunCommand& command, const CommonOptions& options)
   if (record.complete)
     {
       if (command.processes.is_first)
-        fmt::print("{}: this run is complete\n", options.resume->string());
+        print_result("{}: this run is complete\n", options.resume->string());
       return 0;
     }
   command.check(record.input, record.input_file);
@@ -77,7 +78,7 @@ int resume(const RunCommand& command, const CommonOptions& options)
 int begin(const RunCommand& command, const CommonOptions& options)
 {
   const Processes& processes = command.processes;
-  const Input input = read_input(options.input);
+  const Input input = read_input(options.input, {}, options.settings);
   command.check(input, options.input);
   // The first process makes the folder and begins the record of the run; the others learn its name.
   std::optional<OutputFolder> made;
@@ -88,7 +89,7 @@ int begin(const RunCommand& command, const CommonOptions& options)
     remove_run(made->path()); // with --force: what an earlier run left would be taken for this one's
     try
       {
-        write_run_record(command.name, options.input, made->path());
+        write_run_record(command.name, options.input, options.settings, made->path());
       }
     catch (const OutputError&)
       {
@@ -114,7 +115,7 @@ int run_command(const RunCommand& command, const CommonOptions& options)
   if (options.input.empty() && !options.resume)
     throw InputError(
       fmt::format("{0} needs an INPUT, or --resume with the folder of a run; see feldspar {0} --help", command.name));
-  watch_for_interrupt();
+  watch_for_interrupt(command.processes.is_first && !options.quiet);
   return options.resume ? resume(command, options) : begin(command, options);
 }
 } // namespace feldspar

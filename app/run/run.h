@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// A run in its folder: begun or taken up, ended by its end, by Ctrl-C or by an error; the same for every command that
 /// runs long.
@@ -23,6 +24,7 @@ inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 struct CommonOptions
 {
   std::filesystem::path input;
+  std::vector<std::string> settings;           ///< Section/Entry = value each, in place of what the input says
   std::optional<std::filesystem::path> resume; ///< of `lab`, `rve`, `multiscale`: the folder of a run to be taken up
   std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
   std::optional<std::filesystem::path> output;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -30,6 +31,7 @@ struct Contents
   std::string command;
   std::filesystem::path input_file;
   std::filesystem::path relative_to; ///< the folder of the input
+  std::vector<std::string> settings;
   bool complete;
 };
 
@@ -39,6 +41,7 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["command"] = contents.command;
   json["input_file"] = contents.input_file.string();
   json["relative_to"] = contents.relative_to.string();
+  json["settings"] = contents.settings;
   json["complete"] = contents.complete;
   write_whole_file(folder / record_name, json.dump(2) + "\n");
 }
@@ -55,18 +58,26 @@ Contents read(const std::filesystem::path& folder)
       !holds("complete", Type::boolean))
     throw InputError(fmt::format("--resume {}: not the folder of a run; {} is missing in it or damaged",
                                  folder.string(), record_name));
+  std::vector<std::string> settings;
+  if (json.contains("settings")) // not in the folders of before there were any
+    {
+      const auto& all = json["settings"];
+      if (!all.is_array() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
+        throw InputError(fmt::format("--resume {}: the settings in {} are damaged", folder.string(), record_name));
+      settings = all.get<std::vector<std::string>>();
+    }
   return {json["command"].get<std::string>(), json["input_file"].get<std::string>(),
-          json["relative_to"].get<std::string>(), json["complete"].get<bool>()};
+          json["relative_to"].get<std::string>(), settings, json["complete"].get<bool>()};
 }
 } // namespace
 
 void write_run_record(const std::string& command, const std::filesystem::path& input_file,
-                      const std::filesystem::path& folder)
+                      const std::vector<std::string>& settings, const std::filesystem::path& folder)
 {
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_whole_file(copy_of_input(folder, input_file), text);
-  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), false});
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, false});
 }
 
 std::string run_identity(const Input& input, const std::string& part)
@@ -105,7 +116,7 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
   if (contents.command != command)
     throw InputError(
       fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
-  return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to), contents.input_file,
-          contents.complete};
+  return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings),
+          contents.input_file, contents.complete};
 }
 } // namespace feldspar

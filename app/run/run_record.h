@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -15,9 +16,10 @@ struct RunRecord
   bool complete = false;            ///< nothing is left to be resumed
 };
 
-/// Puts a copy of the input, where it came from and the command that reads it into the run's folder.
+/// Puts a copy of the input, where it came from, the settings in place of its entries and the command that reads it into
+/// the run's folder.
 void write_run_record(const std::string& command, const std::filesystem::path& input_file,
-                      const std::filesystem::path& folder);
+                      const std::vector<std::string>& settings, const std::filesystem::path& folder);
 
 /// Of a checkpoint of one part of a run: program, part and every parameter.
 std::string run_identity(const Input& input, const std::string& part);

@@ -1,9 +1,9 @@
 #include "app/run/specimen_source.h"
 
 #include "app/input/parameter_table.h"
+#include "app/run/genesis_effort.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
-#include "app/run/memory.h"
 #include "base/input_error.h"
 #include "dem/genesis/genesis.h"
 #include "dem/specimen/specimen_file.h"
@@ -27,6 +27,70 @@ std::string rock(const Input& input)
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
 }
+
+/// Tells the progress how far genesis is, by its steps and those that it will probably take.
+class GenesisBoard
+{
+public:
+  GenesisBoard(Progress& shown, const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+    : progress(shown)
+  {
+    for (const SpecimenOrder& order : orders)
+      entries.push_back({expected_effort(variants[order.variants.front()].input.specimen)});
+    progress.start("genesis");
+  }
+
+  void step(const std::size_t k)
+  {
+    constexpr std::uint64_t steps_between_looks = 100;
+    if (++entries[k].n_steps % steps_between_looks == 0)
+      draw(k);
+  }
+
+  void finish(const std::size_t k)
+  {
+    entries[k].finished = true;
+    draw(k);
+  }
+
+  /// A sentence that stays.
+  void say(const std::string& sentence)
+  {
+    const std::lock_guard lock(showing);
+    progress.note(sentence);
+  }
+
+private:
+  struct Entry
+  {
+    GenesisEffort expected;
+    std::uint64_t n_steps = 0; ///< of its own thread, which alone looks at it
+    double share = 0.0;
+    bool finished = false;
+  };
+
+  void draw(const std::size_t k)
+  {
+    const std::lock_guard lock(showing);
+    constexpr double beyond = 1.2; // of one that takes longer than expected
+    const double n = double(entries[k].n_steps);
+    entries[k].share = entries[k].finished ? 1.0 : n / std::max({entries[k].expected.n_steps, beyond * n, 1.0});
+    double spent = 0.0;
+    double all = 0.0;
+    std::size_t n_finished = 0;
+    for (const Entry& entry : entries)
+      {
+        spent += entry.share * entry.expected.seconds;
+        all += entry.expected.seconds;
+        n_finished += entry.share == 1.0;
+      }
+    progress.update(all > 0.0 ? spent / all : 1.0, fmt::format("{} of {} done", n_finished, entries.size()));
+  }
+
+  Progress& progress;
+  std::mutex showing;
+  std::vector<Entry> entries;
+};
 
 /// Parameters of the joint law that the input names.
 JointParameters joint_parameters(const Input& input)
@@ -74,19 +138,14 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
                                              const std::filesystem::path& folder, Progress& progress)
 {
   check_memory(variants, orders);
+  if (const std::string effort = describe_effort(variants, orders); !effort.empty())
+    progress.remark(effort);
   std::vector<Specimen<dim>> specimens(orders.size());
-  std::vector<double> done(orders.size(), 0.0);
-  std::mutex showing;
-  progress.start("genesis");
+  GenesisBoard board(progress, variants, orders);
   for_each_job(orders.size(), [&](const std::size_t k) {
-    const auto monitor = [&](std::string_view, const double fraction) {
+    const auto step = [&] {
       end_if_interrupted();
-      const std::lock_guard lock(showing);
-      done[k] = fraction;
-      double sum = 0.0;
-      for (const double share : done)
-        sum += share / double(done.size());
-      progress.update(sum, fmt::format("{} specimen(s)", done.size()));
+      board.step(k);
     };
     const Input& input = variants[orders[k].variants.front()].input;
     const auto file = folder / (orders[k].name + ".h5");
@@ -94,17 +153,20 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
       try
         {
           specimens[k] = read_specimen<dim>(file);
+          board.finish(k);
           return;
         }
       catch (const InputError& error)
         {
-          fmt::print(stderr, "feldspar: {}; making it anew\n", error.what());
+          board.say(fmt::format("{}; making it anew", error.what()));
         }
     specimens[k] = input.specimen.specimen_file.empty()
-                     ? make_specimen<dim>(input.specimen, joint_parameters(input), input.particle_contact,
-                                          orders[k].seed, monitor, end_if_interrupted)
+                     ? make_specimen<dim>(
+                         input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
+                         [](std::string_view, double) {}, step)
                      : read_specimen<dim>(input.specimen.specimen_file);
     write_specimen(specimens[k], file);
+    board.finish(k);
   });
   progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
   return specimens;

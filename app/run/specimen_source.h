@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "app/run/progress.h"
+#include "app/screen/progress.h"
 #include "dem/specimen/specimen.h"
 
 #include <filesystem>

@@ -58,10 +58,30 @@ fem::SampleMesh<dim> made_mesh(const SampleParameters& sample)
     return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height, divisions, 0);
 }
 
+double metres(const MeshUnit unit)
+{
+  return unit == MeshUnit::centimetre ? 1e-2 : unit == MeshUnit::millimetre ? 1e-3 : 1.0;
+}
+
+/// Refuses a sample that no laboratory can test, where the unit of its mesh is not said.
+template <int dim>
+void check_size(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample)
+{
+  constexpr double largest = 3.0; // a mesh of a usual core in centimetres is beyond it
+  const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
+  const double width = box.side_length(0);
+  const double height = box.side_length(dim - 1);
+  if (sample.mesh_unit == MeshUnit::not_said && std::max(width, height) > largest)
+    throw fem::MeshError(fmt::format("in metres the mesh is {:g} m wide and {:g} m high; if its coordinates are in "
+                                     "another unit, set Mesh unit = mm (or cm), if it is so large, Mesh unit = m",
+                                     width, height));
+}
+
 template <int dim>
 fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
 {
-  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0);
+  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0, metres(sample.mesh_unit));
+  check_size(mesh, sample);
   for (const std::string& boundary : boundaries_of(sample.geometry))
     mesh.boundary(boundary);
   if (sample.geometry == SampleGeometry::axisymmetric)

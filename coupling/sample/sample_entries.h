@@ -28,10 +28,16 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
                         "at the points of the sample of `feldspar multiscale`: the representative volume, or, for "
                         "comparison, what Continuum says"),
           entry::file("Mesh file", &P::mesh_file,
-                      "of Gmsh (format 2 or 4, text), in metres, instead of Width, Height and both Elements: "
+                      "of Gmsh (format 2 or 4, text), instead of Width, Height and both Elements: "
                       "quadrilaterals with the lines of the physical groups left, right, bottom and top, in r-z "
                       "axis, side, bottom and top with the axis at x = 0, or hexahedra about x = y = 0 along z "
                       "with the surfaces side, bottom and top"),
+          entry::choice("Mesh unit", &P::mesh_unit,
+                        {{"none", MeshUnit::not_said},
+                         {"m", MeshUnit::metre},
+                         {"cm", MeshUnit::centimetre},
+                         {"mm", MeshUnit::millimetre}},
+                        "in which the coordinates of the mesh file count; none: metres, of a sample of at most 3 m"),
           entry::quantity("Width", &P::width, Measure::length, "mm", ranges::above_zero,
                           "of the sample of `feldspar multiscale`; of a cylinder its diameter"),
           entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,

@@ -30,6 +30,15 @@ enum class WeakSeed
   element ///< of that row, the one outermost along x or r
 };
 
+/// In which the coordinates of a mesh file count.
+enum class MeshUnit
+{
+  not_said, ///< metres, of a sample that fits a laboratory
+  metre,
+  centimetre,
+  millimetre
+};
+
 /// Of the volumes at its points.
 constexpr unsigned int dimension_of_volumes(const SampleGeometry geometry)
 {
@@ -52,7 +61,8 @@ struct SampleParameters
 {
   SampleGeometry geometry = SampleGeometry::plane;
   SampleMaterial material = SampleMaterial::grains;
-  std::string mesh_file;            ///< of Gmsh; empty: a rectangle or a cylinder
+  std::string mesh_file; ///< of Gmsh; empty: a rectangle or a cylinder
+  MeshUnit mesh_unit = MeshUnit::not_said;
   double width = 0.050;             ///< of the rectangle, diameter of the cylinder [m]
   double height = 0.100;            ///< along the axis of the test [m]
   unsigned int elements_across = 2; ///< over the width; axisymmetric: over the radius

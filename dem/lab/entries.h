@@ -19,6 +19,9 @@ inline std::vector<Entry<TestParameters>> test_entries()
   const EntryFlags of_box{.varies = true,
                           .bodies = {Body::box},
                           .needs = "presses on two sides of a box of grains in space: Shape = box, Dimension = 3"};
+  const EntryFlags in_space{.varies = true,
+                            .bodies = {Body::box, Body::cylinder},
+                            .needs = "is the length of a disc in space, Dimension = 3; in the plane discs have none"};
   const Range sampling{'(', 0.0, 0.01, ']'}; // a curve of two rows to the peak tells nothing
   return {
     entry::quantity("Compression strain rate", &P::compression_strain_rate, Measure::rate, "1/s", ranges::above_zero,
@@ -48,7 +51,7 @@ inline std::vector<Entry<TestParameters>> test_entries()
       "the confinement",
       of_box),
     entry::number("Brazilian length ratio", &P::brazilian_length_ratio, ranges::above_zero,
-                  "length of the disc over its diameter, in three dimensions", varies),
+                  "length of the disc over its diameter, in three dimensions", in_space),
     entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen",
                   varies),
     entry::number("Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},

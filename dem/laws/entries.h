@@ -13,13 +13,22 @@ inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
 {
   using P = FlatJointParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  const EntryFlags in_plane{.varies = true,
+                            .of_specimen = true,
+                            .bodies = {Body::plane_box, Body::sample},
+                            .needs =
+                              "divides a face between discs; of spheres (Dimension = 3) it is Rings and Sectors"};
+  const EntryFlags in_space{.varies = true,
+                            .of_specimen = true,
+                            .bodies = {Body::box, Body::cylinder, Body::sample},
+                            .needs = "divides a face between spheres (Dimension = 3); of discs it is Segments"};
   return {
     entry::integer("Segments", &P::n_segments, {'[', 1.0, 32.0, ']'},
-                   "of a face in two dimensions, each of which breaks by itself", of_rock),
+                   "of a face in two dimensions, each of which breaks by itself", in_plane),
     entry::integer("Rings", &P::n_rings, {'[', 1.0, 16.0, ']'}, "of a face in three dimensions, of equal width",
-                   of_rock),
+                   in_space),
     entry::integer("Sectors", &P::n_sectors, {'[', 3.0, 32.0, ']'},
-                   "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself", of_rock),
+                   "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself", in_space),
     entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
                     "E; the normal stiffness is E over the sum of both radii", of_rock),
     entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", of_rock),

@@ -202,7 +202,7 @@ private:
       words.refuse(fmt::format("format {} of Gmsh; 2.2, 4.0 and 4.1 can be read", excerpt(version)));
     format = found->second;
     if (words.next() != "0")
-      words.refuse("a binary file; a text file can be read");
+      words.refuse("a binary file; write it as text: gmsh MESH.msh -save -format msh41 -o TEXT.msh");
     words.expect("8");
     words.expect("$EndMeshFormat");
   }

@@ -194,7 +194,7 @@ std::map<std::string, types::boundary_id> physical_names(std::istream& file, con
 
 template <int dim>
 SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
-                          const unsigned int n_refinements)
+                          const unsigned int n_refinements, const double unit)
 {
   const std::string name = file.string();
   std::ifstream opened(file);
@@ -249,6 +249,8 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
                         dim == 2 ? fmt::format(", {:g}", cell->center()[1])
                                  : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
     }
+  if (unit != 1.0)
+    GridTools::scale(unit, coarse);
   mesh.triangulation->copy_triangulation(coarse);
   mesh.triangulation->refine_global(n_refinements);
   return mesh;
@@ -256,6 +258,6 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
 
 template struct SampleMesh<2>;
 template struct SampleMesh<3>;
-template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int);
-template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int);
+template SampleMesh<2> read_gmsh<2>(MPI_Comm, const std::filesystem::path&, unsigned int, double);
+template SampleMesh<3> read_gmsh<3>(MPI_Comm, const std::filesystem::path&, unsigned int, double);
 } // namespace feldspar::fem

@@ -85,9 +85,9 @@ public:
       }
   }
 
-  /// From `begin` to the end of the plot, which must be known.
-  void add_curve(const std::function<double(double)>& sigma_1, const double begin, const std::string& looks,
-                 const std::string& label)
+  /// Between two confinements.
+  void add_curve(const std::function<double(double)>& sigma_1, const double begin, const double end,
+                 const std::string& looks, const std::string& label)
   {
     std::string rows;
     constexpr int n = 300;
@@ -96,11 +96,19 @@ public:
         // Closer where the curve bends: near its beginning.
         const double share = std::pow(double(k) / n, 4.0);
         const double inside = begin + 1e-12 * std::abs(begin); // at its beginning the bracket is 0, or just below it
-        const double sigma_3 = inside + (highest_3 * 1.03 - inside) * share;
+        const double sigma_3 = inside + (end - inside) * share;
         if (const double value = sigma_1(sigma_3); std::isfinite(value))
           fmt::format_to(std::back_inserter(rows), "{} {}\n", sigma_3 / mega, value / mega);
       }
     first.push_back(fmt::format("{} using 1:2 with lines {} {}", add_data(rows), looks, title(label)));
+  }
+
+  /// As far as its points go, beyond which nothing is known of it.
+  template <typename Fit>
+  void add_fit(const Fit& fit, const std::string& looks, const std::string& label)
+  {
+    add_curve([&](const double x) { return fit.sigma_1(x); }, fit.quality.lowest_sigma_3(),
+              fit.quality.highest_sigma_3(), looks, label);
   }
 
   void add_reference(const Reference& reference)
@@ -109,10 +117,11 @@ public:
       const auto value = reference.experiment.find(key);
       if (!value)
         return;
-      const double low = value->low.value_or(value->mean);
-      const double high = value->high.value_or(value->mean);
-      const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -value->mean, -high, -low)
-                                                 : fmt::format("0 {} {} {}\n", value->mean, low, high));
+      const double middle = value->middle();
+      const double low = value->low.value_or(middle);
+      const double high = value->high.value_or(middle);
+      const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -middle, -high, -low)
+                                                 : fmt::format("0 {} {} {}\n", middle, low, high));
       later.push_back(fmt::format("{} using 1:2:3:4 with {} pt 8 ps 1.1 lw 2.2 lc rgb '{}' {}", block,
                                   tension ? "xerrorbars" : "yerrorbars", black,
                                   title(tension ? "" : reference.experiment.label + ": mean, range")));
@@ -124,14 +133,36 @@ public:
     draw_strengths(reference.model, "pt 4 ps 0.9 lw 1.2 lc rgb '" + std::string(grey) + "'");
   }
 
-  void add_printed(const Reference& reference)
+  /// What a source prints without its points, from its beginning to the end of the plot, which must be known.
+  void add_printed(const ReferenceSource& source, const char* of_colour)
   {
-    if (reference.model.envelope)
-      {
-        const PrintedEnvelope& printed = *reference.model.envelope;
-        add_curve([&](const double x) { return printed.sigma_1(x); }, -printed.s * printed.sigma_ci / printed.m,
-                  fmt::format("lw 1.4 dt 3 lc rgb '{}'", grey), reference.model.label + ", printed");
-      }
+    if (const auto& printed = source.envelope)
+      add_curve([&](const double x) { return printed->sigma_1(x); }, -printed->s * printed->sigma_ci / printed->m,
+                highest_3, fmt::format("lw 1.4 dt 3 lc rgb '{}'", of_colour), source.label + ", printed");
+    if (const auto line = source.line())
+      add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, highest_3,
+                fmt::format("lw 1.4 dt 4 lc rgb '{}'", of_colour), source.label + ": c and φ, printed");
+  }
+
+  /// The curve through the points of the experiment.
+  void add_fit_of(const ReferenceSource& experiment)
+  {
+    for (const auto& pair : experiment.fitted.hoek_brown)
+      if (pair.form == HoekBrownForm::intact)
+        {
+          const auto& best = pair.with_tension_point.fit ? pair.with_tension_point.fit : pair.without_tension_point.fit;
+          if (best && best->quality.degrees_of_freedom > 0)
+            add_fit(
+              *best, fmt::format("lw 1.6 dt 2 lc rgb '{}'", black),
+              fmt::format("{}: H–B intact, {} σ_t", experiment.label, best->with_tension_point ? "with" : "without"));
+        }
+  }
+
+  void add_rock_curves(const Reference& reference)
+  {
+    add_fit_of(reference.experiment);
+    add_printed(reference.experiment, black);
+    add_printed(reference.model, grey);
   }
 
   void add_cut_off(const double sigma_3)
@@ -205,20 +236,19 @@ void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
                                : pair.form == HoekBrownForm::as_paper ? "H–B as the paper = general"
                                                                       : "H–B general";
       for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
-        if (answer->fit)
+        if (answer->fit && answer->fit->quality.degrees_of_freedom > 0)
           {
             const HoekBrownFit& fit = *answer->fit;
-            plotted.add_curve(
-              [&](const double x) { return fit.sigma_1(x); }, fit.tensile_cut_off.value,
+            plotted.add_fit(
+              fit,
               fmt::format("lw 2 dt {} lc rgb '{}'", fit.with_tension_point ? 1 : 2, is_intact ? green : vermillion),
               name + (fit.with_tension_point ? ", with σ_t" : ", without σ_t"));
             if (is_intact && fit.with_tension_point)
               plotted.add_cut_off(fit.tensile_cut_off.value);
           }
     }
-  if (const auto& fit = envelopes.mohr_coulomb.fit)
-    plotted.add_curve([&](const double x) { return fit->sigma_1(x); }, 0.0,
-                      fmt::format("lw 1.8 dt 4 lc rgb '{}'", purple), "Mohr–Coulomb");
+  if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
+    plotted.add_fit(*fit, fmt::format("lw 1.8 dt 4 lc rgb '{}'", purple), "Mohr–Coulomb");
 }
 } // namespace
 
@@ -233,7 +263,7 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
     return {};
   add_fits(plotted, envelopes);
   if (reference)
-    plotted.add_printed(*reference);
+    plotted.add_rock_curves(*reference);
   const std::string of_series = all.size() > 1 ? fmt::format("_{}", file_name(all[which].label)) : "";
   std::vector<Picture> pictures;
   pictures.push_back(
@@ -274,13 +304,12 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
     return {};
   for (std::size_t n = 0; n < all.size(); ++n)
     for (const auto& pair : envelopes[n].hoek_brown)
-      if (pair.form == HoekBrownForm::intact && pair.with_tension_point.fit)
-        {
-          const HoekBrownFit& fit = *pair.with_tension_point.fit;
-          plotted.add_curve([&](const double x) { return fit.sigma_1(x); }, fit.tensile_cut_off.value,
-                            fmt::format("lw 2 dt {} lc rgb '{}'", dashes(n), colour(all[n], n)),
-                            all[n].label + ": H–B intact, with σ_t");
-        }
+      if (const auto& fit = pair.with_tension_point.fit;
+          pair.form == HoekBrownForm::intact && fit && fit->quality.degrees_of_freedom > 0)
+        plotted.add_fit(*fit, fmt::format("lw 2 dt {} lc rgb '{}'", dashes(n), colour(all[n], n)),
+                        all[n].label + ": H–B intact, with σ_t");
+  if (reference)
+    plotted.add_fit_of(reference->experiment);
   return {{.name = "envelopes",
            .caption = "Strength of all series",
            .alternative = "Strength against confinement of all series, each with the intact Hoek–Brown envelope.",
@@ -308,14 +337,14 @@ std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelo
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;
       for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
-        if (answer->fit)
+        if (answer->fit && answer->fit->quality.degrees_of_freedom > 0)
           add(answer->fit->quality,
               fmt::format("{}, {} σ_t", is_intact ? "intact" : "as the paper = general",
                           answer->fit->with_tension_point ? "with" : "without"),
               fmt::format("lw 1.6 dt {} pt {} ps 0.7 lc rgb '{}'", answer->fit->with_tension_point ? 1 : 2,
                           is_intact ? 7 : 5, is_intact ? green : vermillion));
     }
-  if (const auto& fit = envelopes.mohr_coulomb.fit)
+  if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
     add(fit->quality, "Mohr–Coulomb", fmt::format("lw 1.6 dt 4 pt 9 ps 0.7 lc rgb '{}'", purple));
   if (n == 0)
     return {};

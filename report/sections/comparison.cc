@@ -1,5 +1,6 @@
 #include "report/sections/comparison.h"
 
+#include "results/fits/mohr_coulomb.h"
 #include "results/test_groups.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace feldspar
@@ -30,6 +32,20 @@ std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, 
     if (is_wanted(test.record) && (test.results.*figure).value)
       values[test.record.seed] = *(test.results.*figure).value;
   return values;
+}
+
+/// Of each seed with more points of compression than such a line has parameters.
+std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::uint64_t, StrengthData> data;
+  for (const auto& test : tests)
+    if (test.record.envelope_role() == EnvelopeRole::compression && test.results.peak_stress.value)
+      data[test.record.seed].points.push_back({test.record.confining_pressure, *test.results.peak_stress.value});
+  std::map<std::uint64_t, MohrCoulombFit> lines;
+  for (const auto& [seed, points] : data)
+    if (const auto line = fit_mohr_coulomb(points).fit; line && line->quality.degrees_of_freedom > 0)
+      lines[seed] = *line;
+  return lines;
 }
 
 std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
@@ -55,9 +71,9 @@ std::string strength_key(const TestGroup& group)
 
 std::optional<double> ComparisonRow::deviation() const
 {
-  if (!ours || !experiment || experiment->mean == 0.0)
+  if (!ours || !experiment || experiment->mean.value_or(0.0) == 0.0)
     return std::nullopt;
-  return ours->mean / experiment->mean - 1.0;
+  return ours->mean / *experiment->mean - 1.0;
 }
 
 std::optional<bool> ComparisonRow::in_range() const
@@ -122,6 +138,20 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
       "crack_damage_stress_MPa");
 
+  const auto envelopes = lines_by_seed(tests);
+  const auto of_lines = [&](Estimate MohrCoulombFit::*estimate) {
+    std::map<std::uint64_t, double> values;
+    for (const auto& [seed, line] : envelopes)
+      values[seed] = (line.*estimate).value;
+    return values;
+  };
+  if (!envelopes.empty() || (reference && reference->experiment.line()))
+    {
+      add("friction angle, Mohr-Coulomb", "deg", 1, std::numbers::pi / 180.0, of_lines(&MohrCoulombFit::friction_angle),
+          "friction_angle_deg");
+      add("cohesion, Mohr-Coulomb", "MPa", 1, 1e6, of_lines(&MohrCoulombFit::cohesion), "cohesion_MPa");
+    }
+
   // Then the strengths by the other tests, each under each of its pressures.
   std::vector<std::pair<TestGroup, std::map<std::uint64_t, double>>> others;
   for (const auto& test : tests)
@@ -147,10 +177,16 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
   const auto number = [&](const double x) { return fmt::format("{:.{}f}", x, row.decimals); };
   if (!value)
     return "-";
-  std::string text = number(value->mean);
-  if (value->low && value->high)
-    text += fmt::format(" ({} to {})", number(*value->low), number(*value->high));
-  return text;
+  const std::string range =
+    value->low && value->high ? fmt::format("{} to {}", number(*value->low), number(*value->high)) : "";
+  if (!value->mean)
+    return range;
+  std::string text = number(*value->mean);
+  if (value->standard_deviation)
+    text += fmt::format(" ± {}", number(*value->standard_deviation));
+  if (value->n)
+    text += fmt::format(", n = {}", *value->n);
+  return range.empty() ? text : fmt::format("{} ({})", text, range);
 }
 
 std::string as_text(const std::vector<ComparisonRow>& rows)

@@ -28,6 +28,12 @@ std::string with_symbols(std::string text)
   return text;
 }
 
+/// Without freedom there is nothing to be judged.
+std::string verdict_on(const FitQuality& quality, const std::string& otherwise)
+{
+  return quality.degrees_of_freedom > 0 ? otherwise : "no more points than parameters: not drawn";
+}
+
 Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
 {
   const auto& measured = envelopes.data;
@@ -64,14 +70,14 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
            estimate(fit.uniaxial_compressive_strength, mega, 1) +
              beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
            number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength),
-           fit.s.value > 1.0005 ? "✗ s > 1" : "✓"});
+           verdict_on(fit.quality, fit.s.value > 1.0005 ? "✗ s > 1" : "✓")});
       }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     table.rows.push_back({"Mohr–Coulomb", none, none, none, none, number(fit->quality.r_squared, 1.0, 4),
                           number(fit->quality.root_mean_square / mega, 1),
                           estimate(fit->uniaxial_strength, mega, 1) +
                             beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
-                          none, "✓"});
+                          none, verdict_on(fit->quality, "✓")});
   else
     table.rows.push_back({"Mohr–Coulomb", "no fit: " + envelopes.mohr_coulomb.reason, "", "", "", "", "", "", "", ""});
   return table;
@@ -112,10 +118,24 @@ std::string remark_on_printed(const ReferenceSource& source)
   const double fitted = source.envelope->sigma_1(0.0) / mega;
   std::string text = fmt::format(
     "{}: the printed envelope has s = {:.2f} and says {:.0f} MPa at σ₃ = 0, where its own tests gave {:.0f} MPa",
-    source.label, source.envelope->s, fitted, measured->mean);
+    source.label, source.envelope->s, fitted, measured->middle());
   if (source.envelope->s > 1.0)
     text += ": with s > 1 the strength σ_ci·sᵃ at σ₃ = 0 exceeds σ_ci";
   return text + ".";
+}
+/// The envelopes of the experiment's own points; empty where it has fewer than two.
+PageBlock experiment_block(const ReferenceSource& experiment)
+{
+  PageBlock block;
+  if (experiment.fitted.data.points.size() < 2)
+    return block;
+  block.subheading = experiment.label + ": fits of its own points";
+  block.tables.push_back(fit_table(experiment.fitted, "envelopes_experiment"));
+  if (const auto& fit = experiment.fitted.mohr_coulomb.fit)
+    block.paragraphs.push_back(fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa.",
+                                           estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
+                                           estimate(fit->cohesion, mega, 1)));
+  return block;
 }
 } // namespace
 
@@ -145,6 +165,8 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (n == 0 && findings.reference)
         if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
           block.paragraphs.push_back(printed);
+      block.paragraphs.push_back("Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
+                                 "has more points than parameters.");
       block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
       section.blocks.push_back(block);
       PageBlock figures;
@@ -164,6 +186,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (!residuals.pictures.empty())
         section.blocks.push_back(residuals);
     }
+  if (findings.reference)
+    if (PageBlock block = experiment_block(findings.reference->experiment); !block.tables.empty())
+      section.blocks.push_back(std::move(block));
   return section;
 }
 } // namespace feldspar

@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
 namespace feldspar
 {
@@ -69,6 +72,44 @@ Table test_table(const Findings& findings, const bool all_figures)
             }
         table.rows.push_back(row);
       }
+  return table;
+}
+
+Table specimen_table(const Series& series)
+{
+  Table table{"specimens",
+              fmt::format("{}. Tests run at the same time, so that the sum of their times exceeds that of the run",
+                          series.kind == SeriesKind::specimens
+                            ? "Specimens"
+                            : "Representative volumes at the points, the first of each seed"),
+              {"seed", "grains", "joints", "coordination number", "in the core", "gap ratio", "porosity",
+               "mean overlap / radius", "width / mean diameter", "radii over those of the input", "tests made", "steps",
+               "sum of the times of the tests [s]"},
+              {}};
+  std::map<std::uint64_t, std::vector<const FinishedTest*>> made;
+  for (const auto& test : series.tests)
+    if (test.record.failure.empty())
+      made[test.record.seed].push_back(&test);
+  for (const auto& [seed, tests] : made)
+    {
+      std::uint64_t steps = 0;
+      double time = 0.0;
+      for (const auto* test : tests)
+        {
+          steps += test->bookkeeping.steps;
+          time += test->bookkeeping.wall_time;
+        }
+      const SpecimenReport& report = tests.front()->record.specimen;
+      const auto number = [](const double value, const int decimals) {
+        return std::isfinite(value) ? text::number(value, decimals) : std::string(none);
+      };
+      table.rows.push_back({fmt::format("{}", seed), fmt::format("{}", report.n_grains),
+                            fmt::format("{}", report.n_joints), number(report.coordination_number, 3),
+                            number(report.coordination_number_core, 3), number(report.installation_gap_ratio, 4),
+                            number(report.porosity, 4), number(report.mean_overlap_ratio, 5),
+                            number(report.resolution, 1), number(report.radius_multiplier, 4),
+                            fmt::format("{}", tests.size()), fmt::format("{}", steps), number(time, 0)});
+    }
   return table;
 }
 } // namespace feldspar

@@ -3,7 +3,7 @@
 #include "base/append.h"
 #include "report/sections/provenance.h"
 #include "report/sections/test_tables.h"
-#include "report/sections/trust.h"
+#include "results/trust.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,8 @@ Table check_table(const Series& series, const std::string& name)
 {
   Table table{name, "Checks over all tests", {"measure", "bound", "mean", "worst", "within"}, {}};
   for (const auto& check : trust_checks(series))
-    table.rows.push_back({check.measure, check.bound, check.mean, check.worst,
+    table.rows.push_back({std::string(check.measure.title), check.measure.bound_text(), check.measure.text(check.mean),
+                          fmt::format("{} ({})", check.measure.text(check.worst), check.worst_test),
                           check.n_out == 0 ? fmt::format("✓ all {}", check.n_tests)
                                            : fmt::format("✗ {} of {} out", check.n_out, check.n_tests)});
   return table;

@@ -2,8 +2,8 @@
 
 #include "report/pictures/plot_style.h"
 #include "report/sections/comparison_table.h"
-#include "report/sections/trust.h"
 #include "report/sections/verdict.h"
+#include "results/trust.h"
 
 #include <fmt/format.h>
 

@@ -5,12 +5,29 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace feldspar
 {
-FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1)
+namespace
+{
+bool has_less_confinement(const PointResidual& a, const PointResidual& b) { return a.point.sigma_3 < b.point.sigma_3; }
+} // namespace
+
+double FitQuality::lowest_sigma_3() const
+{
+  return std::min_element(residuals.begin(), residuals.end(), has_less_confinement)->point.sigma_3;
+}
+
+double FitQuality::highest_sigma_3() const
+{
+  return std::max_element(residuals.begin(), residuals.end(), has_less_confinement)->point.sigma_3;
+}
+
+FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1,
+                   const int n_parameters)
 {
   const double n = double(points.size());
   double mean = 0.0;
@@ -18,6 +35,7 @@ FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<d
     mean += point.sigma_1 / n;
 
   FitQuality result;
+  result.degrees_of_freedom = int(points.size()) - n_parameters;
   double squares = 0.0;
   double squares_about_mean = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -28,7 +46,9 @@ FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<d
       squares_about_mean += (points[i].sigma_1 - mean) * (points[i].sigma_1 - mean);
     }
   result.root_mean_square = std::sqrt(squares / n);
-  if (squares_about_mean > 0.0)
+  if (result.degrees_of_freedom < 1)
+    result.r_squared.reason = "there are no more points than parameters";
+  else if (squares_about_mean > 0.0)
     result.r_squared.value = 1.0 - squares / squares_about_mean;
   else
     result.r_squared.reason = "sigma_1 is the same at every point";

@@ -51,12 +51,18 @@ struct PointResidual
 /// How near the envelope comes to its points, in sigma_1.
 struct FitQuality
 {
-  Figure r_squared;
+  int degrees_of_freedom;  ///< points less parameters; 0: any such envelope meets its points, which proves nothing
+  Figure r_squared;        ///< none without freedom
   double root_mean_square; ///< of the residuals [Pa]
   std::vector<PointResidual> residuals;
+
+  /// The least and the largest sigma_3 of the points; an envelope is known between them.
+  double lowest_sigma_3() const;
+  double highest_sigma_3() const;
 };
 
-FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1);
+FitQuality quality(const std::vector<EnvelopePoint>& points, const std::vector<double>& fitted_sigma_1,
+                   int n_parameters);
 
 /// Why no envelope of so many parameters can be fitted to these points; empty if it can.
 std::string objection_to(const std::vector<EnvelopePoint>& points, int n_parameters);

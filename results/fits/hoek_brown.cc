@@ -276,7 +276,7 @@ FitOrReason<HoekBrownFit> fit(const Task& task, const std::vector<EnvelopePoint>
                                                             : "");
   result.uniaxial_compressive_strength = estimate(4, "");
   result.tensile_cut_off = estimate(5, result.m.half_width.value ? "" : result.m.half_width.reason);
-  result.quality = quality(in_pascal, fitted);
+  result.quality = quality(in_pascal, fitted, n);
   return {result, ""};
 }
 } // namespace

@@ -47,7 +47,7 @@ FitOrReason<MohrCoulombFit> fit_mohr_coulomb(const StrengthData& data)
   fit.slope = {N, half_width[1]};
   fit.friction_angle = {std::asin((N - 1.0) / (N + 1.0)), half_width[2]};
   fit.cohesion = {0.5 * q_u / root, half_width[3]};
-  fit.quality = quality(points, {fitted.begin(), fitted.end()});
+  fit.quality = quality(points, {fitted.begin(), fitted.end()}, n_parameters);
   return {fit, ""};
 }
 } // namespace feldspar

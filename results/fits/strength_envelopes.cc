@@ -21,6 +21,7 @@ void add(std::vector<FitEntry>& entries, const std::string& quantity, const std:
 
 void add(std::vector<FitEntry>& entries, const FitQuality& quality)
 {
+  entries.push_back({"degrees_of_freedom", {double(quality.degrees_of_freedom), ""}});
   entries.push_back({"r_squared", quality.r_squared});
   entries.push_back({"root_mean_square_Pa", {quality.root_mean_square, ""}});
 }
@@ -192,26 +193,27 @@ std::string as_text(const StrengthEnvelopes& envelopes)
 
 std::string remark(const StrengthEnvelopes& envelopes)
 {
-  std::string result = "Admissible is s <= 1, for with s > 1 the rock would be stronger than intact";
+  std::string result = "Admissible is s <= 1: with s > 1 the rock would be stronger than intact.";
   const auto paper = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
                                   [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
   const auto& measured = envelopes.data.uniaxial_compressive_strength;
   if (paper == envelopes.hoek_brown.end() || !paper->with_tension_point.fit || !measured)
-    return result + ".";
+    return result;
   const auto& with = *paper->with_tension_point.fit;
-  result += fmt::format("; the paper's form with the tension point has s = {:.2f}", with.s.value);
-  if (with.s.value <= 1.0)
-    return result + ".";
-  result += fmt::format(" and says {:.0f} MPa at sigma_3 = 0, where {:.0f} MPa were measured, ",
+  result += fmt::format(" The paper's form with the tension point has s = {:.2f}.", with.s.value);
+  if (with.s.value <= 1.0005) // but for what is shown of it
+    return result;
+  result += fmt::format(" It says {:.0f} MPa at sigma_3 = 0, where {:.0f} MPa were measured.",
                         with.uniaxial_compressive_strength.value / 1e6, *measured / 1e6);
-  result += rises_more_steeply_under_confinement(envelopes.data)
-              ? "because the points rise more steeply from the uniaxial test to the first confinement than from "
-                "tension to the uniaxial test, and an envelope that flattens all the way and must begin at sigma_t can "
-                "only pass above the uniaxial strength"
-              : "because an envelope that must begin at sigma_t and meet the points at high confinement passes above "
-                "the uniaxial strength";
+  if (rises_more_steeply_under_confinement(envelopes.data))
+    result += " The points rise more steeply from the uniaxial test to the first confinement than from tension to the "
+              "uniaxial test. An envelope flattens all the way: one that begins at sigma_t passes above the uniaxial "
+              "strength.";
+  else
+    result += " An envelope that begins at sigma_t and meets the points at high confinement passes above the uniaxial "
+              "strength.";
   if (const auto& without = paper->without_tension_point.fit)
-    result += fmt::format(": without the tension point s = {:.2f}", without->s.value);
-  return result + ".";
+    result += fmt::format(" Without the tension point s = {:.2f}.", without->s.value);
+  return result;
 }
 } // namespace feldspar

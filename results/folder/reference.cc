@@ -1,58 +1,318 @@
 #include "results/folder/reference.h"
 
 #include "base/input_error.h"
+#include "base/json_text.h"
 #include "base/quoted.h"
 #include "results/fits/hoek_brown.h"
+#include "results/statistics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <numbers>
+#include <string_view>
 
 namespace feldspar
 {
 namespace
 {
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-std::optional<double> number(const Json& json, const char* key)
+constexpr double mega = 1e6;
+
+/// A property that a source may give, and the values that one of a rock can have, in the unit at the end of its name.
+/// Bounds are wide: they are to find a number in another unit.
+struct Property
 {
-  return json.contains(key) && json[key].is_number() ? std::optional(json[key].get<double>()) : std::nullopt;
+  std::string_view name;
+  double least;
+  double most;
+};
+
+constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
+                                   {"tensile_strength_MPa", 1e-3, 1000.0},
+                                   {"strain_at_tensile_peak", 1e-7, 0.1},
+                                   {"uniaxial_compressive_strength_MPa", 0.1, 5000.0}, // below 0.25 MPa it is a soil
+                                   {"tension_to_compression", 1e-4, 1.0},
+                                   {"strain_at_compressive_peak", 1e-6, 0.2},
+                                   {"youngs_modulus_GPa", 1e-3, 1000.0},
+                                   {"poissons_ratio", -1.0, 1.0},
+                                   {"crack_initiation_stress_MPa", 1e-2, 5000.0},
+                                   {"crack_initiation_stress_lateral_MPa", 1e-2, 5000.0},
+                                   {"crack_damage_stress_MPa", 1e-2, 5000.0},
+                                   {"brazilian_strength_MPa", 1e-3, 1000.0},
+                                   {"friction_angle_deg", 1.0, 89.0},
+                                   {"cohesion_MPa", 1e-3, 2000.0}};
+constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
+constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
+
+/// Of `strength_at_5_MPa` and the like, the pressure [MPa]; none of another name.
+std::optional<double> pressure_in(const std::string_view name, const std::string_view beginning,
+                                  const std::string_view ending)
+{
+  if (name.size() < beginning.size() + ending.size() || !name.starts_with(beginning) || !name.ends_with(ending))
+    return std::nullopt;
+  double pressure = 0.0;
+  const char* const last = name.data() + name.size() - ending.size();
+  const auto [end, error] = std::from_chars(name.data() + beginning.size(), last, pressure);
+  return error == std::errc() && end == last && pressure > 0.0 ? std::optional(pressure) : std::nullopt;
 }
 
-ReferenceSource source(const Json& json, const char* key, const std::string& label)
+/// True triaxial strengths: triaxial_compression_5_MPa_intermediate_20_MPa_strength_MPa.
+bool is_true_triaxial(const std::string_view name)
 {
-  ReferenceSource result;
-  result.label = label;
-  if (!json.contains(key) || !json[key].is_object())
-    return result;
-  for (const auto& [name, entry] : json[key].items())
+  constexpr std::string_view between = "_MPa_intermediate_";
+  const std::size_t middle = name.find(between);
+  return middle != std::string_view::npos && pressure_in(name.substr(0, middle + 4), "triaxial_compression_", "_MPa") &&
+         pressure_in(name.substr(middle + 4), "_intermediate_", "_MPa_strength_MPa");
+}
+
+std::optional<Property> property_of(const std::string_view name)
+{
+  const auto found =
+    std::find_if(std::begin(properties), std::end(properties), [&](const Property& one) { return one.name == name; });
+  if (found != std::end(properties))
+    return *found;
+  if (pressure_in(name, "strength_at_", "_MPa") || is_true_triaxial(name))
+    return confined_strength;
+  return std::nullopt;
+}
+
+std::string key_of_strength(const double confining_pressure)
+{
+  return confining_pressure > 0.0 ? fmt::format("strength_at_{:g}_MPa", confining_pressure / mega)
+                                  : "uniaxial_compressive_strength_MPa";
+}
+
+/// A place in the file, for errors.
+struct Place
+{
+  std::string file;
+  std::string path;
+
+  Place operator/(const std::string_view key) const
+  {
+    return {file, path.empty() ? excerpt(key) : fmt::format("{}/{}", path, excerpt(key))};
+  }
+
+  [[noreturn]] void refuse(const std::string& problem) const
+  {
+    throw InputError(fmt::format("{}: {}{}{}", file, path, path.empty() ? "" : ": ", problem));
+  }
+};
+
+/// Refuses what is no object of these names.
+void expect_object(const Json& json, const std::vector<std::string_view>& known, const Place& place)
+{
+  if (!json.is_object())
+    place.refuse(fmt::format("must be an object of {}", fmt::join(known, ", ")));
+  for (const auto& [name, value] : json.items())
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      (place / name).refuse(fmt::format("no such key; there are {}", fmt::join(known, ", ")));
+}
+
+double number(const Json& json, const Property& property, const Place& place)
+{
+  if (!json.is_number())
+    place.refuse("must be a number");
+  const auto value = json.get<double>();
+  if (!(value >= property.least && value <= property.most))
+    place.refuse(fmt::format("{:g} is no {} of a rock, which lies between {:g} and {:g}; is it in another unit?", value,
+                             property.name, property.least, property.most));
+  return value;
+}
+
+std::string text(const Json& json, const Place& place)
+{
+  if (!json.is_string())
+    place.refuse("must be a text");
+  return printable(json.get<std::string>());
+}
+
+/// The range in which 95 % of further tests lie, of a normal distribution.
+void set_range_by_deviation(ReferenceValue& value)
+{
+  constexpr double normal_factor = 1.959964;
+  const double n = value.n.value_or(0);
+  const double half =
+    *value.standard_deviation * (value.n ? student_factor_95(*value.n - 1) * std::sqrt(1.0 + 1.0 / n) : normal_factor);
+  value.low = *value.mean - half;
+  value.high = *value.mean + half;
+}
+
+/// A number, or an object with the mean, the range, or both; or with mean, standard deviation and number of tests.
+ReferenceValue value_of(const Json& json, const Property& property, const Place& place)
+{
+  ReferenceValue value{std::nullopt, std::nullopt, std::nullopt};
+  if (json.is_number())
     {
-      if (name == "label" && entry.is_string())
-        result.label = excerpt(entry.get<std::string>());
-      if (!entry.is_object())
-        continue;
-      if (const auto mean = number(entry, "mean"))
-        result.values[name] = {*mean, number(entry, "min"), number(entry, "max")};
-      if (name == "hoek_brown")
+      value.mean = number(json, property, place);
+      return value;
+    }
+  expect_object(json, {"mean", "min", "max", "standard_deviation", "n", "note"}, place);
+  const auto given = [&](const char* key, const Property& allowed) -> std::optional<double> {
+    return json.contains(key) ? std::optional(number(json[key], allowed, place / key)) : std::nullopt;
+  };
+  value.mean = given("mean", property);
+  value.low = given("min", property);
+  value.high = given("max", property);
+  value.standard_deviation = given("standard_deviation", {property.name, 0.0, property.most});
+  if (json.contains("n"))
+    {
+      if (!json["n"].is_number_unsigned() || json["n"] < 1 || json["n"] > 1000000)
+        (place / "n").refuse("must be the number of tests, an integer from 1");
+      value.n = json["n"].get<unsigned int>();
+    }
+  if (json.contains("note"))
+    text(json["note"], place / "note");
+  if (!value.mean && !(value.low && value.high))
+    place.refuse("needs a mean, or min and max");
+  if (value.low.has_value() != value.high.has_value())
+    place.refuse(fmt::format("has a {} and no {}; give both", value.low ? "min" : "max", value.low ? "max" : "min"));
+  if (value.low && *value.low > *value.high)
+    place.refuse(fmt::format("min = {:g} is above max = {:g}", *value.low, *value.high));
+  if (value.mean && value.low && (*value.mean < *value.low || *value.mean > *value.high))
+    place.refuse(
+      fmt::format("mean = {:g} does not lie between min = {:g} and max = {:g}", *value.mean, *value.low, *value.high));
+  if (value.standard_deviation && !value.mean)
+    place.refuse("standard_deviation needs a mean");
+  if (value.standard_deviation && value.n && *value.n < 2)
+    (place / "n").refuse("must be 2 or more beside a standard_deviation");
+  if (value.standard_deviation && !value.low)
+    set_range_by_deviation(value);
+  return value;
+}
+
+PrintedEnvelope envelope_of(const Json& json, const Place& place)
+{
+  expect_object(json, {"sigma_ci_MPa", "m", "s", "a", "note"}, place);
+  const auto given = [&](const char* key, const double least, const double most) {
+    if (!json.contains(key))
+      place.refuse(fmt::format("{} is missing; it needs sigma_ci_MPa, m, s and a", key));
+    return number(json[key], {key, least, most}, place / key);
+  };
+  return {mega * given("sigma_ci_MPa", 0.1, 5000.0), given("m", 1e-3, 1000.0), given("s", 0.0, 100.0),
+          given("a", 0.01, 1.0)};
+}
+
+std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
+{
+  if (!json.is_array() || json.empty())
+    place.refuse(R"(must be a list of tests, [{"confining_pressure_MPa": 5, "strength_MPa": 240}, ...])");
+  std::vector<EnvelopePoint> points;
+  for (std::size_t k = 0; k < json.size(); ++k)
+    {
+      const Place at = place / fmt::format("{}", k + 1);
+      expect_object(json[k], {"confining_pressure_MPa", "strength_MPa", "note"}, at);
+      for (const char* const key : {"confining_pressure_MPa", "strength_MPa"})
+        if (!json[k].contains(key))
+          at.refuse(fmt::format("{} is missing", key));
+      points.push_back({mega * number(json[k]["confining_pressure_MPa"], confinement, at / "confining_pressure_MPa"),
+                        mega * number(json[k]["strength_MPa"], confined_strength, at / "strength_MPa")});
+      if (points.back().sigma_1 <= points.back().sigma_3)
+        at.refuse("strength_MPa is sigma_1, which lies above the confining pressure");
+    }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
+  return points;
+}
+
+/// Means of the single tests under the names of mean strengths, where those are not given themselves.
+void add_means(ReferenceSource& source)
+{
+  std::map<std::string, std::vector<double>> strengths;
+  for (const auto& [sigma_3, sigma_1] : source.triaxial)
+    strengths[key_of_strength(sigma_3)].push_back(sigma_1 / mega);
+  for (const auto& [key, tests] : strengths)
+    {
+      const Statistics over_tests = *statistics(tests);
+      ReferenceValue value{over_tests.mean, std::nullopt, std::nullopt, over_tests.standard_deviation,
+                           static_cast<unsigned int>(over_tests.n)};
+      if (value.standard_deviation)
+        set_range_by_deviation(value);
+      source.values.emplace(key, value);
+    }
+}
+
+StrengthData strengths_of(const ReferenceSource& source)
+{
+  const auto mean = [&](const char* key) -> std::optional<double> {
+    const auto value = source.find(key, 1.0 / mega);
+    return value ? value->mean : std::nullopt;
+  };
+  StrengthData data{{}, mean("uniaxial_compressive_strength_MPa"), mean("tensile_strength_MPa")};
+  if (!data.tensile_strength)
+    data.tensile_strength = mean("brazilian_strength_MPa");
+  for (const auto& point : source.triaxial)
+    if (point.sigma_3 == 0.0)
+      data.points.push_back(point);
+  if (data.points.empty() && data.uniaxial_compressive_strength)
+    data.points.push_back({0.0, *data.uniaxial_compressive_strength});
+  const auto confined = source.strengths();
+  data.points.insert(data.points.end(), confined.begin(), confined.end());
+  return data;
+}
+
+ReferenceSource source_of(const Json& json, const std::string& label, const Place& place)
+{
+  ReferenceSource source;
+  source.label = label;
+  if (!json.is_object())
+    place.refuse("must be an object of properties");
+  for (const auto& [name, entry] : json.items())
+    {
+      const Place at = place / name;
+      if (name == "label")
+        source.label = excerpt(text(entry, at));
+      else if (name == "note")
+        text(entry, at);
+      else if (name == "failure")
         {
-          const auto sigma_ci = number(entry, "sigma_ci_MPa");
-          const auto m = number(entry, "m");
-          const auto s = number(entry, "s");
-          const auto a = number(entry, "a");
-          if (sigma_ci && m && s && a)
-            result.envelope = PrintedEnvelope{*sigma_ci * 1e6, *m, *s, *a};
+          if (!entry.is_object())
+            at.refuse("must be an object of texts");
+          for (const auto& [test, words] : entry.items())
+            text(words, at / test);
+        }
+      else if (name == "hoek_brown")
+        source.envelope = envelope_of(entry, at);
+      else if (name == "triaxial")
+        source.triaxial = triaxial_of(entry, at);
+      else if (const auto property = property_of(name))
+        source.values[name] = value_of(entry, *property, at);
+      else
+        {
+          std::vector<std::string_view> known;
+          for (const Property& one : properties)
+            known.push_back(one.name);
+          at.refuse(
+            fmt::format("no such property; there are {}, strength_at_P_MPa for a pressure P in MPa, hoek_brown, "
+                        "triaxial, label, note and failure",
+                        fmt::join(known, ", ")));
         }
     }
-  return result;
+  add_means(source);
+  source.fitted = fit_strength_envelopes(strengths_of(source));
+  return source;
 }
 } // namespace
 
+double ReferenceValue::middle() const { return mean ? *mean : 0.5 * (*low + *high); }
+
 double PrintedEnvelope::sigma_1(const double sigma_3) const { return hoek_brown_sigma_1(sigma_3, sigma_ci, m, s, a); }
+
+double PrintedLine::sigma_1(const double sigma_3) const
+{
+  const double sine = std::sin(friction_angle);
+  const double slope = (1.0 + sine) / (1.0 - sine);
+  return 2.0 * cohesion * std::sqrt(slope) + slope * sigma_3;
+}
 
 std::optional<ReferenceValue> ReferenceSource::find(const std::string& key, const double scale) const
 {
@@ -60,50 +320,67 @@ std::optional<ReferenceValue> ReferenceSource::find(const std::string& key, cons
   if (found == values.end())
     return std::nullopt;
   ReferenceValue value = found->second;
-  value.mean /= scale;
-  for (auto* bound : {&value.low, &value.high})
-    if (*bound)
-      **bound /= scale;
+  for (auto* number : {&value.mean, &value.low, &value.high, &value.standard_deviation})
+    if (*number)
+      **number /= scale;
   return value;
 }
 
 std::vector<EnvelopePoint> ReferenceSource::strengths() const
 {
-  constexpr std::string_view beginning = "strength_at_";
-  constexpr std::string_view ending = "_MPa";
   std::vector<EnvelopePoint> points;
+  for (const auto& point : triaxial)
+    if (point.sigma_3 > 0.0)
+      points.push_back(point);
+  const auto singles = points;
   for (const auto& [name, value] : values)
-    if (name.starts_with(beginning) && name.ends_with(ending))
-      {
-        double pressure = 0.0;
-        const char* const last = name.data() + name.size() - ending.size();
-        if (const auto [end, error] = std::from_chars(name.data() + beginning.size(), last, pressure);
-            error == std::errc() && end == last)
-          points.push_back({pressure * 1e6, value.mean * 1e6});
-      }
-  std::sort(points.begin(), points.end(),
-            [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
+    if (const auto pressure = pressure_in(name, "strength_at_", "_MPa"))
+      if (const bool has_singles =
+            std::any_of(singles.begin(), singles.end(),
+                        [&](const EnvelopePoint& point) { return key_of_strength(point.sigma_3) == name; });
+          value.mean && !has_singles)
+        points.push_back({*pressure * mega, *value.mean * mega});
+  std::stable_sort(points.begin(), points.end(),
+                   [](const EnvelopePoint& a, const EnvelopePoint& b) { return a.sigma_3 < b.sigma_3; });
   return points;
+}
+
+std::optional<PrintedLine> ReferenceSource::line() const
+{
+  const auto angle = find("friction_angle_deg", 180.0 / std::numbers::pi);
+  const auto cohesion = find("cohesion_MPa", 1.0 / mega);
+  if (!angle || !cohesion)
+    return std::nullopt;
+  return PrintedLine{angle->middle(), cohesion->middle()};
 }
 
 Reference read_reference(const std::filesystem::path& file)
 {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
+  const Place top{file.string(), ""};
   if (!in)
-    throw InputError(fmt::format("Report/Reference file = {}: no such file", file.string()));
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("experiment"))
-    throw InputError(
-      fmt::format("Report/Reference file = {}: not a JSON file with an \"experiment\" in it", file.string()));
+    top.refuse("there is no such reference file");
+  const Json json = parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {}));
+  expect_object(json, {"rock", "citation", "experiment", "paper_model", "note"}, top);
+  if (!json.contains("experiment"))
+    top.refuse("experiment is missing, the figures of the rock");
+
   Reference reference;
-  if (json.contains("rock") && json["rock"].is_string())
-    reference.rock = printable(json["rock"].get<std::string>());
-  if (json.contains("citation") && json["citation"].is_object())
-    for (const auto& [name, text] : json["citation"].items())
-      if (text.is_string())
-        reference.citations.push_back(printable(fmt::format("{}: {}", name, text.get<std::string>())));
-  reference.experiment = source(json, "experiment", "experiment");
-  reference.model = source(json, "paper_model", "paper's model");
+  if (json.contains("rock"))
+    reference.rock = text(json["rock"], top / "rock");
+  if (json.contains("note"))
+    text(json["note"], top / "note");
+  if (json.contains("citation"))
+    {
+      if (!json["citation"].is_object())
+        (top / "citation").refuse("must be an object of texts");
+      for (const auto& [name, words] : json["citation"].items())
+        reference.citations.push_back(printable(fmt::format("{}: {}", name, text(words, top / "citation" / name))));
+    }
+  reference.experiment = source_of(json["experiment"], "experiment", top / "experiment");
+  reference.model.label = "paper's model";
+  if (json.contains("paper_model"))
+    reference.model = source_of(json["paper_model"], reference.model.label, top / "paper_model");
   return reference;
 }
 } // namespace feldspar

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/fits/fit.h"
+#include "results/fits/strength_envelopes.h"
 
 #include <filesystem>
 #include <map>
@@ -10,12 +10,19 @@
 
 namespace feldspar
 {
-/// A figure of the rock or of another model, with its range where that is known.
+/// A figure of the rock or of another model, as far as it is known: a mean, a range, or both.
 struct ReferenceValue
 {
-  double mean;
+  std::optional<double> mean;
+  /// The range in which a value counts as the rock's: that of the tests, or, where only their standard deviation is given,
+  /// that in which 95 % of further tests would lie, mean ± t_{0.975, n - 1} s sqrt(1 + 1/n) (1.96 s for an unknown n).
   std::optional<double> low;
   std::optional<double> high;
+  std::optional<double> standard_deviation = std::nullopt; ///< of the tests
+  std::optional<unsigned int> n = std::nullopt;            ///< tests
+
+  /// The mean, or the middle of the range.
+  double middle() const;
 };
 
 /// A Hoek-Brown envelope as another source prints it.
@@ -30,17 +37,31 @@ struct PrintedEnvelope
   double sigma_1(double sigma_3) const;
 };
 
+/// A Mohr-Coulomb envelope as another source prints it.
+struct PrintedLine
+{
+  double friction_angle; ///< [rad]
+  double cohesion;       ///< [Pa]
+
+  double sigma_1(double sigma_3) const;
+};
+
 /// One column of the reference file.
 struct ReferenceSource
 {
   std::string label;
   std::map<std::string, ReferenceValue> values; ///< by their names in the file, which end in their units
   std::optional<PrintedEnvelope> envelope;
+  std::vector<EnvelopePoint> triaxial; ///< single tests, also unconfined ones
+  StrengthEnvelopes fitted;            ///< to its strengths
 
   /// In units of `scale`; none if it is not there.
   std::optional<ReferenceValue> find(const std::string& key, double scale = 1.0) const;
-  /// Its strengths under confinement, `strength_at_5_MPa` and so on, by rising pressure [Pa].
+  /// Its strengths under confinement by rising pressure: the single tests, and `strength_at_5_MPa` and so on where there
+  /// are none [Pa].
   std::vector<EnvelopePoint> strengths() const;
+  /// By its friction angle and cohesion; none without both.
+  std::optional<PrintedLine> line() const;
 };
 
 /// What results are set beside (JSON; see examples/beishan-granite/reference.json and docs/report.md).
@@ -52,6 +73,7 @@ struct Reference
   ReferenceSource model; ///< of a paper
 };
 
-/// Throws InputError, which names the file, for a file that is none.
+/// Throws InputError, which names file and key, for what is missing, no JSON, unknown, contradictory or beyond what a rock
+/// can have, which a number in another unit mostly is.
 Reference read_reference(const std::filesystem::path& file);
 } // namespace feldspar

@@ -4,11 +4,15 @@
 #include "results/folder/provenance_json.h"
 #include "results/result_table.h"
 #include "results/statistics.h"
+#include "results/trust.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -34,6 +38,18 @@ void write_figure(Json& json, const std::string& key, const Figure& figure)
       json[key] = nullptr;
       json[key + "_reason"] = figure.reason;
     }
+}
+
+Json as_json(const Statistics& over_seeds)
+{
+  Json json{{"n", over_seeds.n}, {"mean", over_seeds.mean}};
+  if (over_seeds.standard_deviation)
+    {
+      json["standard_deviation"] = *over_seeds.standard_deviation;
+      json["standard_error"] = *over_seeds.standard_error;
+      json["mean_confidence_95"] = *over_seeds.confidence_95;
+    }
+  return json;
 }
 
 Json describe(const FinishedTest& test)
@@ -80,31 +96,54 @@ Json describe(const FinishedTest& test)
   return json;
 }
 
-/// Means over the seeds of each group of tests.
+/// Means over the seeds of each group of tests: of those that were made, whose number stands beside that of all.
 Json ensemble(const std::vector<FinishedTest>& tests)
 {
-  std::map<std::string, std::map<std::string_view, std::vector<double>>> values;
+  std::map<std::string, std::vector<const FinishedTest*>> groups;
   for (const auto& test : tests)
-    for (const auto& entry : result_table())
-      if (const Figure figure = entry.value(test); figure.value)
-        values[test.group][entry.name].push_back(*figure.value);
+    groups[test.group].push_back(&test);
 
   Json json = Json::object();
-  for (const auto& [group, figures] : values)
-    for (const auto& entry : result_table())
-      if (const auto found = figures.find(entry.name); found != figures.end())
+  for (const auto& [group, members] : groups)
+    {
+      Json& out = json[group];
+      out["n_tests"] = members.size();
+      out["n_made"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->was_made(); });
+      for (const auto& entry : result_table())
         {
-          const auto over_seeds = statistics(found->second);
-          Json& out = json[group][std::string(entry.name)];
-          out["n"] = over_seeds->n;
-          out["mean"] = over_seeds->mean;
-          if (over_seeds->standard_deviation)
-            {
-              out["standard_deviation"] = *over_seeds->standard_deviation;
-              out["standard_error"] = *over_seeds->standard_error;
-              out["mean_confidence_95"] = *over_seeds->confidence_95;
-            }
+          std::vector<double> values;
+          for (const FinishedTest* const test : members)
+            if (const Figure figure = entry.value(*test); test->was_made() && figure.value)
+              values.push_back(*figure.value);
+          if (const auto over_seeds = statistics(values))
+            out[std::string(entry.name)] = as_json(*over_seeds);
         }
+    }
+  return json;
+}
+
+/// How far the tests of each rock can be trusted.
+Json verdict(const std::vector<FinishedTest>& tests)
+{
+  Json json = Json::array();
+  for (const auto& [variant, kind, of_rock] : by_rock(tests))
+    {
+      Json rock;
+      if (!variant.empty())
+        rock["variant"] = variant;
+      rock["checks"] = Json::array();
+      for (const auto& [measure, n_tests, n_out, mean, worst, worst_test] : trust_checks(of_rock, kind))
+        rock["checks"].push_back({{"measure", measure.name},
+                                  {"meaning", measure.title},
+                                  {measure.side == BoundSide::at_most ? "at_most" : "at_least", measure.bound},
+                                  {"mean", mean},
+                                  {"worst", worst},
+                                  {"worst_test", worst_test},
+                                  {"n_tests", n_tests},
+                                  {"n_out_of_bounds", n_out}});
+      rock["warnings"] = warnings(of_rock, kind);
+      json.push_back(rock);
+    }
   return json;
 }
 
@@ -141,6 +180,7 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
   for (const auto& test : tests)
     json["tests"].push_back(describe(test));
   json["ensemble"] = ensemble(tests);
+  json["verdict"] = verdict(tests);
   json["fits"] = fits(envelopes);
   // Reasons may quote what is not UTF-8.
   write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -159,6 +159,10 @@ TEST(BadFile, IsToldInOneLine)
   expect_mistake(folder, "contact binary.prm", "binary.prm: is not a text file");
   expect_mistake(folder, "contact no_path.prm", "no_path.prm:2: Contact path/File = path.csv: there is no file");
   expect_mistake(folder, "contact empty.prm", "empty.prm: Contact path/File: is missing");
+  folder.write("rock.json", "{\"experiment\": {\n");
+  folder.write("rock.prm", "subsection Report\n  set Reference file = rock.json\nend\n");
+  for (const char* command : {"lab rock.prm", "parameters --check rock.prm"})
+    expect_mistake(folder, command, "rock.json:2:1: is not valid JSON");
 }
 
 TEST(BadCommandLine, IsToldInOneLine)
@@ -171,7 +175,9 @@ TEST(BadCommandLine, IsToldInOneLine)
   expect_mistake(folder, "contact good.prm --threads 0", "--threads: ");
   expect_mistake(folder, "contact good.prm --sideways", "The following argument was not expected: --sideways");
   expect_mistake(folder, "--sideways", "The following argument was not expected: --sideways");
-  expect_mistake(folder, "parameters 'Flat joints'", "Flat joints: no such section; did you mean \"Flat joint\"?");
+  expect_mistake(
+    folder, "parameters 'Flat joints'",
+    "Flat joints: no such section, and no entry has it in its name, meaning or choices; did you mean \"Flat joint\"?");
 }
 
 TEST(BadOutputFolder, IsToldInOneLine)

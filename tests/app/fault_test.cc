@@ -106,7 +106,7 @@ TEST(Fault, AStandardOutputThatIsClosedFullOrLeftDoesNotCostTheRun)
   // Closed: its number must not go to the first file that is opened.
   EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output closed >&- 2>&- <&-").exit_code, 0);
   same("closed");
-  const auto full = run_feldspar(folder.path(), "lab rock.prm --output full > /dev/full");
+  const auto full = run_feldspar(folder.path(), "lab rock.prm --output full --quiet > /dev/full");
   EXPECT_EQ(full.exit_code, 3);
   EXPECT_EQ(n_lines(full.error), 1u) << full.error;
   EXPECT_NE(full.error.find("standard output"), std::string::npos) << full.error;

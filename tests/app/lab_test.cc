@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <sstream>
 #include <string>
 
 namespace feldspar::tests
@@ -56,7 +59,14 @@ TEST(Lab, WritesWhatItPromises)
   folder.write("rock.prm", small_rock);
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(outcome.error, "");
+  // Progress goes to standard error, in lines that fit a page, and begins with the size of the work.
+  EXPECT_EQ(outcome.error.find("genesis of 2 specimens, some "), 0u) << outcome.error;
+  EXPECT_NE(outcome.error.find("tests: 4 of 4 done ("), std::string::npos) << outcome.error;
+  std::istringstream lines(outcome.error);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_EQ(outcome.output.find("4 of 4 done"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("How far to trust it: "), std::string::npos) << outcome.output;
   const fs::path results = folder.path() / "rock-results-001";
   for (const char* file :
        {"summary.json", "cracks.csv", "log.txt", "specimen_seed_3.h5", "specimen_seed_4.h5",
@@ -157,7 +167,7 @@ TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
     folder.write("rock.prm", sizes + seeds + more);
     for (const char* command : {"lab", "specimen"})
       {
-        const auto outcome = run_feldspar(folder.path(), std::string(command) + " rock.prm");
+        const auto outcome = run_feldspar(folder.path(), std::string(command) + " rock.prm --quiet");
         EXPECT_EQ(outcome.exit_code, 2) << more;
         EXPECT_NE(outcome.error.find(expected), std::string::npos) << outcome.error;
         EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -186,6 +196,7 @@ TEST(Lab, RefusesASurroundingThatItsSpecimenCannotHave)
   refused("", "  set Lateral boundary = membrane\n", "Lateral boundary = membrane: goes round a cylinder");
   refused("", "  set Intermediate stress = 30 MPa\n",
           "Intermediate stress = 30 MPa: presses on two sides of a box of grains in space");
+  refused("", "  set Brazilian length ratio = 0.3\n", "Brazilian length ratio = 0.3: is the length of a disc in space");
   refused("  set Dimension = 3\n",
           "  set List = triaxial_compression\n  set Intermediate stress = 30 MPa\n  set Confinements = 40 MPa\n",
           "Intermediate stress = 30 MPa: must be at least the least stress, and Confinements has 40 MPa");
@@ -458,7 +469,10 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   folder.write("rock.prm", rock);
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.error.find("cannot hold 40000 MPa"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("triaxial_compression_40000_MPa_seed_1 cannot be made: Tests/Confinements: the walls "
+                               "cannot hold 40000 MPa"),
+            std::string::npos)
+    << outcome.error;
   const auto json = summary(folder.path() / "out");
   ASSERT_EQ(json["tests"].size(), 4u);
   EXPECT_TRUE(json["tests"][2]["peak_stress_Pa"].is_number());
@@ -537,6 +551,80 @@ end
   ASSERT_EQ(json["tests"].size(), 2u);
   EXPECT_TRUE(json["tests"][0]["peak_stress_Pa"].is_number());
   EXPECT_NE(json["tests"][1]["peak_stress_Pa_reason"].get<std::string>().find("grip"), std::string::npos);
+}
+
+TEST(Lab, MeasuresADiscByItsOwnSize)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 30 mm\nend\n"
+                           "subsection Tests\n  set List = brazilian\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
+  const auto json = summary(folder.path() / "out");
+  EXPECT_EQ(json["tests"][0]["size_m"], nlohmann::json({0.02, 0.02, 0}));
+  // Its grains lie in a circle of 10 mm about the middle of this size.
+  std::istringstream grains(content(folder.path() / "out/grains/brazilian_seed_1.csv"));
+  std::string row;
+  for (std::getline(grains, row); std::getline(grains, row);)
+    {
+      double x = 0.0;
+      double y = 0.0;
+      ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf", &x, &y), 2) << row;
+      EXPECT_LE(std::hypot(x - 0.01, y - 0.01), 0.01) << row;
+    }
+}
+
+TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n");
+  const std::string lab = "lab rock.prm --output out --set 'Tests/List = direct_tension' --set 'Specimen/Width = 8 mm' "
+                          "--set 'Specimen/Height = 12 mm' ";
+  ASSERT_EQ(run_feldspar(folder.path(), lab + "--quiet").exit_code, 0);
+  auto json = summary(folder.path() / "out");
+  EXPECT_EQ(json["tests"].size(), 1u);
+  EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "8 mm");
+  // A run that is taken up has them still.
+  auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
+  record["complete"] = false;
+  folder.write("out/run.json", record.dump());
+  ASSERT_EQ(run_feldspar(folder.path(), "lab --resume out --quiet").exit_code, 0);
+  EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
+
+  const auto refused = [&](const std::string& setting, const std::string& words) {
+    const auto outcome = run_feldspar(folder.path(), "lab rock.prm --set '" + setting + "'");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.error.find("feldspar: --set" + words), 0u) << outcome.error;
+  };
+  refused("Width = 8 mm", " \"Width = 8 mm\": write \"Section/Entry = value\"");
+  refused("Specimen/Widht = 8 mm", ": Specimen/Widht: no such entry; did you mean \"Width\"?");
+  refused("Specimen/Width = 8", ": Specimen/Width = 8: a unit is missing");
+  refused("Specimen/Width = 8 mm' --set 'Specimen/Width = 9 mm", ": Specimen/Width: is given twice");
+}
+
+TEST(Help, IsThereByTheWordsThatUsersTry)
+{
+  const TemporaryFolder folder;
+  const auto said = [&](const std::string& arguments) {
+    const auto outcome = run_feldspar(folder.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return outcome.output;
+  };
+  EXPECT_EQ(said("help"), said("--help"));
+  EXPECT_EQ(said("help lab"), said("lab --help"));
+  EXPECT_NE(said("help lab").find("Examples:\n  feldspar lab granite.prm"), std::string::npos) << said("help lab");
+  EXPECT_EQ(said("version"), said("--version"));
+  EXPECT_NE(said("parameters PLATEN").find("Tests/Platen friction\n    unit -; default 0"), std::string::npos);
+}
+
+TEST(Lab, SpeaksToWhoeverListens)
+{
+  // A reader that leaves costs neither the run nor its mark of completeness.
+  const TemporaryFolder folder;
+  folder.write("rock.prm", "subsection Specimen\n  set Width = 8 mm\n  set Height = 12 mm\nend\n"
+                           "subsection Tests\n  set List = direct_tension\nend\n");
+  folder.write("to_nobody", "\"$@\" | true\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out", "sh ./to_nobody").exit_code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(content(folder.path() / "out/run.json"))["complete"].get<bool>());
 }
 
 TEST(Lab, EndsEvenWhereNothingBreaks)

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -292,6 +293,11 @@ std::string two_squares(const std::string& top, const std::string& cells, const 
 const std::string sides = "1 1 2 3 1 1 2\n2 1 2 2 2 2 4\n3 1 2 2 2 4 6\n4 1 2 4 3 6 5\n5 1 2 1 4 5 3\n6 1 2 1 4 3 1\n";
 const std::string squares = "8\n" + sides + "7 3 2 5 1 1 2 4 3\n8 3 2 5 1 3 4 6 5\n";
 
+std::string two_squares_in_millimetres()
+{
+  return std::regex_replace(two_squares("top", squares), std::regex("0\\.0(12|24)"), "$1");
+}
+
 TEST(Multiscale, TakesAMeshOfGmshForItsSample)
 {
   TemporaryFolder folder;
@@ -299,7 +305,9 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   const std::string tests = "  set List = direct_tension\n  set Stop strain = 2e-5\n";
   folder.write("own.prm", input("", tests));
   folder.write("mesh.prm", input("  set Mesh file = squares.msh\n", tests));
-  for (const std::string name : {"own", "mesh"})
+  folder.write("millimetres.msh", two_squares_in_millimetres());
+  folder.write("scaled.prm", input("  set Mesh file = millimetres.msh\n  set Mesh unit = mm\n", tests));
+  for (const std::string name : {"own", "mesh", "scaled"})
     {
       const auto run = run_feldspar(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
       ASSERT_EQ(run.exit_code, 0) << run.error;
@@ -309,6 +317,7 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
     return cell(folder.path() / name / "curves/direct_tension_seed_1.csv", "axial_stress_Pa", 10);
   };
   EXPECT_NEAR(stress("mesh"), stress("own"), 1e-9 * stress("own"));
+  EXPECT_NEAR(stress("scaled"), stress("own"), 1e-9 * stress("own"));
   EXPECT_GT(stress("own"), 1e6);
 }
 
@@ -329,6 +338,9 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
   refused(two_squares("top", squares, "-0.001 0.012"), "bad.msh: the cell at");
   refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
           "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
+  refused(two_squares_in_millimetres(),
+          "in metres the mesh is 12 m wide and 24 m high; if its coordinates are in another unit, set "
+          "Mesh unit = mm");
 }
 
 TEST(Multiscale, ASpecimenFileIsOneRealisation)

@@ -300,8 +300,9 @@ TEST_F(Report, WithoutGnuplotHasItsWordsAndTables)
 
 TEST_F(Report, WithoutItsReferenceSaysSoInItsPlace)
 {
-  holds(remade("report out --reference nowhere.json"),
-        {"Nothing to compare with: Report/Reference file = nowhere.json: no such file"});
+  const auto refused = run_feldspar(folder.path(), "report out --reference nowhere.json");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.error, "feldspar: nowhere.json: there is no such reference file\n");
   fs::remove(folder.path() / "out/reference.json");
   holds(remade(), {"Nothing to compare with: there is no reference file"});
 }

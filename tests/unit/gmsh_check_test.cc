@@ -185,7 +185,8 @@ TEST(GmshCheck, NamesLineAndReason)
 {
   const auto& mesh = squares_2_2;
   EXPECT_EQ(complaint(with(mesh, "2.2 0", "1.0 0")), "line 2: format 1.0 of Gmsh; 2.2, 4.0 and 4.1 can be read");
-  EXPECT_EQ(complaint(with(mesh, "2.2 0", "2.2 1")), "line 2: a binary file; a text file can be read");
+  EXPECT_EQ(complaint(with(mesh, "2.2 0", "2.2 1")),
+            "line 2: a binary file; write it as text: gmsh MESH.msh -save -format msh41 -o TEXT.msh");
   EXPECT_EQ(complaint(with(mesh, "$Nodes\n6", "$Nodes\n100000000")).substr(0, 8), "line 11:");
   EXPECT_EQ(complaint(with(mesh, "$Nodes\n6", "$Nodes\n90")).substr(0, 26), "line 11: 90 are announced,");
   EXPECT_EQ(complaint(with(mesh, "$Nodes\n6", "$Nodes\n-1")).substr(0, 23), "line 11: an integer fro");

@@ -121,6 +121,7 @@ end
 subsection Sample
   set Material = Mohr-Coulomb
   set Mesh file = sample.msh
+  set Mesh unit = mm
   set Width = 40 mm
   set Height = 80 mm
   set Geometry = cylinder
@@ -277,6 +278,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
   EXPECT_EQ(input.sample.material, SampleMaterial::mohr_coulomb);
   EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
+  EXPECT_EQ(input.sample.mesh_unit, MeshUnit::millimetre);
   EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
   EXPECT_DOUBLE_EQ(input.sample.height, 0.080);
   EXPECT_EQ(input.sample.elements_across, 3u);
@@ -325,7 +327,18 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
   EXPECT_NE(error_of_entry("Representative volume", "Break rule = worst").find("near worst or only worst"),
             std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments").find("go together"), std::string::npos);
-  EXPECT_NE(error_of_entry("Variants", "Entry = Segments").find("Section/Entry"), std::string::npos);
+  EXPECT_EQ(error_of_entry("Variants", "Entry = Segments"),
+            "a.prm:2: Variants/Entry = Segments: lacks its section; write Section/Entry: Flat joint/Segments");
+  EXPECT_NE(error_of_entry("Variants", "Entry = Specimen/Dimension").find("it cannot vary"), std::string::npos);
+  EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segmens").find("mean \"Flat joint/Segments\"?"),
+            std::string::npos);
+  EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments\n  set Values = 1, 2")
+              .find("values are separated by semicolons"),
+            std::string::npos);
+  EXPECT_NE(error_of_entry("Seeds", "Seeds = 1-3").find("\"1-3\": a range is written with two dots, 1..3"),
+            std::string::npos);
+  EXPECT_NE(error_of_entry("Tests", "Confinements = 5; 10").find("separated by commas and the unit stands once"),
+            std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments\n  set Values = 2; 0").find("integer in [1, 32]"),
             std::string::npos);
 }

@@ -3,19 +3,22 @@
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/page/table.h"
+#include "report/pictures/envelope_pictures.h"
 #include "report/sections/comparison.h"
-#include "report/sections/trust.h"
 #include "report/sections/verdict.h"
 #include "results/fits/run_envelopes.h"
+#include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
 #include "results/result_table.h"
 #include "results/series.h"
 #include "results/statistics.h"
 #include "results/test_groups.h"
+#include "results/trust.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -330,6 +333,96 @@ TEST(Trust, SaysWhatIsOutOfItsBounds)
   EXPECT_NE(said.find("Only 1 specimen:"), std::string::npos) << said;
 }
 
+TEST(Trust, SaysWhenThePackingOrTheElasticityIsNotWhatARockHas)
+{
+  Series series{"x", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}};
+  // Wanted was 0.05: radii times m leave 1 - 0.17 = 0.95 m² of the plane to grains.
+  SpecimenReport& packed = series.tests[0].record.specimen;
+  packed.porosity = 0.17;
+  packed.radius_multiplier = std::sqrt(0.83 / 0.95);
+  series.tests[1].results.poissons_ratio_secant = {1.03, ""};
+  const auto checks = trust_checks(series);
+  const auto check = [&](const std::string_view name) {
+    return *std::find_if(checks.begin(), checks.end(), [&](const auto& one) { return one.measure.name == name; });
+  };
+  EXPECT_NEAR(check("porosity_change").worst, 0.12, 1e-12);
+  EXPECT_EQ(check("porosity_change").worst_test, series.tests[0].name);
+  EXPECT_EQ(check("porosity_change").n_out, 1u);
+  EXPECT_EQ(check("poissons_ratio_secant").n_out, 1u);
+  EXPECT_EQ(check("poissons_ratio_initial").n_out, 0u);
+  EXPECT_NE(as_text(checks).find("✗ Poisson's ratio, secant at 50 % of the peak\n    worst 1.030, bound at most 0.5"),
+            std::string::npos)
+    << as_text(checks);
+}
+
+TEST(Summary, HasTheVerdictOfTheReport)
+{
+  const TemporaryFolder folder;
+  std::vector<FinishedTest> tests{compression(1), compression(2), compression(3)};
+  tests[1].results.kinetic_to_strain_energy = {0.728, ""};
+  write_result_folder({}, tests, {}, folder.path());
+  const auto summary = nlohmann::json::parse(content(folder.path() / "summary.json"));
+  const auto& checks = summary["verdict"][0]["checks"];
+  const auto kinetic = std::find_if(checks.begin(), checks.end(),
+                                    [](const auto& one) { return one["measure"] == "kinetic_to_strain_energy"; });
+  ASSERT_NE(kinetic, checks.end());
+  EXPECT_EQ((*kinetic)["at_most"], 0.01);
+  EXPECT_EQ((*kinetic)["worst"], 0.728);
+  EXPECT_EQ((*kinetic)["worst_test"], tests[1].name);
+  EXPECT_EQ((*kinetic)["n_out_of_bounds"], 1);
+  const Series series = read_result_folder(folder.path(), test_kinds()).at(0);
+  EXPECT_EQ(summary["verdict"][0]["warnings"].get<std::vector<std::string>>(), warnings(series));
+}
+
+TEST(Summary, AveragesTheTestsThatWereMade)
+{
+  // One of two could not be made: its counts are not zero, there are none.
+  const TemporaryFolder folder;
+  std::vector<FinishedTest> tests{compression(1), {}};
+  tests[1].group = tests[0].group;
+  tests[1].name = "uniaxial_compression_seed_2";
+  tests[1].record.kind = uniaxial_compression.kind;
+  tests[1].record.failure = "the platens slipped";
+  tests[1].results = evaluate(tests[1].record);
+  write_result_folder({}, tests, {}, folder.path());
+  const auto summary = nlohmann::json::parse(content(folder.path() / "summary.json"));
+  const auto& group = summary["ensemble"]["uniaxial_compression"];
+  EXPECT_EQ(group["n_tests"], 2);
+  EXPECT_EQ(group["n_made"], 1);
+  EXPECT_EQ(group["n_tension_cracks"]["n"], 1);
+  EXPECT_EQ(group["n_tension_cracks"]["mean"], double(tests[0].results.n_tension_cracks));
+  EXPECT_TRUE(summary["tests"][1]["n_tension_cracks"].is_null());
+  EXPECT_EQ(summary["tests"][1]["n_tension_cracks_reason"], "the platens slipped");
+}
+
+TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
+{
+  const auto pressed = [](const double confinement, const double strength) {
+    FinishedTest test = compression(1);
+    test.record.kind = confinement > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+    test.record.confining_pressure = confinement;
+    test.results.peak_stress = {strength, ""};
+    return test;
+  };
+  const auto script_of = [&](const std::vector<FinishedTest>& tests) {
+    const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
+    // The rock was tested to 60 MPa, so that the plot goes on beyond the points of the model.
+    Reference reference;
+    reference.experiment.values["strength_at_60_MPa"] = {500.0, std::nullopt, std::nullopt};
+    return envelope_pictures(all, 0, fit_strength_envelopes(strength_data(tests)), reference).at(0).script;
+  };
+  const std::string of_two = script_of({pressed(0.0, 120e6), pressed(10e6, 200e6)});
+  EXPECT_EQ(of_two.find("Mohr–Coulomb"), std::string::npos);
+  EXPECT_EQ(of_two.find("H–B"), std::string::npos);
+  const std::string of_three = script_of({pressed(0.0, 120e6), pressed(10e6, 200e6), pressed(20e6, 250e6)});
+  ASSERT_NE(of_three.find("Mohr–Coulomb"), std::string::npos);
+  // Rows "σ_3 σ_1" of the curves come first, in blocks that end at 20 MPa.
+  const std::string curve = of_three.substr(of_three.rfind("<< EOD"));
+  const std::string rows = curve.substr(7, curve.find("EOD\n", 7) - 7);
+  const std::string last_row = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+  EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
+}
+
 TEST(Trust, WarnsOfAServoThatLetsTheConfinementGo)
 {
   Series series{"x", SeriesKind::specimens, {}, {compression(1)}, {}};
@@ -423,8 +516,7 @@ TEST(Reference, StrengthsUnderConfinementComeInTheOrderOfPressure)
 {
   const TemporaryFolder folder;
   const auto file = folder.write("rock.json", R"({"rock": "basalt", "experiment": {"label": "core tests",
-    "strength_at_10_MPa": {"mean": 200}, "strength_at_2.5_MPa": {"mean": 120, "min": 100, "max": 140},
-    "strength_at_depth_MPa": {"mean": 1}},
+    "strength_at_10_MPa": {"mean": 200}, "strength_at_2.5_MPa": {"mean": 120, "min": 100, "max": 140}},
     "paper_model": {"hoek_brown": {"sigma_ci_MPa": 100, "m": 10, "s": 1, "a": 0.5}}})");
   const Reference reference = read_reference(file);
   EXPECT_EQ(reference.experiment.label, "core tests");
@@ -435,6 +527,81 @@ TEST(Reference, StrengthsUnderConfinementComeInTheOrderOfPressure)
   // 10 + 100·sqrt(10·10/100 + 1) MPa.
   EXPECT_NEAR(reference.model.envelope->sigma_1(10e6), 10e6 + 100e6 * std::sqrt(2.0), 1.0);
   EXPECT_TRUE(std::isnan(reference.model.envelope->sigma_1(-11e6)));
+}
+
+TEST(Reference, TakesWhatLaboratoriesHave)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.write("rock.json", R"({"experiment": {
+    "uniaxial_compressive_strength_MPa": {"mean": 200, "standard_deviation": 22, "n": 5},
+    "tensile_strength_MPa": 9.5, "youngs_modulus_GPa": {"min": 60, "max": 70},
+    "friction_angle_deg": 30, "cohesion_MPa": 50,
+    "triaxial": [{"confining_pressure_MPa": 20, "strength_MPa": 310}, {"confining_pressure_MPa": 10, "strength_MPa": 250},
+                 {"confining_pressure_MPa": 10, "strength_MPa": 270}, {"confining_pressure_MPa": 0, "strength_MPa": 190}]}})");
+  const ReferenceSource rock = read_reference(file).experiment;
+  // 95 % of further tests: t_{0.975, 4} = 2.776445 (any table), times 22·sqrt(1 + 1/5).
+  const auto uniaxial = *rock.find("uniaxial_compressive_strength_MPa");
+  EXPECT_NEAR(*uniaxial.high - 200.0, 2.776445 * 22.0 * std::sqrt(1.2), 1e-4);
+  EXPECT_NEAR(200.0 - *uniaxial.low, 2.776445 * 22.0 * std::sqrt(1.2), 1e-4);
+  EXPECT_EQ(*rock.find("tensile_strength_MPa")->mean, 9.5);
+  EXPECT_FALSE(rock.find("tensile_strength_MPa")->low);
+  EXPECT_FALSE(rock.find("youngs_modulus_GPa")->mean);
+  EXPECT_EQ(rock.find("youngs_modulus_GPa")->middle(), 65.0);
+  // Two tests at 10 MPa: mean 260, s.d. 20/sqrt(2).
+  const auto confined = *rock.find("strength_at_10_MPa");
+  EXPECT_NEAR(*confined.mean, 260.0, 1e-9);
+  EXPECT_NEAR(*confined.standard_deviation, 20.0 / std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(*confined.n, 2u);
+  // sin 30° = 1/2: N = 3, q_u = 2·50·sqrt(3).
+  EXPECT_NEAR(rock.line()->sigma_1(10e6), 1e6 * (100.0 * std::sqrt(3.0) + 30.0), 1.0);
+  // Least squares through the four tests: slope Σ(x - 10)(y - 255)/Σ(x - 10)² = (650 + 550)/200.
+  ASSERT_TRUE(rock.fitted.mohr_coulomb.fit);
+  EXPECT_NEAR(rock.fitted.mohr_coulomb.fit->slope.value, 6.0, 1e-9);
+  EXPECT_EQ(rock.fitted.mohr_coulomb.fit->quality.degrees_of_freedom, 2);
+  EXPECT_EQ(*rock.fitted.data.tensile_strength, 9.5e6);
+}
+
+TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
+{
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) -> std::string {
+    const auto file = folder.write("rock.json", text);
+    try
+      {
+        read_reference(file);
+      }
+    catch (const InputError& error)
+      {
+        const std::string said = error.what();
+        return said.substr(std::min(said.size(), file.string().size()));
+      }
+    return "not refused";
+  };
+  const auto of_experiment = [&](const std::string& entries) { return refusal("{\"experiment\": {" + entries + "}}"); };
+  const auto expect = [](const std::string& said, const std::string& words) {
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  expect(refusal("{\n  \"experiment\": {\n}"), ":3:2: is not valid JSON");
+  expect(refusal("{}"), "experiment is missing");
+  expect(refusal(R"({"experiment": {}, "model": {}})"), "model: no such key; there are rock, citation, experiment");
+  expect(of_experiment(R"("tensil_strength_MPa": 9)"),
+         "experiment/tensil_strength_MPa: no such property; there are density_kg_per_m3, tensile_strength_MPa");
+  expect(of_experiment(R"("strength_at_depth_MPa": 9)"), "experiment/strength_at_depth_MPa: no such property");
+  expect(of_experiment(R"("tensile_strength_MPa": {"mean": 200, "sd": 22})"),
+         "experiment/tensile_strength_MPa/sd: no such key; there are mean, min, max, standard_deviation, n, note");
+  expect(of_experiment(R"("tensile_strength_MPa": {"mean": 9, "min": 12, "max": 7})"), "min = 12 is above max = 7");
+  expect(of_experiment(R"("tensile_strength_MPa": {"mean": 9, "min": 10, "max": 12})"), "does not lie between");
+  expect(of_experiment(R"("tensile_strength_MPa": {"min": 10})"), "needs a mean, or min and max");
+  expect(of_experiment(R"("tensile_strength_MPa": 9.5e6)"),
+         "experiment/tensile_strength_MPa: 9.5e+06 is no tensile_strength_MPa of a rock, which lies between 0.001 and "
+         "1000; is it in another unit?");
+  expect(of_experiment(R"("youngs_modulus_GPa": {"mean": 61200})"), "experiment/youngs_modulus_GPa/mean: 61200 is no");
+  expect(of_experiment(R"("tensile_strength_MPa": "9 MPa")"), "must be an object of mean");
+  expect(of_experiment(R"("tensile_strength_MPa": {"mean": 9, "standard_deviation": 1, "n": 1})"), "n: must be 2 or");
+  expect(of_experiment(R"("tensile_strength_MPa": 9, "tensile_strength_MPa": 8)"), "is given twice");
+  expect(of_experiment(R"("hoek_brown": {"m": 20})"), "experiment/hoek_brown: sigma_ci_MPa is missing");
+  expect(of_experiment(R"("triaxial": [{"confining_pressure_MPa": 300, "strength_MPa": 40}])"),
+         "experiment/triaxial/1: strength_MPa is sigma_1, which lies above");
 }
 } // namespace
 } // namespace feldspar::tests

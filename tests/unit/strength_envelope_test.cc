@@ -267,6 +267,8 @@ TEST(HoekBrown, AsManyPointsAsParametersGiveNoInterval)
   const auto answer = fit_hoek_brown(data, HoekBrownForm::general, false);
   ASSERT_TRUE(answer.fit) << answer.reason;
   EXPECT_LT(answer.fit->quality.root_mean_square, 1.0); // three points, three parameters
+  EXPECT_EQ(answer.fit->quality.degrees_of_freedom, 0);
+  EXPECT_FALSE(answer.fit->quality.r_squared.value); // it would be 1 of any points
   for (const auto& estimate : {answer.fit->sigma_ci, answer.fit->m, answer.fit->a})
     {
       EXPECT_FALSE(estimate.half_width.value);

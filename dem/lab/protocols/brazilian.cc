@@ -43,10 +43,14 @@ Specimen<dim> laid_down(Specimen<dim> specimen)
 }
 
 /// The grains that lie within a circle as wide as the specimen about its middle (wholly, unless the circle is the
-/// specimen's own side), in space from the middle of its length, with the joints between them.
+/// specimen's own side), in space from the middle of its length, with the joints between them; in the box of the disc.
 template <int dim>
 Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, const double length)
 {
+  Vector<dim> size = Vector<dim>::Constant(diameter);
+  if constexpr (dim == 3)
+    size[1] = length;
+  const Vector<dim> corner = 0.5 * (specimen.size - size);
   const auto& grains = specimen.grains;
   constexpr auto outside = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> new_number(grains.size(), outside);
@@ -69,12 +73,15 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, con
       masses.push_back(grains.mass[i]);
       inertias.push_back(grains.moment_of_inertia[i]);
       for (int c = 0; c < dim; ++c)
-        positions[c].push_back(grains.position[c][i]);
+        positions[c].push_back(grains.position[c][i] - corner[c]);
     }
   if (radii.size() < 2)
-    throw InputError(fmt::format("Tests/List: no disc of {:.3g} m can be cut from this specimen", diameter));
+    throw InputError(fmt::format("Specimen/Width: a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
+                                 "specimen wider or the grains smaller (Specimen/Minimum radius)",
+                                 1e3 * diameter));
 
   Specimen<dim> disc = specimen;
+  disc.size = size;
   disc.grains.place(radii, positions);
   disc.grains.mass = masses;
   disc.grains.moment_of_inertia = inertias;
@@ -116,7 +123,10 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
         (from_middle[axis] < 0.0 ? lower_pad : upper_pad).push_back(i);
     }
   if (lower_pad.empty() || upper_pad.empty())
-    throw InputError(fmt::format("Tests/List: a disc of {:.3g} m has no grain to load it by", diameter));
+    throw InputError(fmt::format(
+      "Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no grain where it is "
+      "loaded; make the specimen wider, the grains smaller (Specimen/Minimum radius), or take another seed",
+      1e3 * diameter, disc.report.resolution));
 
   SetUpTest<dim> test{Dynamics<dim>(disc, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.brazilian_strain_rate);

@@ -1,14 +1,16 @@
-#include "app/run/progress.h"
+#include "app/screen/progress.h"
+
+#include "base/quoted.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace feldspar
 {
@@ -18,10 +20,16 @@ using namespace std::chrono_literals;
 
 constexpr int bar_length = 10;
 
-std::size_t terminal_width()
+/// Without an exception, should nobody read it or the disk be full.
+void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+constexpr std::size_t page_width = 80; // of a file or pipe
+
+std::size_t width_of_lines(const bool on_terminal)
 {
   winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  const bool known = on_terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col - 1u : page_width;
 }
 
 std::string bar(const double fraction)
@@ -38,7 +46,7 @@ std::string clock_text(const std::chrono::duration<double> time)
 
 Progress::Progress(const bool quiet)
   : is_quiet(quiet)
-  , on_terminal(isatty(STDOUT_FILENO))
+  , on_terminal(isatty(STDERR_FILENO))
 {
 }
 
@@ -47,11 +55,14 @@ void Progress::start(const std::string_view new_title)
   title = new_title;
   started = Clock::now();
   drawn = started;
+  fraction_at_start = std::numeric_limits<double>::quiet_NaN();
   draw({fmt::format("{} ...", title)}, false);
 }
 
 void Progress::update(const double fraction, const std::string_view text, const std::vector<ProgressDetail>& details)
 {
+  if (std::isnan(fraction_at_start))
+    fraction_at_start = fraction;
   const auto now = Clock::now();
   if (is_quiet || now - drawn < (on_terminal ? 100ms : 5000ms))
     return;
@@ -59,8 +70,8 @@ void Progress::update(const double fraction, const std::string_view text, const 
   std::string line = fmt::format("{}: ", title);
   if (!std::isnan(fraction))
     line += fmt::format("{}{:.0f} %, ", on_terminal ? bar(fraction) : "", 100.0 * fraction);
-  if (fraction >= 0.001) // before that the guess is worth nothing
-    line += fmt::format("{} left, ", clock_text((now - started) * ((1.0 - fraction) / fraction)));
+  if (const double done = fraction - fraction_at_start; done >= 0.001) // before that the guess is worth nothing
+    line += fmt::format("{} left, ", clock_text((now - started) * ((1.0 - fraction) / done)));
   line += text;
   std::vector<std::string> lines{line};
   for (const auto& detail : details)
@@ -74,27 +85,44 @@ void Progress::finish(const std::string_view text)
   draw({fmt::format("{}: {} ({})", title, text, clock_text(Clock::now() - started))}, true);
 }
 
+void Progress::note(const std::string_view text)
+{
+  if (on_terminal && !is_quiet)
+    clear();
+  say(fmt::format("feldspar: {}\n", text));
+}
+
+void Progress::remark(const std::string_view text)
+{
+  if (is_quiet)
+    return;
+  if (on_terminal)
+    clear();
+  say(fmt::format("{}\n", text));
+}
+
+/// Back to the first line of the last drawing, and all of it away from there down.
+void Progress::clear()
+{
+  if (n_lines_above > 0)
+    say(fmt::format("\x1b[{}A", n_lines_above));
+  say("\r\x1b[J");
+  n_lines_above = 0;
+}
+
 void Progress::draw(const std::vector<std::string>& lines, const bool last)
 {
   if (is_quiet)
     return;
-  std::string text;
-  if (!on_terminal)
-    text = fmt::format("{}\n", fmt::join(lines, "\n"));
+  const std::size_t width = width_of_lines(on_terminal);
+  if (on_terminal)
+    clear();
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    say(fmt::format("{}{}", k > 0 ? "\n" : "", excerpt(lines[k], width)));
+  if (!on_terminal || last)
+    say("\n");
   else
-    {
-      // Back to the first line of the last drawing, and clear from there down.
-      if (n_lines_above > 0)
-        text += fmt::format("\x1b[{}A", n_lines_above);
-      text += "\r\x1b[J";
-      for (std::size_t k = 0; k < lines.size(); ++k)
-        text += fmt::format("{}{}", k > 0 ? "\n" : "", lines[k].substr(0, terminal_width() - 1));
-      if (last)
-        text += "\n";
-      n_lines_above = last ? 0 : lines.size() - 1;
-    }
-  // Who reads along and goes away, or a full disk behind standard output, does not end the work.
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
+    n_lines_above = lines.size() - 1;
+  std::fflush(stderr);
 }
 } // namespace feldspar

@@ -14,8 +14,8 @@ struct ProgressDetail
   std::string text;
 };
 
-/// Says how a run goes, on standard output: on a terminal one line that is drawn again and again, on a pipe a plain
-/// line now and then.
+/// Says how a run goes, on standard error: on a terminal lines that are drawn again and again, on a pipe plain lines now
+/// and then. Lines fit the terminal, or 80 columns.
 class Progress
 {
 public:
@@ -30,16 +30,24 @@ public:
 
   void finish(std::string_view text);
 
+  /// A sentence that stays, on lines of its own: what goes wrong, also where the progress is quiet.
+  void note(std::string_view text);
+
+  /// The same of what is good to know: not where the progress is quiet.
+  void remark(std::string_view text);
+
 private:
   using Clock = std::chrono::steady_clock;
 
   void draw(const std::vector<std::string>& lines, bool last);
+  void clear();
 
   const bool is_quiet;
   const bool on_terminal;
   std::string title;
   Clock::time_point started;
   Clock::time_point drawn;
-  std::size_t n_lines_above = 0; ///< of the last drawing, above the cursor
+  double fraction_at_start = 0.0; ///< of a run that was taken up
+  std::size_t n_lines_above = 0;  ///< of the last drawing, above the cursor
 };
 } // namespace feldspar

@@ -1,0 +1,105 @@
+#include "app/screen/test_board.h"
+
+#include "app/screen/test_length.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace feldspar
+{
+TestBoard::TestBoard(Progress& shown, const std::vector<BoardTest>& planned)
+  : progress(shown)
+{
+  for (const BoardTest& test : planned)
+    entries.push_back({test, PeakWatch(test.test.kind.peak_rule)});
+  progress.start("tests");
+}
+
+void TestBoard::update(const std::size_t k, const CurveSample& row, const std::string& more)
+{
+  const std::lock_guard lock(showing);
+  Entry& entry = entries[k];
+  const TestKind& kind = entry.planned.test.kind;
+  entry.row = row;
+  entry.more = more;
+  if (entry.peak.is_highest(kind.stress(row)))
+    entry.strain_at_peak = kind.strain(row);
+  entry.has_left_peak = kind.stress(row) < 0.95 * entry.peak.highest;
+  entry.running = true;
+  draw();
+}
+
+void TestBoard::update(const std::size_t k, const std::string& more)
+{
+  const std::lock_guard lock(showing);
+  entries[k].more = more;
+  entries[k].running = true;
+  draw();
+}
+
+void TestBoard::say(const std::string& sentence)
+{
+  const std::lock_guard lock(showing);
+  progress.note(sentence);
+}
+
+void TestBoard::finish(const std::size_t k)
+{
+  const std::lock_guard lock(showing);
+  entries[k].running = false;
+  entries[k].finished = true;
+  draw();
+}
+
+/// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess.
+double TestBoard::strain_at_peak(const Entry& entry) const
+{
+  if (entry.strain_at_peak > 0.0 && (entry.has_left_peak || entry.finished))
+    return entry.strain_at_peak;
+  const TestCase& test = entry.planned.test;
+  const auto sister = std::find_if(entries.begin(), entries.end(), [&](const Entry& other) {
+    return other.finished && other.strain_at_peak > 0.0 && other.planned.test.kind == test.kind &&
+           other.planned.test.confining_pressure == test.confining_pressure;
+  });
+  const double guess =
+    sister != entries.end() ? sister->strain_at_peak : expected_strain_at_peak(test, *entry.planned.input);
+  constexpr double beyond = 1.2; // of a curve that still rises
+  return std::max(guess, beyond * test.kind.strain(entry.row));
+}
+
+double TestBoard::last_strain(const Entry& entry) const
+{
+  return expected_last_strain(strain_at_peak(entry), entry.planned.input->tests);
+}
+
+double TestBoard::fraction(const Entry& entry) const
+{
+  if (entry.finished)
+    return 1.0;
+  const double last = last_strain(entry);
+  return last > 0.0 ? std::clamp(entry.planned.test.kind.strain(entry.row) / last, 0.0, 0.99) : 0.0;
+}
+
+void TestBoard::draw()
+{
+  double cost = 0.0;
+  double spent = 0.0;
+  std::size_t n_finished = 0;
+  std::vector<ProgressDetail> details;
+  for (const Entry& entry : entries)
+    {
+      const double of_test = entry.planned.cost_per_strain * last_strain(entry);
+      const double share = fraction(entry);
+      cost += of_test;
+      spent += share * of_test;
+      n_finished += entry.finished;
+      const TestKind& kind = entry.planned.test.kind;
+      if (entry.running)
+        details.push_back(
+          {share, fmt::format("{}: {:.4f} %, {:.1f} MPa{}", entry.planned.name, 100.0 * kind.strain(entry.row),
+                              kind.stress(entry.row) / 1e6, entry.more)});
+    }
+  progress.update(cost > 0.0 ? spent / cost : 0.0, fmt::format("{} of {} done", n_finished, entries.size()), details);
+}
+} // namespace feldspar

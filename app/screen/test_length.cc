@@ -1,0 +1,35 @@
+#include "app/screen/test_length.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+double expected_strain_at_peak(const TestCase& test, const Input& input)
+{
+  // Ratios of a specimen's figures to those of its flat joints, as Beishan granite has them
+  // (examples/beishan-granite/README.md): rocks by other parameters lie within a factor of two.
+  constexpr double modulus_over_bonds = 0.8;
+  constexpr double tension_over_bonds = 0.4;
+  constexpr double compression_over_bonds = 7.5;
+  constexpr double disc_strain_over_tension = 4.0; // strain of the loaded diameter over the tension across it
+  constexpr double m = 20.0;                       // of Hoek and Brown
+  const double modulus = modulus_over_bonds * input.flat_joint.modulus;
+  const double bonds = std::max(input.flat_joint.bond_tensile_strength, 1e-3 * input.flat_joint.bond_cohesion);
+  const double tension = tension_over_bonds * bonds / modulus;
+  if (test.kind.envelope_role == EnvelopeRole::indirect_tension)
+    return disc_strain_over_tension * tension;
+  if (test.kind.sign > 0.0)
+    return tension;
+  const double uniaxial = compression_over_bonds * bonds;
+  return uniaxial > 0.0 ? uniaxial / modulus * std::sqrt(1.0 + m * test.confining_pressure / uniaxial) : tension;
+}
+
+double expected_last_strain(const double strain_at_peak, const TestParameters& tests)
+{
+  const double by_ratio = tests.stop_strain_over_peak_strain * strain_at_peak;
+  if (!tests.stop_strain)
+    return by_ratio;
+  return tests.stop_stress_over_peak ? std::min(*tests.stop_strain, by_ratio) : *tests.stop_strain;
+}
+} // namespace feldspar

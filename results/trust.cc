@@ -1,0 +1,226 @@
+#include "results/trust.h"
+
+#include "results/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double percent = 1e-2;
+constexpr std::size_t fewest_seeds = 3; // below that a standard deviation says nothing
+
+using Value = std::optional<double>;
+
+template <Figure TestResults::*figure>
+Value result(const FinishedTest& test)
+{
+  return (test.results.*figure).value;
+}
+
+Value energy_imbalance(const FinishedTest& test)
+{
+  if (test.bookkeeping.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
+    return std::nullopt;
+  return test.results.energy_imbalance_over_work;
+}
+
+Value resolution(const FinishedTest& test)
+{
+  return test.record.specimen.resolution > 0.0 ? Value(test.record.specimen.resolution) : std::nullopt;
+}
+
+Value radius_change(const FinishedTest& test)
+{
+  return test.record.specimen.n_grains > 0 ? Value(std::abs(test.record.specimen.radius_multiplier - 1.0))
+                                           : std::nullopt;
+}
+
+/// Genesis draws grains to the wanted porosity and then scales their radii by m: of the volume 1 - φ are grains at the
+/// end, and (1 - φ)/m^dim were wanted.
+Value porosity_change(const FinishedTest& test)
+{
+  const SpecimenReport& specimen = test.record.specimen;
+  if (specimen.n_grains == 0)
+    return std::nullopt;
+  const double grains = 1.0 - specimen.porosity;
+  return std::abs(grains - grains / std::pow(specimen.radius_multiplier, test.record.dimension()));
+}
+
+constexpr TrustMeasure measures[] = {
+  {"energy_imbalance_over_work", "energy imbalance over boundary work", " %", percent, 2, BoundSide::at_most,
+   1 * percent, energy_imbalance},
+  {"kinetic_to_strain_energy", "kinetic over strain energy, largest over the rows up to the peak", " %", percent, 3,
+   BoundSide::at_most, 1 * percent, result<&TestResults::kinetic_to_strain_energy>},
+  {"unbalanced_force_ratio", "unbalanced over contact force, mean over the rows up to the peak", " %", percent, 3,
+   BoundSide::at_most, 1 * percent, result<&TestResults::unbalanced_force_ratio>},
+  {"end_stress_difference", "difference of the end stresses over the peak, largest over the rows", " %", percent, 1,
+   BoundSide::at_most, 5 * percent, result<&TestResults::end_stress_difference>},
+  {"p_wave_transits_to_peak", "P-wave transits up to the peak", "", 1.0, 0, BoundSide::at_least, 20,
+   result<&TestResults::p_wave_transits_to_peak>},
+  {"servo_error", "servo error of the confinement, mean over the rows up to the peak", " %", percent, 2,
+   BoundSide::at_most, 1 * percent, result<&TestResults::servo_error>},
+  {"servo_error_largest", "servo error of the confinement, largest over the rows up to the peak", " %", percent, 1,
+   BoundSide::at_most, 3 * percent, result<&TestResults::servo_error_largest>},
+  {"resolution", "specimen width over mean grain diameter", "", 1.0, 1, BoundSide::at_least, 10, resolution},
+  {"radius_change", "change of the grain radii by genesis, over those of the input", " %", percent, 2,
+   BoundSide::at_most, 1 * percent, radius_change},
+  {"porosity_change", "difference of the porosity from that of the input", "", 1.0, 3, BoundSide::at_most, 0.02,
+   porosity_change},
+  {"poissons_ratio_initial", "Poisson's ratio, initial", "", 1.0, 3, BoundSide::at_most, 0.5,
+   result<&TestResults::poissons_ratio_initial>},
+  {"poissons_ratio_secant", "Poisson's ratio, secant at 50 % of the peak", "", 1.0, 3, BoundSide::at_most, 0.5,
+   result<&TestResults::poissons_ratio_secant>}};
+
+TestsOfRock all_of(const Series& series)
+{
+  TestsOfRock tests;
+  for (const auto& test : series.tests)
+    tests.push_back(&test);
+  return tests;
+}
+
+SeriesKind kind_of(const TestRecord& record)
+{
+  return record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
+}
+
+/// Why a test of these has no result, or not all of it; empty if it has.
+std::string shortcoming(const FinishedTest& test)
+{
+  if (!test.record.failure.empty())
+    return fmt::format("{} could not be {}: {}.", test.name, test.record.curve.empty() ? "made" : "finished",
+                       test.record.failure);
+  if (!test.results.peak_stress.value)
+    return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
+  if (!test.record.ended_early.empty())
+    return fmt::format("{} ended early: {}.", test.name, test.record.ended_early);
+  return "";
+}
+} // namespace
+
+std::string TrustMeasure::text(const double number) const
+{
+  return fmt::format("{:.{}f}{}", number / scale, decimals, unit);
+}
+
+std::string TrustMeasure::bound_text() const
+{
+  return fmt::format("{} {:g}{}", side == BoundSide::at_most ? "at most" : "at least", bound / scale, unit);
+}
+
+std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind kind)
+{
+  std::vector<TrustCheck> checks;
+  if (kind == SeriesKind::laboratory_curve)
+    return checks;
+  for (const TrustMeasure& measure : measures)
+    {
+      TrustCheck check{measure, 0, 0, 0.0, 0.0, ""};
+      std::vector<double> all;
+      for (const FinishedTest* const test : tests)
+        if (const Value value = test->record.failure.empty() ? measure.value(*test) : std::nullopt)
+          {
+            if (all.empty() || (measure.side == BoundSide::at_most ? *value > check.worst : *value < check.worst))
+              {
+                check.worst = *value;
+                check.worst_test = test->name;
+              }
+            all.push_back(*value);
+            check.n_out += measure.is_out(*value);
+          }
+      check.n_tests = all.size();
+      if (const auto over_tests = statistics(all))
+        {
+          check.mean = over_tests->mean;
+          checks.push_back(check);
+        }
+    }
+  return checks;
+}
+
+std::vector<TrustCheck> trust_checks(const Series& series) { return trust_checks(all_of(series), series.kind); }
+
+std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind kind)
+{
+  std::vector<std::string> sentences;
+  for (const FinishedTest* const test : tests)
+    if (const std::string sentence = shortcoming(*test); !sentence.empty())
+      sentences.push_back(sentence);
+  std::set<std::uint64_t> seeds;
+  for (const FinishedTest* const test : tests)
+    seeds.insert(test->record.seed);
+  if (kind != SeriesKind::laboratory_curve && seeds.size() < fewest_seeds)
+    {
+      const std::string one = kind == SeriesKind::specimens ? "specimen" : "sample";
+      sentences.push_back(fmt::format("Only {} {}{}: what belongs to the rock and what to the single {} cannot be told "
+                                      "apart; take {} seeds or more.",
+                                      seeds.size(), one, seeds.size() == 1 ? "" : "s", one, fewest_seeds));
+    }
+  return sentences;
+}
+
+std::vector<std::string> warnings(const TestsOfRock& tests, const SeriesKind kind)
+{
+  std::vector<std::string> sentences = shortcomings(tests, kind);
+  for (const auto& [measure, n_tests, n_out, mean, worst, worst_test] : trust_checks(tests, kind))
+    if (n_out > 0)
+      sentences.push_back(fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", n_out, n_tests,
+                                      measure.title, measure.text(worst), worst_test, measure.bound_text()));
+  return sentences;
+}
+
+std::vector<std::string> warnings(const Series& series)
+{
+  std::vector<std::string> sentences = warnings(all_of(series), series.kind);
+  for (const auto& problem : series.problems)
+    sentences.push_back(problem + ".");
+  return sentences;
+}
+
+std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)
+{
+  std::vector<RockTests> rocks;
+  for (const auto& test : tests)
+    {
+      auto rock =
+        std::find_if(rocks.begin(), rocks.end(), [&](const RockTests& one) { return one.variant == test.variant; });
+      if (rock == rocks.end())
+        rock = rocks.insert(rocks.end(), {test.variant, kind_of(test.record), {}});
+      rock->tests.push_back(&test);
+    }
+  return rocks;
+}
+
+std::string as_text(const std::vector<TrustCheck>& checks)
+{
+  const auto n_out =
+    std::count_if(checks.begin(), checks.end(), [](const TrustCheck& check) { return check.n_out > 0; });
+  std::string text = fmt::format("How far to trust it: {} of {} measures out of their bounds\n", n_out, checks.size());
+  for (const auto& [measure, n_tests, n_tests_out, mean, worst, worst_test] : checks)
+    text += fmt::format("{} {}\n    worst {}, bound {}; {}\n", n_tests_out > 0 ? "✗" : "✓", measure.title,
+                        measure.text(worst), measure.bound_text(),
+                        n_tests_out > 0 ? fmt::format("{} of {} tests out, worst {}", n_tests_out, n_tests, worst_test)
+                                        : fmt::format("{} test{}", n_tests, n_tests == 1 ? "" : "s"));
+  return text;
+}
+
+std::string trust_as_text(const std::vector<FinishedTest>& tests)
+{
+  std::string text;
+  for (const auto& [variant, kind, of_rock] : by_rock(tests))
+    {
+      if (!variant.empty())
+        text += variant + "\n";
+      text += as_text(trust_checks(of_rock, kind));
+      for (const auto& sentence : shortcomings(of_rock, kind))
+        text += sentence + "\n";
+    }
+  return text;
+}
+} // namespace feldspar

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "results/series.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// How far tests can be trusted: measures, each with a bound. The terminal, summary.json and the report take them from
+/// here. The reasons for the bounds are in docs/report.md.
+namespace feldspar
+{
+enum class BoundSide
+{
+  at_most,
+  at_least
+};
+
+struct TrustMeasure
+{
+  std::string_view name;  ///< in result files
+  std::string_view title; ///< in words
+  std::string_view unit;  ///< in which numbers are shown, with the space before it; or empty
+  double scale;           ///< of that unit
+  int decimals;
+  BoundSide side;
+  double bound;
+  std::optional<double> (*value)(const FinishedTest&); ///< none of a test to which the measure does not apply
+
+  bool is_out(double number) const { return side == BoundSide::at_most ? number > bound : number < bound; }
+  std::string text(double number) const; ///< 0.02 %
+  std::string bound_text() const;        ///< at most 1 %
+};
+
+/// A measure over the tests to which it applies, one at least.
+struct TrustCheck
+{
+  TrustMeasure measure;
+  std::size_t n_tests;
+  std::size_t n_out; ///< tests out of the bound
+  double mean;
+  double worst;
+  std::string worst_test;
+};
+
+/// Tests of one rock, which outlive it.
+using TestsOfRock = std::vector<const FinishedTest*>;
+
+/// Energy balance, quasi-static evidence, servo, resolution, packing, elasticity; nothing for what was measured on rock.
+std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, SeriesKind kind);
+std::vector<TrustCheck> trust_checks(const Series& series);
+
+/// What failed and what is missing, each in a sentence; nothing if all is there.
+std::vector<std::string> shortcomings(const TestsOfRock& tests, SeriesKind kind);
+
+/// The same, and what is out of its bounds.
+std::vector<std::string> warnings(const TestsOfRock& tests, SeriesKind kind);
+/// And what could not be read.
+std::vector<std::string> warnings(const Series& series);
+
+/// The tests of one rock: those of a variant, or all of a run without variants.
+struct RockTests
+{
+  std::string variant;
+  SeriesKind kind;
+  TestsOfRock tests;
+};
+
+/// In the order in which the rocks come.
+std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests);
+
+/// The checks for a terminal: of each measure its worst value, the bound, and how many tests are out of it.
+std::string as_text(const std::vector<TrustCheck>& checks);
+
+/// Of each rock the checks and the shortcomings.
+std::string trust_as_text(const std::vector<FinishedTest>& tests);
+} // namespace feldspar
