@@ -1,17 +1,21 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
+#include "app/input/joint_sections.h"
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
-#include "dem/laws/flat_joint.h"
+#include "dem/laws/joint_laws.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <iterator>
+#include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// `feldspar contact`: one joint along a displacement path, each row one update of the law.
@@ -21,31 +25,52 @@ namespace
 {
 constexpr double thickness = 1.0; // of a joint in the plane [m]
 
-Face<double> make_face(const FlatJointParameters& joint, const ContactParameters& grains)
+template <typename Law>
+Face<double> make_face(const typename Law::Parameters& joint, const Input& input)
 {
+  const ContactParameters& grains = input.contact;
   const double normal_stiffness = stiffness_per_area(joint.modulus, grains.radius_1, grains.radius_2);
   return {normal_stiffness, normal_stiffness / joint.stiffness_ratio,
-          face_half_length(joint.radius_multiplier, grains.radius_1, grains.radius_2), thickness, joint.friction};
+          face_half_length(joint.radius_multiplier, grains.radius_1, grains.radius_2), thickness,
+          Law::friction(joint, input.particle_contact)};
 }
 
-/// The segments of the joint: all as strong as the mean, at rest at first.
+/// Mean normal stress of a segment after an update [Pa].
 template <int dim>
+double normal_stress(const FlatJoint<dim>&, const Face<double>& face, const FaceElement<dim>& element,
+                     const FaceMotion<dim, double>&, const typename FlatJoint<dim>::template Update<double>& update)
+{
+  return mean_stress(place_segment(face, element).segment, update.normal);
+}
+
+/// That of the bond.
+template <int dim>
+double normal_stress(const ParallelBond<dim>&, const Face<double>& face, const FaceElement<dim>&,
+                     const FaceMotion<dim, double>& motion,
+                     const typename ParallelBond<dim>::template Update<double>& update)
+{
+  return update.state.bonded ? face.normal_stiffness * motion.opening : 0.0;
+}
+
+/// What the update of a law leaves of an element.
+template <typename Update>
 struct Segments
 {
-  Segments(const FlatJointParameters& joint, const std::size_t n)
+  template <typename Parameters>
+  Segments(const Parameters& joint, const std::size_t n)
     : strength{joint.bond_tensile_strength, joint.bond_cohesion, std::tan(joint.bond_friction_angle)}
     , updates(n)
   {
     for (auto& update : updates)
-      update.state = {{}, true};
+      update.state.bonded = true;
   }
 
-  const flat_joint::Bond<double>& bond(unsigned int) const { return strength; }
-  const flat_joint::SegmentState<dim, double>& state(const unsigned int i) const { return updates[i].state; }
-  void set(const unsigned int i, const flat_joint::SegmentUpdate<dim, double>& update) { updates[i] = update; }
+  const Bond<double>& bond(unsigned int) const { return strength; }
+  const auto& state(const unsigned int i) const { return updates[i].state; }
+  void set(const unsigned int i, const Update& update) { updates[i] = update; }
 
-  flat_joint::Bond<double> strength;
-  std::vector<flat_joint::SegmentUpdate<dim, double>> updates;
+  Bond<double> strength;
+  std::vector<Update> updates;
 };
 
 /// Columns of the path and of the answer.
@@ -95,9 +120,8 @@ FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std:
   return motion;
 }
 
-template <int dim>
-std::string csv_row(const Face<double>& face, const std::vector<FaceElement<dim>>& elements,
-                    const FaceResultants<dim, double>& sum, const Segments<dim>& segments)
+template <int dim, typename Update, typename StressOf>
+std::string csv_row(const FaceResultants<dim, double>& sum, const Segments<Update>& segments, const StressOf& stress_of)
 {
   // Adding zero turns -0 into 0.
   std::string row = fmt::format("{}", sum.normal_force + 0.0);
@@ -106,10 +130,10 @@ std::string csv_row(const Face<double>& face, const std::vector<FaceElement<dim>
     append(force);
   for (const double moment : sum.moment)
     append(moment);
-  for (std::size_t i = 0; i < elements.size(); ++i)
+  for (std::size_t i = 0; i < segments.updates.size(); ++i)
     {
       const auto& update = segments.updates[i];
-      append(mean_stress(place_segment(face, elements[i]).segment, update.normal));
+      append(stress_of(i));
       for (const double tau : update.state.shear_stress)
         append(tau);
       fmt::format_to(std::back_inserter(row), ",{:d}", update.state.bonded);
@@ -117,23 +141,40 @@ std::string csv_row(const Face<double>& face, const std::vector<FaceElement<dim>
   return row + '\n';
 }
 
-/// What the joint answers to the path.
-template <int dim>
-std::string answer(const Input& input)
+template <int dim, typename Law>
+std::string answer(const Law& law, const typename Law::Parameters& joint, const Input& input)
 {
   const auto path = read_csv(input.contact.path_file, Columns<dim>::path);
-  const Face<double> face = make_face(input.flat_joint, input.contact);
-  const auto elements = face_elements<dim>(face_division<dim>(input.flat_joint));
-  Segments<dim> segments(input.flat_joint, elements.size());
+  const Face<double> face = make_face<Law>(joint, input);
+  const auto elements = face_elements<dim>(Law::division(joint));
+  Segments<typename Law::template Update<double>> segments(joint, elements.size());
   std::string table = csv_header<dim>(elements.size());
   std::vector<double> before(dim + n_rotations<dim>, 0.0);
   for (const std::vector<double>& now : path)
     {
-      const auto sum = update_face<dim>(face, elements, row_motion<dim>(before, now), segments);
-      table += csv_row<dim>(face, elements, sum, segments);
+      const auto motion = row_motion<dim>(before, now);
+      const auto sum = law.template update<double>(face, elements, motion, segments);
+      table += csv_row<dim>(sum, segments, [&](const std::size_t i) {
+        return normal_stress(law, face, elements[i], motion, segments.updates[i]);
+      });
       before = now;
     }
   return table;
+}
+
+/// What the joint answers to the path.
+template <int dim>
+std::string answer(const Input& input)
+{
+  const JointParameters joint = joint_parameters(input);
+  return std::visit(
+    [&]<typename Law, typename Parameters>(const Law& law, const Parameters& parameters) -> std::string {
+      if constexpr (std::same_as<typename Law::Parameters, Parameters>)
+        return answer<dim>(law, parameters, input);
+      else
+        throw std::logic_error("a joint law with the parameters of another");
+    },
+    JointLaws::make<dim>(joint, input.particle_contact), joint);
 }
 } // namespace
 

@@ -73,6 +73,9 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
     refuse(fmt::format("Specimen/Shape = {}: the volume at a point needs Shape = periodic", input.specimen.shape));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
     refuse("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
+  if (has_grains && input.specimen.joint_law != FlatJoint<2>::name)
+    refuse(fmt::format("Specimen/Joint law = {}: the volume at a point needs Joint law = {}", input.specimen.joint_law,
+                       FlatJoint<2>::name));
   if (!input.variant_entry.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
   for (const TestKind& kind : input.test_list)

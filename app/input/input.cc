@@ -1,13 +1,17 @@
 #include "app/input/input.h"
 
 #include "app/input/given_entries.h"
+#include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <numbers>
+#include <set>
 
 namespace feldspar
 {
@@ -20,29 +24,58 @@ void settle_dimension(Input& input, const GivenEntries& values)
     return;
   if (!values.has("Specimen", "Porosity"))
     input.specimen.porosity = 0.36;
-  if (!values.has("Flat joint", "Coordination number") && !values.has("Flat joint", "Installation gap ratio"))
-    input.flat_joint.installation_gap_ratio = 0.05;
+  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
+    const std::string section = section_of(law);
+    if (!values.has(section, "Coordination number") && !values.has(section, "Installation gap ratio"))
+      joint.installation_gap_ratio = 0.05;
+  });
 }
 
 /// The gap that gets a joint follows from exactly one of two entries; naming the one takes the other's default away.
 void settle_installation(Input& input, const GivenEntries& values)
 {
-  FlatJointParameters& joint = input.flat_joint;
-  if (joint.installation_gap_ratio && !values.has("Flat joint", "Coordination number"))
-    joint.coordination_number.reset();
-  if (joint.installation_gap_ratio && joint.coordination_number)
-    throw values.error("Flat joint", "Installation gap ratio",
-                       "excludes Coordination number, which is given too; keep one of them");
-  if (!joint.installation_gap_ratio && !joint.coordination_number)
-    throw values.error("Flat joint", "Coordination number", "is needed when Installation gap ratio is none");
+  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
+    const std::string section = section_of(law);
+    if (joint.installation_gap_ratio && !values.has(section, "Coordination number"))
+      joint.coordination_number.reset();
+    if (joint.installation_gap_ratio && joint.coordination_number)
+      throw values.error(section, "Installation gap ratio",
+                         "excludes Coordination number, which is given too; keep one of them");
+    if (!joint.installation_gap_ratio && !joint.coordination_number)
+      throw values.error(section, "Coordination number", "is needed when Installation gap ratio is none");
+  });
 }
 
 void check_fractions(const Input& input, const GivenEntries& values)
 {
-  if (input.flat_joint.gapped_fraction + input.flat_joint.slit_fraction > 1.0)
-    throw values.error("Flat joint", "Slit fraction",
-                       fmt::format("must be at most 1 together with Gapped fraction = {}",
-                                   values.value("Flat joint", "Gapped fraction")));
+  for_each_joint_section(input, [&](const std::string_view law, const auto& joint) {
+    if (joint.gapped_fraction + joint.slit_fraction > 1.0)
+      throw values.error(section_of(law), "Slit fraction",
+                         fmt::format("must be at most 1 together with Gapped fraction = {}",
+                                     values.value(section_of(law), "Gapped fraction")));
+  });
+}
+
+/// An entry of a joint law that no variant has would be without effect.
+void check_joint_law(const Input& input, const GivenEntries& values)
+{
+  const std::vector<Variant> all = variants(input);
+  std::set<std::string> laws;
+  for (const Variant& variant : all)
+    laws.insert(variant.input.specimen.joint_law);
+  const std::string refusal = fmt::format("is of another joint law; Specimen/Joint law is {}", fmt::join(laws, " or "));
+  const auto has_use = [&](const std::string_view section, const std::string_view entry) {
+    return std::any_of(all.begin(), all.end(), [&](const Variant& variant) {
+      return has_use_for(variant.input, *find_parameter(section, entry));
+    });
+  };
+  for (const GivenEntry& given : values.all())
+    if (!has_use(given.section, given.entry))
+      throw values.error(given.section, given.entry, refusal);
+  if (const std::size_t slash = input.variant_entry.find('/');
+      !input.variant_entry.empty() &&
+      !has_use(input.variant_entry.substr(0, slash), input.variant_entry.substr(slash + 1)))
+    throw values.error("Variants", "Entry", refusal);
 }
 
 void check_variants(const Input& input, const GivenEntries& values)
@@ -131,10 +164,14 @@ std::vector<Variant> variants(const Input& input)
       Input& varied = result.back().input;
       parameter.read(varied, value);
       // Of the two ways to say which pairs get a joint the varied one holds.
-      if (parameter.entry == "Coordination number")
-        varied.flat_joint.installation_gap_ratio.reset();
-      if (parameter.entry == "Installation gap ratio")
-        varied.flat_joint.coordination_number.reset();
+      for_each_joint_section(varied, [&](const std::string_view law, auto& joint) {
+        if (parameter.section != section_of(law))
+          return;
+        if (parameter.entry == "Coordination number")
+          joint.installation_gap_ratio.reset();
+        if (parameter.entry == "Installation gap ratio")
+          joint.coordination_number.reset();
+      });
     }
   return result;
 }
@@ -158,6 +195,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
   settle_dimension(input, values);
   settle_installation(input, values);
   check_variants(input, values);
+  check_joint_law(input, values);
   for (const Variant& variant : variants(input))
     {
       check_fractions(variant.input, values);

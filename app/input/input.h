@@ -50,6 +50,7 @@ struct Input
   std::filesystem::path folder; ///< relative paths of the input are relative to this
   SpecimenParameters specimen;
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
+  ParallelBondParameters parallel_bond{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParticleContactParameters particle_contact;
   DynamicsParameters dynamics;
   std::vector<TestKind> test_list{direct_tension.kind, uniaxial_compression.kind};

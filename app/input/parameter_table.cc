@@ -8,6 +8,7 @@
 #include "dem/dynamics/entries.h"
 #include "dem/lab/entries.h"
 #include "dem/laws/entries.h"
+#include "dem/laws/joint_laws.h"
 #include "dem/specimen/entries.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ std::vector<Parameter> make_parameter_table()
   Table table;
   table.add("Specimen", &Input::specimen, specimen_entries());
   table.add("Flat joint", &Input::flat_joint, flat_joint_entries());
+  table.add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
   table.add("Particle contact", &Input::particle_contact, particle_contact_entries());
   table.add("Dynamics", &Input::dynamics, dynamics_entries());
   table.add("Tests", {test_list_entry(), confinements_entry()});
@@ -97,6 +99,14 @@ const Parameter* find_parameter(const std::string_view section, const std::strin
     if (parameter.section == section && parameter.entry == entry)
       return &parameter;
   return nullptr;
+}
+
+bool has_use_for(const Input& input, const Parameter& parameter)
+{
+  const auto laws = JointLaws::names();
+  return std::none_of(laws.begin(), laws.end(), [&](const std::string_view law) {
+    return parameter.section == section_of(law) && law != input.specimen.joint_law;
+  });
 }
 
 void check_body(const Input& input, const Body body)

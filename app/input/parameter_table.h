@@ -37,6 +37,9 @@ std::vector<std::string_view> entry_names(std::string_view section);
 /// Null if there is none of that name.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
 
+/// False for the sections of joint laws other than the input's own.
+bool has_use_for(const Input& input, const Parameter& parameter);
+
 /// Refuses entries that have no use on this body, unless they keep their defaults. Throws InputError.
 void check_body(const Input& input, Body body);
 } // namespace feldspar

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace feldspar
 {
@@ -30,8 +31,11 @@ Provenance provenance(const Input& input, const std::filesystem::path& input_fil
   result.version = version;
   result.commit = commit;
   result.input_file = input_file.filename().string();
+  const std::vector<Variant> all = variants(input);
   for (const auto& parameter : parameter_table())
-    result.input.push_back({std::string(parameter.section), std::string(parameter.entry), parameter.write(input)});
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const Variant& variant) { return has_use_for(variant.input, parameter); }))
+      result.input.push_back({std::string(parameter.section), std::string(parameter.entry), parameter.write(input)});
   result.processor = processor_name();
   result.n_threads = unsigned(std::min<std::size_t>(
     std::thread::hardware_concurrency(),

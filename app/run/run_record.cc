@@ -84,7 +84,8 @@ std::string run_identity(const Input& input, const std::string& part)
 {
   std::string text = fmt::format("{} {}\n", version, part);
   for (const Parameter& parameter : parameter_table())
-    text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+    if (has_use_for(input, parameter))
+      text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "app/run/specimen_source.h"
 
+#include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
 #include "app/run/genesis_effort.h"
 #include "app/run/interrupt.h"
@@ -12,7 +13,7 @@
 
 #include <algorithm>
 #include <mutex>
-#include <stdexcept>
+#include <variant>
 
 namespace feldspar
 {
@@ -23,7 +24,7 @@ std::string rock(const Input& input)
 {
   std::string text;
   for (const Parameter& parameter : parameter_table())
-    if (parameter.flags.of_specimen)
+    if (parameter.flags.of_specimen && has_use_for(input, parameter))
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
 }
@@ -92,12 +93,16 @@ private:
   std::vector<Entry> entries;
 };
 
-/// Parameters of the joint law that the input names.
-JointParameters joint_parameters(const Input& input)
+/// A specimen out of a file brings its own joint law, which must be the one that the input speaks of.
+template <int dim>
+Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted)
 {
-  if (input.specimen.joint_law == FlatJoint<2>::name)
-    return input.flat_joint;
-  throw std::logic_error("a joint law without a section of its own");
+  auto specimen = read_specimen<dim>(wanted.specimen_file);
+  const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
+  if (law != wanted.joint_law)
+    throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
+                                 wanted.specimen_file, law));
+  return specimen;
 }
 } // namespace
 
@@ -164,7 +169,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
                      ? make_specimen<dim>(
                          input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
                          [](std::string_view, double) {}, step)
-                     : read_specimen<dim>(input.specimen.specimen_file);
+                     : read_finished_specimen<dim>(input.specimen);
     write_specimen(specimens[k], file);
     board.finish(k);
   });

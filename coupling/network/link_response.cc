@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <variant>
 
 namespace feldspar
 {
 namespace
 {
-static_assert(std::is_same_v<AnyJointLaw<2>, std::variant<FlatJoint<2>>>,
-              "broken faces answer as flat joints do here; another law needs its own response");
-
 constexpr double closure_width_ratio = 1e-6; // over the half length of the face: 20 kPa between grains of rock
 
 template <int dim>
@@ -90,10 +86,11 @@ private:
 
   double width; ///< [m]
 };
-} // namespace
 
+/// Of a flat joint, or of a pair without a face.
 template <int dim>
-LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
+LinkAnswer<dim> face_answer(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                            const Motion<dim>& motion)
 {
   const Link<dim>& link = network.links()[active.link];
   const double k_n = link.normal_stiffness;
@@ -118,12 +115,10 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
 
       if (old.bonded)
         {
-          segment.normal_stress = k_n * now[0]; // (10)
           for (int c = 0; c < dim - 1; ++c)
             segment.shear_stress[c] = -k_s * now[c + 1]; // (13), the whole way since rest
-          const JointStiffness<dim> stiffness = std::visit(
-            [&](const auto& law) { return law.bonded_stiffness(link.face(network.thickness()), element, rows); },
-            network.law());
+          segment.bond_stress = {k_n * now[0], k_n * now[0], flat_joint::magnitude(segment.shear_stress)}; // (10)
+          const JointStiffness<dim> stiffness = law.bonded_stiffness(link.face(network.thickness()), element, rows);
           result.forces += stiffness * motion;
           result.tangent += stiffness;
           result.derivative += stiffness;
@@ -143,7 +138,6 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
         trial[c] = old.shear_stress[c] - k_s * share * (now[c + 1] - before[c + 1]);
       step.shear_increment = {};
       const auto update = flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {trial, false}, step);
-      segment.normal_stress = mean_stress(face, update.normal);
       segment.shear_stress = update.state.shear_stress;
 
       Vector<dim> force;
@@ -202,6 +196,73 @@ LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& activ
       result.derivative += area * shear_rows.transpose() * shear_rate;
     }
   return result;
+}
+
+/// Of a parallel bond: beside it the linear contact, by one return map from the last event.
+template <int dim>
+LinkAnswer<dim> face_answer(const ParallelBond<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                            const Motion<dim>& motion)
+{
+  using Shear = Eigen::Matrix<double, dim - 1, 1>;
+  const Link<dim>& link = network.links()[active.link];
+  const Face<double> face = link.face(network.thickness());
+  const SegmentHistory<dim>& old = active.segments.front();
+  LinkAnswer<dim> result;
+  SegmentAnswer<dim>& segment = result.segments.emplace_back();
+  if (old.bonded)
+    {
+      const JointStiffness<dim> stiffness = law.bond_stiffness(face);
+      result.forces = stiffness * motion;
+      result.tangent = result.derivative = stiffness;
+      result.stored_energy = 0.5 * motion.dot(result.forces);
+      segment.bond_stress = law.bond_stress(face, motion);
+    }
+
+  const FaceSprings contact = law.contact_springs(face);
+  const double area = network.segment_area(link, 0);
+  const double pressure = contact.normal * std::max(0.0, -link.opening - motion[0]);
+  const Shear way = (motion - active.motion).template segment<dim - 1>(1);
+  const Shear trial = area * Eigen::Map<const Shear>(old.shear_stress.data()) - contact.shear * way;
+  const double size = trial.norm();
+  const double limit = link.friction * pressure;
+  const bool slides = size > limit;
+  const Shear force = slides ? Shear(limit / size * trial) : trial;
+  for (int c = 0; c < dim - 1; ++c)
+    {
+      segment.shear_stress[c] = force[c] / area;
+      segment.slip[c] = (trial[c] - force[c]) / contact.shear;
+    }
+  result.forces[0] -= pressure;
+  result.forces.template segment<dim - 1>(1) -= force;
+  result.stored_energy += 0.5 * pressure * pressure / contact.normal + 0.5 * force.squaredNorm() / contact.shear;
+  if (pressure == 0.0)
+    return result;
+
+  result.tangent(0, 0) += contact.normal;
+  result.derivative(0, 0) += contact.normal;
+  using ShearStiffness = Eigen::Matrix<double, dim - 1, dim - 1>;
+  const ShearStiffness sticking = contact.shear * ShearStiffness::Identity();
+  if (!slides)
+    {
+      result.tangent.template block<dim - 1, dim - 1>(1, 1) += sticking;
+      result.derivative.template block<dim - 1, dim - 1>(1, 1) += sticking;
+      return result;
+    }
+  // The force is μ times the pressure along the trial force, which the slip across it turns.
+  const Shear along = trial / size;
+  result.derivative.template block<dim - 1, 1>(1, 0) += link.friction * contact.normal * along;
+  result.derivative.template block<dim - 1, dim - 1>(1, 1) +=
+    limit / size * (sticking - contact.shear * along * along.transpose());
+  return result;
+}
+} // namespace
+
+template <int dim>
+LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
+{
+  if (!network.links()[active.link].has_face)
+    return face_answer(FlatJoint<dim>(), network, active, motion);
+  return std::visit([&](const auto& law) { return face_answer(law, network, active, motion); }, network.law());
 }
 
 template LinkAnswer<2> answer<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);

@@ -3,8 +3,8 @@
 #include "coupling/network/network.h"
 #include "dem/laws/flat_joint_law.h"
 
-/// How a link with unbonded segments answers: the flat-joint law of dem/, in small strains and from one event to the
-/// next; docs/theory.md §10.3.
+/// How a link with unbonded segments, or one of a law that is not linear while it holds, answers: the law of dem/, in small
+/// strains and from one event to the next; docs/theory.md §10.3.
 namespace feldspar
 {
 /// One segment at the last event.
@@ -12,7 +12,8 @@ template <int dim>
 struct SegmentHistory
 {
   bool bonded = true;
-  std::array<double, dim - 1> shear_stress{}; ///< [Pa]; of an unbonded one
+  /// Of an unbonded one; of a parallel bond, whether it holds or not, the shear force of its contact over its area [Pa].
+  std::array<double, dim - 1> shear_stress{};
 };
 
 /// A link with unbonded segments and how it stood at the last event.
@@ -28,8 +29,8 @@ struct ActiveLink
 template <int dim>
 struct SegmentAnswer
 {
-  double normal_stress;                     ///< σ̂ [Pa]
-  std::array<double, dim - 1> shear_stress; ///< τ [Pa]
+  std::array<double, dim - 1> shear_stress; ///< as in the history
+  BondStress bond_stress{};                 ///< of a bonded one
   std::array<double, dim - 1> slip{};       ///< shear since the last event that τ did not follow, along τ [m]
 };
 

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,8 +77,9 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   if (!specimen.periodic)
     throw InputError("Specimen/Shape: a representative volume needs a periodic specimen");
   if (number_of_joints == 0)
-    throw InputError("Flat joint/Installation gap ratio: joins no two grains of the volume, so that nothing holds it; "
-                     "make it larger");
+    throw InputError(fmt::format("{}/Installation gap ratio: joins no two grains of the volume, so that nothing holds "
+                                 "it; make it larger",
+                                 section_of(std::visit([](const auto& law) { return law.name; }, joint_law))));
   const auto& joints = specimen.joints;
   for (std::size_t i = 0; i < number_of_grains; ++i)
     centres.push_back(at<dim>(specimen.grains.position, i));
@@ -304,7 +307,7 @@ template <int dim>
 bool Network<dim>::stays_linear(const Voigt<dim>& strain) const
 {
   const double size = strain.norm();
-  if (!unbonded_at_rest.empty() || !std::isfinite(size))
+  if (!is_linear_while_bonded() || !unbonded_at_rest.empty() || !std::isfinite(size))
     return false;
   if (size >= touching_strain)
     for (std::size_t k = 0; k < opening_rates.size(); ++k)

@@ -6,6 +6,7 @@
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 /// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
@@ -51,6 +52,11 @@ public:
   const Tensor<dim>& cell() const { return edges; }
 
   const AnyJointLaw<dim>& law() const { return joint_law; }
+  /// Else joints answer by their law's own response (link_response.h) from the beginning.
+  bool is_linear_while_bonded() const
+  {
+    return std::visit([](const auto& of_joints) { return of_joints.linear_while_bonded; }, joint_law);
+  }
   const Bond<double>& bond(const std::uint32_t segment) const { return bonds[segment]; }
   double thickness() const { return plane_thickness; }
   /// Of a link's segment i [m²].
@@ -80,7 +86,8 @@ public:
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
   Unknowns lent(const Unknowns& unknowns) const;
 
-  // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain.
+  // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
+  // whose faces are not, the answer of the stiffest state: a scale and a first guess.
 
   /// C_0 [Pa].
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
@@ -89,7 +96,8 @@ public:
   /// Of a law whose bonds bear the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
-  /// Whether no pair without a face can come to touch at this strain: with all bonds kept the network is linear.
+  /// Whether, by a linear law, no pair without a face can come to touch at this strain: with all bonds kept the network is
+  /// linear.
   bool stays_linear(const Voigt<dim>& strain) const;
   /// Whether no segment is overloaded and no pair touches at this strain.
   bool stays_intact(const Voigt<dim>& strain) const;

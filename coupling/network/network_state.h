@@ -30,10 +30,12 @@ template <int dim>
 struct NetworkState
 {
   Voigt<dim> strain = Voigt<dim>::Zero();
-  Voigt<dim> stress = Voigt<dim>::Zero(); ///< [Pa]
-  bool intact = true;
+  Voigt<dim> stress = Voigt<dim>::Zero();     ///< [Pa]
+  bool intact = true;                         ///< and linear
   std::vector<double> motions;                ///< of all grains; empty while intact
   std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
+  /// Of a law that is not linear while it holds, of every segment [Pa]; empty at rest, and of other laws.
+  std::vector<std::array<double, dim - 1>> contact_shear;
   std::uint32_t n_tension_breaks = 0;
   std::uint32_t n_shear_breaks = 0;
   NetworkWork work;

@@ -33,9 +33,7 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
               {
                 if (!history.active()[history.active_number(k)].segments[i].bonded)
                   continue;
-                const auto& segment = present.balance.active[history.active_number(k)].segments[i];
-                check(link.first_segment + i,
-                      {segment.normal_stress, segment.normal_stress, flat_joint::magnitude(segment.shear_stress)});
+                check(link.first_segment + i, present.balance.active[history.active_number(k)].segments[i].bond_stress);
               }
             else
               {

@@ -182,7 +182,8 @@ void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, st
       const double stored = answer(network, broken, broken.motion).stored_energy;
       SegmentHistory<dim>& segment = broken.segments[overload.segment - network.links()[link].first_segment];
       segment.bonded = false;
-      segment.shear_stress = {};
+      if (network.is_linear_while_bonded())
+        segment.shear_stress = {};
       const double released = stored - answer(network, broken, broken.motion).stored_energy;
       last.work.released += released;
       ++(overload.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
@@ -213,6 +214,7 @@ NetworkState<dim> Equilibrium<dim>::state()
   result.intact = history.active().empty();
   result.motions.clear();
   result.unbonded.clear();
+  result.contact_shear.clear();
   if (result.intact)
     return result;
   result.motions.assign(present.position.data(), present.position.data() + n_own);
@@ -225,6 +227,16 @@ NetworkState<dim> Equilibrium<dim>::state()
           if (!idle)
             result.unbonded.push_back({network.links()[link.link].first_segment + i, link.segments[i].shear_stress});
         }
+  if (!network.is_linear_while_bonded())
+    {
+      result.contact_shear.resize(network.n_segments());
+      for (std::uint32_t link = 0; link < network.n_joints(); ++link)
+        {
+          const auto& segments = history.active()[history.active_number(link)].segments;
+          for (std::size_t i = 0; i < segments.size(); ++i)
+            result.contact_shear[network.links()[link].first_segment + i] = segments[i].shear_stress;
+        }
+    }
   std::sort(result.unbonded.begin(), result.unbonded.end(),
             [](const auto& a, const auto& b) { return a.segment < b.segment; });
   return result;

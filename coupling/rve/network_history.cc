@@ -23,6 +23,15 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
       segment.bonded = false;
       segment.shear_stress = unbonded.shear_stress;
     }
+  if (network.is_linear_while_bonded())
+    return;
+  for (std::uint32_t link = 0; link < network.n_joints(); ++link)
+    {
+      ActiveLink<dim>& face = activate(link);
+      if (!state.contact_shear.empty())
+        for (std::size_t i = 0; i < face.segments.size(); ++i)
+          face.segments[i].shear_stress = state.contact_shear[network.links()[link].first_segment + i];
+    }
 }
 
 /// All bonded; a pair without a face never is.
@@ -54,7 +63,7 @@ void NetworkHistory<dim>::keep(const Configuration<dim>& present)
     {
       active_links[a].motion = link_motion(of.links()[active_links[a].link], present.position);
       for (std::size_t i = 0; i < active_links[a].segments.size(); ++i)
-        if (!active_links[a].segments[i].bonded)
+        if (!active_links[a].segments[i].bonded || !of.is_linear_while_bonded())
           active_links[a].segments[i].shear_stress = present.balance.active[a].segments[i].shear_stress;
     }
   position_at_event = present.position;

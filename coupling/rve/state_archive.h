@@ -32,6 +32,11 @@ void transfer(Archive& archive, NetworkState<dim>& state)
   transfer_flag(archive, "intact", state.intact);
   archive.array("motions", state.motions);
   archive.bytes("unbonded", state.unbonded);
+  bool has_contact_shear = true;
+  if constexpr (requires { archive.has(""); })
+    has_contact_shear = archive.has("contact_shear"); // files of version 0.2.0 know flat joints alone
+  if (has_contact_shear)
+    archive.bytes("contact_shear", state.contact_shear);
   archive.value("n_tension_breaks", state.n_tension_breaks);
   archive.value("n_shear_breaks", state.n_shear_breaks);
   archive.value("boundary_work", state.work.boundary);

@@ -23,14 +23,18 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   const auto by_segment = [](const UnbondedSegment<dim>& a, const UnbondedSegment<dim>& b) {
     return a.segment < b.segment;
   };
+  const auto is_finite = [](const std::array<double, dim - 1>& shear) {
+    return std::all_of(shear.begin(), shear.end(), [](const double stress) { return std::isfinite(stress); });
+  };
   const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
-    return unbonded.segment < n_segments && std::all_of(unbonded.shear_stress.begin(), unbonded.shear_stress.end(),
-                                                        [](const double stress) { return std::isfinite(stress); });
+    return unbonded.segment < n_segments && is_finite(unbonded.shear_stress);
   };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
          state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
          std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
+         (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
+         std::all_of(state.contact_shear.begin(), state.contact_shear.end(), is_finite) &&
          std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);
 }
 } // namespace

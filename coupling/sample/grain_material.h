@@ -42,7 +42,12 @@ public:
   std::vector<double> fields() const override;
   std::optional<fem::PointEnergies> energies() const override;
   std::vector<fem::PointCrack<dim>> cracks_of_last_step() const override;
-  bool is_damaged() const override { return !accepted.state().intact; }
+  /// Of a law that is not linear while it holds: whether a bond has broken.
+  bool is_damaged() const override
+  {
+    const NetworkState<dim>& state = accepted.state();
+    return !state.intact && (accepted.network().is_linear_while_bonded() || !state.unbonded.empty());
+  }
   std::any structure() const override;
 
   /// The volume in its accepted state, in its own axes.

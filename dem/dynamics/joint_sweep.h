@@ -53,8 +53,8 @@ std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, 
 template <int dim>
 std::array<double, dim - 1> shear_stress(const Joints<dim>& joints, unsigned int segment, std::size_t joint);
 
-/// Whether a joint has a face still. It loses it when nothing holds and both sides have slid or opened past each other, or
-/// at once by a law whose faces go with their bonds.
+/// Whether a joint has a face still. It loses it when nothing holds and both sides have slid or opened past each other; by
+/// a law whose faces cannot slide off when they have opened so far; by one whose faces go with their bonds at once.
 template <int dim>
 bool has_face(const Joints<dim>& joints, std::size_t joint);
 

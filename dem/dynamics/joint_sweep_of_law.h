@@ -369,6 +369,8 @@ bool has_face(const Law&, const Joints<dim>& joints, const std::size_t j)
   if constexpr (!Law::face_outlives_bonds)
     return false;
   const double reach = 2.0 * joints.half_length[j];
+  if constexpr (!Law::face_can_slide_off)
+    return joints.opening[j] <= reach;
   std::array<double, dim - 1> slip;
   for (int c = 0; c < dim - 1; ++c)
     slip[c] = joints.slip[c][j];

@@ -4,6 +4,7 @@
 #include "dem/laws/face_elements.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace feldspar
 {
@@ -35,12 +36,11 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
           {
             const std::uint32_t j = joints_of.entries[e] / 2;
             const bool is_second = joints_of.entries[e] % 2;
-            const double area = joints.face_area(j);
-            const double k_bending = joints.normal_stiffness[j] * joints.face_second_moment(j);
-            const double k_twist = joints.shear_stiffness[j] * joints.face_polar_moment(j);
+            const FaceSprings springs =
+              std::visit([&](const auto& law) { return law.stiffest(joints.face(j)); }, joints.law);
             const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
-            add(i, at<dim>(joints.normal, j), joints.normal_stiffness[j] * area, joints.shear_stiffness[j] * area,
-                is_second ? a.two : a.one, k_bending, k_twist);
+            add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? a.two : a.one, springs.bending,
+                springs.twist);
           }
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
           {

@@ -176,7 +176,7 @@ void sort_in_space(Grains<dim>& grains)
 template <int dim>
 void install_joints(Specimen<dim>& specimen, const JointParameters& wanted)
 {
-  specimen.joints.law = JointLaws::make<dim>(wanted);
+  specimen.joints.law = JointLaws::make<dim>(wanted, specimen.particle_contact);
   std::visit(
     [&]<typename Law, typename Parameters>(const Law& law, const Parameters& parameters) {
       if constexpr (std::same_as<typename Law::Parameters, Parameters>)

@@ -14,11 +14,12 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <vector>
 
 /// Installation of joints, written over the law; docs/theory.md §3. Of every law's parameters it reads modulus,
-/// stiffness_ratio, friction, radius_multiplier, bond_friction_angle, installation_gap_ratio, coordination_number,
+/// stiffness_ratio, radius_multiplier, bond_friction_angle, installation_gap_ratio, coordination_number,
 /// gapped_fraction, slit_fraction and initial_gap as FlatJointParameters has them; the law divides the faces and draws
 /// the strengths.
 namespace feldspar
@@ -64,7 +65,7 @@ std::vector<PairGap<dim>> pair_gaps(const Specimen<dim>& specimen, const double 
 /// gap would find.
 template <int dim, typename Parameters>
 std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted, const std::size_t n_grains,
-                            const double mean_radius)
+                            const double mean_radius, const std::string& section)
 {
   if (wanted.installation_gap_ratio)
     return std::size_t(std::partition_point(gaps.begin(), gaps.end(),
@@ -79,9 +80,9 @@ std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Paramet
   const auto n = std::size_t(std::llround(0.5 * z * double(n_grains)));
   if (n < n_overlapping || n > gaps.size())
     throw InputError(fmt::format(
-      "Flat joint/Coordination number = {}: this packing allows {:.2f} (pairs that touch) to {:.2f} (gaps up to "
+      "{}/Coordination number = {}: this packing allows {:.2f} (pairs that touch) to {:.2f} (gaps up to "
       "the mean radius)",
-      z, 2.0 * double(n_overlapping) / double(n_grains), 2.0 * double(gaps.size()) / double(n_grains)));
+      section, z, 2.0 * double(n_overlapping) / double(n_grains), 2.0 * double(gaps.size()) / double(n_grains)));
   return n;
 }
 
@@ -141,7 +142,7 @@ void install_joints(Specimen<dim>& specimen, const Law& law, const typename Law:
   const double mean_radius = grains.mean_radius();
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
   const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12));
-  const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius);
+  const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius, section_of(Law::name));
   specimen.report.installation_gap_ratio = wanted.installation_gap_ratio ? *wanted.installation_gap_ratio
                                            : n > 0                       ? gaps[n - 1].gap / mean_radius
                                                                          : 0.0;
@@ -154,7 +155,7 @@ void install_joints(Specimen<dim>& specimen, const Law& law, const typename Law:
   auto& joints = specimen.joints;
   joints.divide(law.division(wanted), Law::n_more);
   joints.thickness = specimen.thickness;
-  joints.friction = wanted.friction;
+  joints.friction = Law::friction(wanted, specimen.particle_contact);
   joints.friction_slope = std::tan(wanted.bond_friction_angle);
   joints.resize_all(n);
   for (std::size_t j = 0; j < n; ++j)

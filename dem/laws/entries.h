@@ -8,6 +8,28 @@
 /// The entries of contacts.
 namespace feldspar
 {
+/// `entries` of a joint law, and behind them those that say which pairs get a joint and which joints a bond.
+template <typename P>
+std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock)
+{
+  for (const Entry<P>& entry :
+       {entry::optional_number("Installation gap ratio", &P::installation_gap_ratio, ranges::from_zero,
+                               "largest gap that gets a joint, over the mean radius; instead of Coordination number",
+                               of_rock),
+        entry::optional_number("Coordination number", &P::coordination_number, ranges::above_zero,
+                               "mean number of joints of a grain, from which the gap follows; the default holds in two "
+                               "dimensions unless Installation gap ratio is given; in three that is 0.05 instead",
+                               of_rock),
+        entry::number("Gapped fraction", &P::gapped_fraction, ranges::fraction,
+                      "share of the joints without bonds and with an initial gap", of_rock),
+        entry::number("Slit fraction", &P::slit_fraction, ranges::fraction,
+                      "share of the joints without bonds whose faces touch; with Gapped fraction at most 1", of_rock),
+        entry::quantity("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero,
+                        "of the gapped joints", of_rock)})
+    entries.push_back(entry);
+  return entries;
+}
+
 /// Of section Flat joint.
 inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
 {
@@ -22,7 +44,7 @@ inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
                             .of_specimen = true,
                             .bodies = {Body::box, Body::cylinder, Body::sample},
                             .needs = "divides a face between spheres (Dimension = 3); of discs it is Segments"};
-  return {
+  const std::vector<Entry<P>> entries{
     entry::integer("Segments", &P::n_segments, {'[', 1.0, 32.0, ']'},
                    "of a face in two dimensions, each of which breaks by itself", in_plane),
     entry::integer("Rings", &P::n_rings, {'[', 1.0, 16.0, ']'}, "of a face in three dimensions, of equal width",
@@ -47,20 +69,37 @@ inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
                     "by which compression adds to the shear strength of a bond", of_rock),
     entry::choice("Strength draw", &P::strength_draw,
                   {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
-                  "whether the segments of a face draw their strengths one by one or together", of_rock),
-    entry::optional_number("Installation gap ratio", &P::installation_gap_ratio, ranges::from_zero,
-                           "largest gap that gets a joint, over the mean radius; instead of Coordination number",
-                           of_rock),
-    entry::optional_number("Coordination number", &P::coordination_number, ranges::above_zero,
-                           "mean number of joints of a grain, from which the gap follows; the default holds in two "
-                           "dimensions unless Installation gap ratio is given; in three that is 0.05 instead",
-                           of_rock),
-    entry::number("Gapped fraction", &P::gapped_fraction, ranges::fraction,
-                  "share of the joints without bonds and with an initial gap", of_rock),
-    entry::number("Slit fraction", &P::slit_fraction, ranges::fraction,
-                  "share of the joints without bonds whose faces touch; with Gapped fraction at most 1", of_rock),
-    entry::quantity("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero, "of the gapped joints",
-                    of_rock)};
+                  "whether the segments of a face draw their strengths one by one or together", of_rock)};
+  return and_installation(entries, of_rock);
+}
+
+/// Of section Parallel bond.
+inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
+{
+  using P = ParallelBondParameters;
+  const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  const std::vector<Entry<P>> entries{
+    entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
+                    "of the bond; its normal stiffness is this over the sum of both radii, beside that of the linear "
+                    "contact, section Particle contact",
+                    of_rock),
+    entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness of the bond",
+                  of_rock),
+    entry::number("Radius multiplier", &P::radius_multiplier, ranges::above_zero,
+                  "half length of the bond over the radius of the smaller grain", of_rock),
+    entry::number("Moment contribution", &P::moment_contribution, ranges::fraction,
+                  "share of the stress by bending and twist that counts for breaking", of_rock),
+    entry::quantity("Tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
+                    "mean; a bond breaks in tension beyond it", of_rock),
+    entry::quantity("Tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress, "MPa",
+                    ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+    entry::quantity("Cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
+                    "mean; shear strength of a bond without normal force", of_rock),
+    entry::quantity("Cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
+                    ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+    entry::quantity("Friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
+                    "by which compression adds to the shear strength of a bond", of_rock)};
+  return and_installation(entries, of_rock);
 }
 
 /// Of section Particle contact.
@@ -70,7 +109,8 @@ inline std::vector<Entry<ParticleContactParameters>> particle_contact_entries()
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
   return {
     entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
-                    "of grains that touch without a face, and of the packing", of_rock),
+                    "of grains that touch without a face, of the contact beside a parallel bond, and of the packing",
+                    of_rock),
     entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", of_rock),
     entry::number("Friction", &P::friction, ranges::from_zero, "coefficient", of_rock)};
 }

@@ -79,6 +79,25 @@ double element_area(const FaceElement<dim>& element, const Face<double>& face)
   return element.area * face.half_length * (dim == 2 ? face.thickness : face.half_length);
 }
 
+/// Springs of a face as a whole against motions of it about its middle.
+struct FaceSprings
+{
+  double normal;  ///< [N/m]
+  double shear;   ///< [N/m]
+  double bending; ///< [N m]
+  double twist;   ///< [N m]; 0 in the plane
+};
+
+/// Those of k_n and k_s per area.
+template <int dim>
+FaceSprings face_springs(const Face<double>& face)
+{
+  const double area = face_area<dim>(face.half_length, face.thickness);
+  return {face.normal_stiffness * area, face.shear_stiffness * area,
+          face.normal_stiffness * face_second_moment<dim>(face.half_length, face.thickness),
+          face.shear_stiffness * face_polar_moment<dim>(face.half_length)};
+}
+
 /// Share of an element that sticks, by springs k_n and k_s per area, in the stiffness of its face.
 template <int dim>
 JointStiffness<dim> element_stiffness(const Face<double>& face, const FaceElement<dim>& element,

@@ -24,8 +24,8 @@ inline double face_half_length(const double radius_multiplier, const double radi
 }
 
 /// 2R̄t or πR̄² [m²].
-template <int dim>
-double face_area(const double half_length, const double thickness)
+template <int dim, typename Real>
+Real face_area(const Real& half_length, const double thickness)
 {
   if constexpr (dim == 2)
     return 2.0 * half_length * thickness;
@@ -34,10 +34,10 @@ double face_area(const double half_length, const double thickness)
 }
 
 /// About an axis in the plane of the face, ⅔R̄³t or ¼πR̄⁴ [m⁴].
-template <int dim>
-double face_second_moment(const double half_length, const double thickness)
+template <int dim, typename Real>
+Real face_second_moment(const Real& half_length, const double thickness)
 {
-  const double r = half_length;
+  const Real& r = half_length;
   if constexpr (dim == 2)
     return 2.0 / 3.0 * r * r * r * thickness;
   else
@@ -45,10 +45,13 @@ double face_second_moment(const double half_length, const double thickness)
 }
 
 /// About the normal of the face, ½πR̄⁴ [m⁴]; a face in the plane does not twist.
-template <int dim>
-double face_polar_moment(const double half_length)
+template <int dim, typename Real>
+Real face_polar_moment(const Real& half_length)
 {
-  return dim == 2 ? 0.0 : 2.0 * face_second_moment<dim>(half_length, 1.0);
+  if constexpr (dim == 2)
+    return Real(0.0);
+  else
+    return 2.0 * face_second_moment<dim>(half_length, 1.0);
 }
 
 /// Normal stiffness of two grains that touch without a face, that of a face as wide as the smaller grain [N/m].

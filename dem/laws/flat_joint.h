@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "dem/laws/contact_motion.h"
+#include "dem/laws/draw_bond.h"
 #include "dem/laws/face.h"
 #include "dem/laws/flat_joint_law.h"
 #include "dem/laws/parameters.h"
@@ -180,28 +181,28 @@ struct FlatJoint : CarriedPlane<dim>
   static constexpr std::size_t n_more = 0;
   /// A broken face closes, opens, slides with friction and resists rotation.
   static constexpr bool face_outlives_bonds = true;
+  static constexpr bool face_can_slide_off = true;
+  static constexpr bool linear_while_bonded = true;
 
   FlatJoint() = default;
-  explicit FlatJoint(const Parameters&) {}
+  FlatJoint(const Parameters&, const ParticleContactParameters&) {}
 
   template <typename Real>
   using State = flat_joint::SegmentState<dim, Real>;
+  template <typename Real>
+  using Update = flat_joint::SegmentUpdate<dim, Real>;
 
   static FaceDivision<dim> division(const Parameters& wanted) { return face_division<dim>(wanted); }
+  /// μ of broken segments.
+  static double friction(const Parameters& wanted, const ParticleContactParameters&) { return wanted.friction; }
 
   /// Of one face.
   static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
   {
-    const auto draw = [&] {
-      const double tensile_strength =
-        random.non_negative_normal(wanted.bond_tensile_strength, wanted.bond_tensile_strength_deviation);
-      const double cohesion = random.non_negative_normal(wanted.bond_cohesion, wanted.bond_cohesion_deviation);
-      return Bond<double>{tensile_strength, cohesion, std::tan(wanted.bond_friction_angle)};
-    };
     if (wanted.strength_draw == StrengthDraw::per_contact)
-      return std::vector<Bond<double>>(n_elements, draw());
+      return std::vector<Bond<double>>(n_elements, draw_bond(wanted, random));
     std::vector<Bond<double>> bonds(n_elements);
-    std::generate(bonds.begin(), bonds.end(), draw);
+    std::generate(bonds.begin(), bonds.end(), [&] { return draw_bond(wanted, random); });
     return bonds;
   }
 
@@ -254,6 +255,9 @@ struct FlatJoint : CarriedPlane<dim>
       face, elements, opening, rotation, [&](const unsigned int i) { return state_of(i).shear_stress; },
       [&](const unsigned int i) { return state_of(i).bonded; });
   }
+
+  /// No state of a face is stiffer.
+  static FaceSprings stiffest(const Face<double>& face) { return face_springs<dim>(face); }
 
   /// Share of a bonded element.
   JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>& element,

@@ -4,8 +4,10 @@
 #include "dem/laws/bond_strength.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/laws/face.h"
+#include "dem/laws/parameters.h"
 
 #include <concepts>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,14 +22,14 @@
 ///   3. Its name in the list of joint_laws.h and in the choices of `Specimen/Joint law`.
 ///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
-/// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. Two places
-/// know the flat joint alone, and a static_assert says so to whoever lengthens the list: the response of broken faces
-/// (coupling/network/link_response.cc), and the closed form of the first break (Network::unit_response), which takes it that
-/// the normal and shear stress of an element are all that its bond bears.
+/// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. How a face
+/// answers there that has broken, or that is not linear while it holds, stands in coupling/network: a function
+/// face_answer() for each law.
 ///
 /// Every element of every law has a bond (bond_strength.h), a shear stress and a mark whether the bond holds; `n_more`
 /// numbers of the law's own may go with them. A law with numbers of its own that are the same for all faces also has
-/// `transfer(archive)`, which names each once for specimen files. Functions are pure; Real is double or a pack of doubles.
+/// `transfer(archive)`, which names each once for specimen files, and `is_possible()`, which tells whether numbers out of a
+/// file can be such. Functions are pure; Real is double or a pack of doubles.
 namespace feldspar
 {
 /// Stands for the elements of one face, as a law meets them: bond and state of each, and where its update goes.
@@ -43,6 +45,14 @@ struct ElementsOfOneFace
   template <typename Update>
   void set(unsigned int element, const Update& update);
 };
+
+/// The section of the input that holds a law's entries: the name of the law with a capital letter.
+inline std::string section_of(const std::string_view law_name)
+{
+  std::string section(law_name);
+  section.front() = char(section.front() - 'a' + 'A');
+  return section;
+}
 
 /// What an element remembers: the law may add `std::array<Real, n_more> more`.
 template <typename State, int dim, typename Real>
@@ -103,9 +113,11 @@ concept AnswersAsOne = requires(const Face<Real> face, const WholeFace<dim> whol
 
 template <typename Law, int dim>
 concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && UpdatesFaces<Law, dim, double> &&
-  UpdatesFaces<Law, dim, simd::Pack> && std::constructible_from<Law, const typename Law::Parameters&> &&
-  requires(const Law law, const typename Law::Parameters wanted, Random random, const Face<double> face,
-           const std::vector<FaceElement<dim>> elements, const std::array<double, n_rotations<dim>> rotation,
+  UpdatesFaces<Law, dim, simd::Pack> &&
+  std::constructible_from<Law, const typename Law::Parameters&, const ParticleContactParameters&> &&
+  requires(const Law law, const typename Law::Parameters wanted, const ParticleContactParameters contact, Random random,
+           const Face<double> face, const std::vector<FaceElement<dim>> elements,
+           const std::array<double, n_rotations<dim>> rotation,
            typename Law::template State<double> (*state_of)(unsigned int), const ElementRows<dim> rows,
            const Motion<dim> motion)
 {
@@ -121,6 +133,10 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
   {
     Law::face_outlives_bonds
     } -> std::convertible_to<bool>;
+  // Whether such a face is gone once its sides have slid past each other; else only once they are far apart.
+  {
+    Law::face_can_slide_off
+    } -> std::convertible_to<bool>;
 
   // Installation.
   {
@@ -129,12 +145,26 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
   {
     Law::draw_bonds(wanted, std::size_t(1), random)
     } -> std::same_as<std::vector<Bond<double>>>;
+  // μ of a face, from the law's parameters or those of pairs without a face.
+  {
+    Law::friction(wanted, contact)
+    } -> std::same_as<double>;
 
   // Stored in a face, from its opening, its rotation and the states of its elements [J].
   {
     law.stored_energy(face, elements, 0.0, rotation, state_of)
     } -> std::same_as<double>;
 
+  // For the time step: no state of the face is stiffer.
+  {
+    law.stiffest(face)
+    } -> std::same_as<FaceSprings>;
+
+  // In small strains: whether a face answers linearly as long as all its bonds hold, with the stiffness below, and none of
+  // its elements has a shear stress to remember.
+  {
+    Law::linear_while_bonded
+    } -> std::convertible_to<bool>;
   // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
   {
     law.bonded_stiffness(face, elements.front(), rows)

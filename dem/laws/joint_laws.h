@@ -2,11 +2,13 @@
 
 #include "dem/laws/flat_joint.h"
 #include "dem/laws/joint_law.h"
+#include "dem/laws/parallel_bond.h"
 
 #include <concepts>
 #include <optional>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace feldspar
 {
@@ -22,14 +24,16 @@ struct JointLawList
   /// Parameters of one of the laws.
   using Parameters = std::variant<typename Laws<2>::Parameters...>;
 
-  /// The law with these parameters.
+  static std::vector<std::string_view> names() { return {Laws<2>::name...}; }
+
+  /// The law with these parameters, `contact` being that of pairs without a face.
   template <int dim>
-  static Any<dim> make(const Parameters& wanted)
+  static Any<dim> make(const Parameters& wanted, const ParticleContactParameters& contact)
   {
     Any<dim> law;
     const auto take = [&]<typename Law>(const Law*) {
       if (const auto* parameters = std::get_if<typename Law::Parameters>(&wanted))
-        law = Law(*parameters);
+        law = Law(*parameters, contact);
     };
     (take(static_cast<const Laws<dim>*>(nullptr)), ...);
     return law;
@@ -46,7 +50,7 @@ struct JointLawList
 };
 
 /// The laws there are.
-using JointLaws = JointLawList<FlatJoint>;
+using JointLaws = JointLawList<FlatJoint, ParallelBond>;
 
 template <int dim>
 using AnyJointLaw = JointLaws::Any<dim>;

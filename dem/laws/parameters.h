@@ -37,7 +37,26 @@ struct FlatJointParameters
   double initial_gap = 0.0;                     ///< g_0 of the gapped joints [m]
 };
 
-/// Pairs that touch without a face, and grains at walls.
+/// The bonds between the grains; the linear contact beside each is that of ParticleContactParameters.
+struct ParallelBondParameters
+{
+  double modulus = 80e9;                         ///< E_b [Pa]; k_n = E_b/(R1+R2)
+  double stiffness_ratio = 1.25;                 ///< κ_b = k_n/k_s
+  double radius_multiplier = 1.0;                ///< λ; R̄ = λ min(R1, R2)
+  double moment_contribution = 1.0;              ///< β, share of the moments that counts for breaking
+  double bond_tensile_strength = 100e6;          ///< [Pa]
+  double bond_tensile_strength_deviation = 10e6; ///< [Pa]
+  double bond_cohesion = 100e6;                  ///< [Pa]
+  double bond_cohesion_deviation = 10e6;         ///< [Pa]
+  double bond_friction_angle = 0.0;              ///< [rad]
+  std::optional<double> installation_gap_ratio;  ///< as of the flat joint, and all below
+  std::optional<double> coordination_number;
+  double gapped_fraction = 0.0;
+  double slit_fraction = 0.0;
+  double initial_gap = 0.0; ///< [m]
+};
+
+/// Pairs that touch without a face, grains at walls, and the contact beside a parallel bond.
 struct ParticleContactParameters
 {
   double modulus = 80e9; ///< E_c [Pa]

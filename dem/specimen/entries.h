@@ -1,8 +1,12 @@
 #pragma once
 
 #include "base/entries.h"
+#include "dem/laws/joint_laws.h"
 #include "dem/specimen/parameters.h"
 
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 /// The entries of a specimen.
@@ -14,6 +18,9 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   using P = SpecimenParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
   const EntryFlags of_body{.of_specimen = true}; // one for all variants
+  std::vector<std::pair<std::string_view, std::string>> laws;
+  for (const std::string_view name : JointLaws::names())
+    laws.emplace_back(name, name);
   return {
     entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
                   "2: discs in the plane, one metre thick; 3: spheres", of_body),
@@ -45,6 +52,7 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                 "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "
                 "of `feldspar multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
                 of_body),
-    entry::choice("Joint law", &P::joint_law, {{"flat joint", "flat joint"}}, "between grains that meet", of_rock)};
+    entry::choice("Joint law", &P::joint_law, laws,
+                  "between grains that meet; its parameters are in the section of its name", of_rock)};
 }
 } // namespace feldspar

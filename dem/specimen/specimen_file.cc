@@ -159,6 +159,15 @@ template <int dim>
 void check_joints(const Specimen<dim>& specimen)
 {
   const auto& joints = specimen.joints;
+  require(std::visit(
+            [](const auto& law) {
+              if constexpr (requires { law.is_possible(); })
+                return law.is_possible();
+              else
+                return true;
+            },
+            joints.law),
+          "a parameter of its joint law is not possible");
   const std::size_t n = joints.size();
   require(n == specimen.report.n_joints && joints.grain_2.size() == n && joints.number.size() == n,
           "joints are missing");

@@ -23,7 +23,7 @@ namespace
 {
 using tests::TemporaryFolder;
 
-/// Every entry there is, each away from its default where it has a choice.
+/// Every entry that goes with flat joints, each away from its default where it has a choice.
 constexpr std::string_view everything = R"(# all of it
 subsection Specimen
   set Dimension = 2
@@ -201,7 +201,8 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("rock.json", "{}");
   folder.write("sample.msh", "");
   const Input input = read_input(folder.write("everything.prm", everything));
-  EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size(), parameter_table().size());
+  EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size(),
+            parameter_table().size());
 
   EXPECT_EQ(input.specimen.dimension, 2u);
   EXPECT_EQ(input.specimen.shape, "box");
@@ -305,6 +306,98 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.continuum.dilation_angle, std::numbers::pi / 6.0);
   EXPECT_EQ(input.equilibrium.most_iterations, 50u);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
+}
+
+TEST(Input, EveryEntryOfParallelBondsReachesItsMember)
+{
+  constexpr std::string_view bonds = R"(subsection Specimen
+  set Joint law = parallel bond
+end
+subsection Parallel bond
+  set Modulus = 70 GPa
+  set Stiffness ratio = 1.5
+  set Radius multiplier = 0.9
+  set Moment contribution = 0.5
+  set Tensile strength = 20 MPa
+  set Tensile strength standard deviation = 2 MPa
+  set Cohesion = 300 MPa
+  set Cohesion standard deviation = 30 MPa
+  set Friction angle = 15 deg
+  set Installation gap ratio = 0.07
+  set Coordination number = none
+  set Gapped fraction = 0.1
+  set Slit fraction = 0.2
+  set Initial gap = 1 um
+end
+)";
+  const TemporaryFolder folder;
+  const Input input = read_input(folder.write("bonds.prm", bonds));
+  EXPECT_EQ(scan_prm("bonds.prm", std::string(bonds)).size(), entry_names("Parallel bond").size() + 1);
+  EXPECT_EQ(input.specimen.joint_law, "parallel bond");
+  EXPECT_EQ(input.parallel_bond.modulus, 70e9);
+  EXPECT_EQ(input.parallel_bond.stiffness_ratio, 1.5);
+  EXPECT_EQ(input.parallel_bond.radius_multiplier, 0.9);
+  EXPECT_EQ(input.parallel_bond.moment_contribution, 0.5);
+  EXPECT_EQ(input.parallel_bond.bond_tensile_strength, 20e6);
+  EXPECT_EQ(input.parallel_bond.bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(input.parallel_bond.bond_cohesion, 300e6);
+  EXPECT_EQ(input.parallel_bond.bond_cohesion_deviation, 30e6);
+  EXPECT_DOUBLE_EQ(input.parallel_bond.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(input.parallel_bond.installation_gap_ratio, 0.07);
+  EXPECT_EQ(input.parallel_bond.coordination_number, std::nullopt);
+  EXPECT_EQ(input.parallel_bond.gapped_fraction, 0.1);
+  EXPECT_EQ(input.parallel_bond.slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(input.parallel_bond.initial_gap, 1e-6);
+  EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = parallel bond\nend\nsubsection Parallel bond\n"
+                              "set Slit fraction = 0.7\nset Gapped fraction = 0.7\nend"),
+            "a.prm:5: Parallel bond/Slit fraction = 0.7: must be at most 1 together with Gapped fraction = 0.7");
+}
+
+TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
+{
+  EXPECT_EQ(error_of_entry("Parallel bond", "Cohesion = 3 MPa"),
+            "a.prm:2: Parallel bond/Cohesion = 3 MPa: is of another joint law; Specimen/Joint law is flat joint");
+  // Its default too: what stands in a file is to have an effect.
+  EXPECT_EQ(error_of("a.prm", "subsection Flat joint\nset Segments = 4\nend\n"
+                              "subsection Specimen\nset Joint law = parallel bond\nend"),
+            "a.prm:2: Flat joint/Segments = 4: is of another joint law; Specimen/Joint law is parallel bond");
+  EXPECT_EQ(error_of("a.prm", "subsection Variants\nset Entry = Flat joint/Segments\nset Values = 2; 4\nend\n"
+                              "subsection Specimen\nset Joint law = parallel bond\nend"),
+            "a.prm:2: Variants/Entry = Flat joint/Segments: is of another joint law; Specimen/Joint law is parallel "
+            "bond");
+  EXPECT_EQ(error_of_entry("Specimen", "Joint law = parallel"),
+            "a.prm:2: Specimen/Joint law = parallel: must be flat joint or parallel bond");
+}
+
+TEST(Input, VariantsMayDifferInJointLaw)
+{
+  const TemporaryFolder folder;
+  const Input input = read_input(folder.write("a.prm", R"(subsection Variants
+  set Entry = Specimen/Joint law
+  set Values = flat joint; parallel bond
+end
+subsection Flat joint
+  set Segments = 3
+end
+subsection Parallel bond
+  set Cohesion = 70 MPa
+  set Installation gap ratio = 0.1
+end
+)"));
+  const auto both = variants(input);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].input.specimen.joint_law, "flat joint");
+  EXPECT_EQ(both[1].input.specimen.joint_law, "parallel bond");
+  EXPECT_EQ(both[0].input.flat_joint.n_segments, 3u);
+  EXPECT_EQ(both[0].input.flat_joint.coordination_number, 4.2);
+  EXPECT_EQ(both[1].input.parallel_bond.bond_cohesion, 70e6);
+  EXPECT_EQ(both[1].input.parallel_bond.coordination_number, std::nullopt);
+  // Each is told with its own section alone.
+  for (const Parameter& parameter : parameter_table())
+    {
+      EXPECT_EQ(has_use_for(both[0].input, parameter), parameter.section != "Parallel bond") << parameter.name();
+      EXPECT_EQ(has_use_for(both[1].input, parameter), parameter.section != "Flat joint") << parameter.name();
+    }
 }
 
 TEST(Input, RefusesWhatNoProgrammeCanBe)

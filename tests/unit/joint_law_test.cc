@@ -30,9 +30,11 @@ struct ElasticBond : CarriedPlane<dim>
   static constexpr std::string_view name = "elastic bond";
   static constexpr std::size_t n_more = 1;
   static constexpr bool face_outlives_bonds = false;
+  static constexpr bool face_can_slide_off = false;
+  static constexpr bool linear_while_bonded = true;
 
   ElasticBond() = default;
-  explicit ElasticBond(const Parameters&) {}
+  explicit ElasticBond(const Parameters&, const ParticleContactParameters& = {}) {}
 
   template <typename Real>
   struct State
@@ -64,6 +66,9 @@ struct ElasticBond : CarriedPlane<dim>
     return std::vector<Bond<double>>(
       n_elements, {wanted.bond_tensile_strength, wanted.bond_cohesion, std::tan(wanted.bond_friction_angle)});
   }
+
+  static double friction(const Parameters&, const ParticleContactParameters&) { return 0.0; }
+  static FaceSprings stiffest(const Face<double>& face) { return face_springs<dim>(face); }
 
   template <typename Real>
   static Real area(const Face<Real>& face)

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "dem/laws/joint_laws.h"
+
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace feldspar
+{
+/// Calls f(law, parameters) for each joint law, given by its name, and the member of the input that its section fills.
+template <typename AnyInput, typename F>
+void for_each_joint_section(AnyInput& input, F&& f)
+{
+  f(FlatJoint<2>::name, input.flat_joint);
+  f(ParallelBond<2>::name, input.parallel_bond);
+}
+
+/// Of the joint law that the input names.
+inline JointParameters joint_parameters(const Input& input)
+{
+  std::optional<JointParameters> parameters;
+  for_each_joint_section(input, [&](const std::string_view law, const auto& of_law) {
+    if (law == input.specimen.joint_law)
+      parameters = of_law;
+  });
+  if (!parameters)
+    throw std::logic_error("a joint law without a section of its own");
+  return *parameters;
+}
+} // namespace feldspar

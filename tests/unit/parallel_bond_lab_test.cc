@@ -1,0 +1,156 @@
+// Specimens of parallel bonds: time step, energies, threads, files and a test taken up again.
+
+#include "base/input_error.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_file.h"
+#include "results/evaluation.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/parallel_bonds.h"
+
+#include <gtest/gtest.h>
+
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace feldspar
+{
+namespace
+{
+template <typename Dimension>
+class ParallelBonds : public testing::Test
+{
+};
+
+template <int n>
+using Dimension = std::integral_constant<int, n>;
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+TYPED_TEST_SUITE(ParallelBonds, Dimensions);
+
+TestParameters quick()
+{
+  TestParameters wanted;
+  wanted.compression_strain_rate = 2.0;
+  wanted.tension_strain_rate = 2.0;
+  wanted.compression_sampling_strain = 2e-5;
+  return wanted;
+}
+
+TEST(ParallelBondTimeStep, IsThatOfBondAndContactTogether)
+{
+  // A pair: k = K_bond + K_contact along it, against R's mass; turning by (k_s A + K_s)R² + k_n I against ½mR².
+  auto wanted = test_bonds();
+  const double radius = 1e-3;
+  auto specimen = placed_specimen({radius, radius}, {{{0.5, 0.5 + 2.0 * radius}, {0.5, 0.5}}});
+  specimen.particle_contact = {60e9, 1.5, 0.4};
+  install_joints(specimen, wanted);
+  const double half = 0.8 * radius;
+  const double k_n = 40e9 / (2.0 * radius);
+  const double along = k_n * 2.0 * half + 60e9;
+  const double turning = (0.5 * k_n * 2.0 * half + 60e9 / 1.5) * radius * radius + k_n * 2.0 / 3.0 * half * half * half;
+  const double mass = specimen.grains.mass[0];
+  const double largest = std::max(along / mass, turning / (0.5 * mass * radius * radius));
+  Dynamics<2> dynamics(std::move(specimen), {0.0, 0.8}, ZeroForce::as_placed);
+  dynamics.step();
+  EXPECT_NEAR(dynamics.time_step(), 0.8 / std::sqrt(largest), 1e-12 * dynamics.time_step());
+}
+
+TYPED_TEST(ParallelBonds, APressedSpecimenBreaksAndItsEnergiesBalanceAllTheWay)
+{
+  constexpr int dim = TypeParam::value;
+  LabTest<dim> test({uniaxial_compression}, small_bonded_specimen<dim>(), quick(), {});
+  double largest_work = 0.0;
+  while (test.advance())
+    {
+      const Energies& energies = test.curve().back().energies;
+      largest_work = std::max(largest_work, energies.boundary_work);
+      // A force that jumps within a step and a contact that closes in it leave errors of the order of the step.
+      EXPECT_LT(std::abs(energies.unaccounted()), 0.005 * largest_work) << test.curve().back().axial_strain;
+    }
+  const auto record = test.finish(false).record;
+  const auto results = evaluate(record);
+  ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_GT(*results.peak_stress.value, 20e6);
+  EXPECT_GT(record.cracks.size(), 5u);
+  const Energies& at_end = record.curve.back().energies;
+  EXPECT_GT(at_end.slip, 0.02 * largest_work) << "of the contacts beside the bonds";
+  EXPECT_GT(at_end.released, 0.02 * largest_work);
+  // One crack of each bond at most, on its only element.
+  std::vector<std::uint32_t> joints;
+  for (const auto& crack : record.cracks)
+    {
+      EXPECT_EQ(crack.segment, 0u);
+      joints.push_back(crack.joint);
+    }
+  std::sort(joints.begin(), joints.end());
+  EXPECT_EQ(std::adjacent_find(joints.begin(), joints.end()), joints.end());
+}
+
+TYPED_TEST(ParallelBonds, GiveTheSameBitsWithOneThreadAndTwo)
+{
+  constexpr int dim = TypeParam::value;
+  const auto specimen = small_bonded_specimen<dim>();
+  const auto end = [&](const std::size_t n_threads) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
+    LabTest<dim> test({uniaxial_compression}, specimen, quick(), {});
+    for (int n = 0; n < 60 && test.advance(); ++n)
+      ;
+    return test.finish(true);
+  };
+  const auto one = end(1);
+  const auto two = end(2);
+  EXPECT_GT(one.record.cracks.size(), 0u);
+  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
+  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
+  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+}
+
+TYPED_TEST(ParallelBonds, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
+{
+  constexpr int dim = TypeParam::value;
+  const tests::TemporaryFolder folder;
+  const auto specimen = small_bonded_specimen<dim>();
+  write_specimen(specimen, folder.path() / "specimen.h5");
+  const auto back = read_specimen<dim>(folder.path() / "specimen.h5");
+  EXPECT_TRUE(std::holds_alternative<ParallelBond<dim>>(back.joints.law));
+  EXPECT_EQ(back.joints.n_more, std::size_t(dim - 1));
+  EXPECT_EQ(back.joints.tensile_strength, specimen.joints.tensile_strength);
+  EXPECT_EQ(back.joints.friction, specimen.joints.friction);
+
+  // The specimen that was read, whose law brings its own numbers, and a checkpoint in the middle of breaking.
+  LabTest<dim> whole({uniaxial_compression}, specimen, quick(), {});
+  for (int n = 0; n < 40; ++n)
+    whole.advance();
+  whole.write_checkpoint(folder.path() / "test.h5", "one");
+  LabTest<dim> again({uniaxial_compression}, back, quick(), {});
+  again.read_checkpoint(folder.path() / "test.h5", "one");
+  for (int n = 0; n < 25; ++n)
+    {
+      whole.advance();
+      again.advance();
+    }
+  const auto one = whole.finish(true);
+  const auto two = again.finish(true);
+  EXPECT_GT(one.record.cracks.size(), 0u);
+  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
+  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
+  EXPECT_EQ(one.record.curve.back().energies.slip, two.record.curve.back().energies.slip);
+  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+}
+
+TEST(ParallelBondFile, AFileWithImpossibleNumbersOfTheLawIsRefused)
+{
+  const tests::TemporaryFolder folder;
+  auto specimen = small_bonded_specimen<2>();
+  ParallelBondParameters wrong = test_bonds();
+  wrong.moment_contribution = 2.0;
+  specimen.joints.law = ParallelBond<2>(wrong, {});
+  write_specimen(specimen, folder.path() / "specimen.h5");
+  EXPECT_THROW(read_specimen<2>(folder.path() / "specimen.h5"), InputError);
+}
+} // namespace
+} // namespace feldspar
