@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Compares the speed of two builds in one run, by processor time.
 
-    scripts/compare-speed.py OLD_BUILD NEW_BUILD [--times N] [--only PROGRAM ...] [--filter REGEX]
+    scripts/compare-speed.py OLD_BUILD NEW_BUILD [--times N] [--only PROGRAM ...] [--filter REGEX] [--json FILE]
 
 OLD_BUILD and NEW_BUILD: build folders of two trees with FELDSPAR_BENCHMARKS=ON. The programs of benchmarks/ that both have
 run in turns, old, new, new, old and so on, so that whatever else the machine does falls on both alike; of each benchmark
-the least processor time of N runs (5) of each build is set against the other. Compare within one run only.
+the least processor time of N runs (5) of each build is set against the other. Compare within one run only. FILE gets the
+ratios, with the versions of both builds, their compiler flags and the processor.
 
 Exit code 0: no benchmark is slower by more than 2 %; 1: one is.
 """
@@ -13,6 +14,7 @@ Exit code 0: no benchmark is slower by more than 2 %; 1: one is.
 import argparse
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -28,6 +30,23 @@ def timed(build, program, wanted):
     return {one["name"]: one["cpu_time"] for one in json.loads(out)["benchmarks"]}
 
 
+def version(build):
+    with open(os.path.join(build, "generated", "feldspar_version.h")) as header:
+        return re.search(r'"(.*)"', header.read().split("version = ")[1]).group(1)
+
+
+def flags(build):
+    with open(os.path.join(build, "CMakeCache.txt")) as cache:
+        entries = dict(re.findall(r"^(\w+):\w+=(.*)$", cache.read(), re.MULTILINE))
+    native = "-march=native" if entries.get("FELDSPAR_NATIVE") == "ON" else ""
+    return " ".join(f"{entries.get('CMAKE_CXX_FLAGS', '')} {native}".split())
+
+
+def processor():
+    with open("/proc/cpuinfo") as info:
+        return re.search(r"model name\s*: (.*)", info.read()).group(1)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old")
@@ -35,10 +54,11 @@ def main():
     parser.add_argument("--times", type=int, default=5)
     parser.add_argument("--only", nargs="+", default=PROGRAMS, choices=PROGRAMS)
     parser.add_argument("--filter", default="")
+    parser.add_argument("--json")
     wanted = parser.parse_args()
     os.environ.setdefault("FELDSPAR_THREADS", "1")
 
-    worst = 0.0
+    ratios = {}
     for program in wanted.only:
         if not all(os.path.exists(os.path.join(build, "benchmarks", program)) for build in (wanted.old, wanted.new)):
             sys.exit(f"{program}: not in both builds; configure them with -DFELDSPAR_BENCHMARKS=ON")
@@ -50,10 +70,15 @@ def main():
                     least[build][name] = min(seconds, least[build].get(name, seconds))
         for name, seconds in least[wanted.old].items():
             if name in least[wanted.new]:
-                ratio = least[wanted.new][name] / seconds
-                worst = max(worst, ratio)
-                print(f"{program} {name}: new over old {ratio:.3f}", flush=True)
+                ratios[name] = least[wanted.new][name] / seconds
+                print(f"{program} {name}: new over old {ratios[name]:.3f}", flush=True)
+    worst = max(ratios.values(), default=0.0)
     print(f"the slowest: {worst:.3f}")
+    if wanted.json:
+        made = {"processor": processor(), "flags": flags(wanted.new), "old": version(wanted.old), "new": version(wanted.new)}
+        with open(wanted.json, "w") as out:
+            json.dump({**made, "new_over_old": ratios}, out, indent=2)
+            out.write("\n")
     sys.exit(1 if worst > ALLOWED else 0)
 
 

@@ -1,7 +1,11 @@
 #include "app/screen/test_length.h"
 
+#include "app/input/joint_sections.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
 namespace feldspar
 {
@@ -14,8 +18,11 @@ double expected_strain_at_peak(const TestCase& test, const Input& input)
   constexpr double compression_over_bonds = 7.5;
   constexpr double disc_strain_over_tension = 4.0; // strain of the loaded diameter over the tension across it
   constexpr double m = 20.0;                       // of Hoek and Brown
-  const double modulus = modulus_over_bonds * input.flat_joint.modulus;
-  const double bonds = std::max(input.flat_joint.bond_tensile_strength, 1e-3 * input.flat_joint.bond_cohesion);
+  const auto [modulus, bonds] = std::visit(
+    [](const auto& law) {
+      return std::pair(modulus_over_bonds * law.modulus, std::max(law.bond_tensile_strength, 1e-3 * law.bond_cohesion));
+    },
+    joint_parameters(input));
   const double tension = tension_over_bonds * bonds / modulus;
   if (test.kind.envelope_role == EnvelopeRole::indirect_tension)
     return disc_strain_over_tension * tension;
