@@ -156,6 +156,12 @@ private:
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
   }
 
+  /// CLI::App::help() would speak of the command that was given, which is `help`.
+  static std::string help_on(const CLI::App& command, const std::string& name)
+  {
+    return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+  }
+
   void add_help()
   {
     CLI::App& help = *app.add_subcommand("help", "the same as --help, or as COMMAND --help");
@@ -163,7 +169,8 @@ private:
     help.callback([this] {
       chosen = [this] {
         check_name(helped.empty() ? "help" : helped);
-        print_result("{}", (helped.empty() ? app : *app.get_subcommand(helped)).help());
+        print_result("{}", helped.empty() ? help_on(app, app.get_name())
+                                          : help_on(*app.get_subcommand(helped), app.get_name() + " " + helped));
         return 0;
       };
     });

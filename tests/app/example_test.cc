@@ -708,7 +708,19 @@ TEST(Example, TheExplicitVolumeApproachesTheRateFreeOneAndBreakRulesAgree)
       EXPECT_LT(smaller, 0.5 * error) << steps;
       error = smaller;
     }
-  EXPECT_LT(error, 0.02 * rate_free);
+  // The slowest has as much as the rate-free one for all that five realisations can tell, each of which breaks in an order
+  // of its own: the mean of the differences lies within its 95 % confidence interval about zero.
+  constexpr double t_of_five = 2.776;
+  std::vector<double> differences = over_volumes(rates, "Strain path/Steps per millistrain = 1000000", dissipated);
+  const std::vector<double> by_events = over_volumes(rules, rule + "near worst", dissipated);
+  ASSERT_EQ(differences.size(), 5u);
+  ASSERT_EQ(by_events.size(), 5u);
+  for (std::size_t k = 0; k < differences.size(); ++k)
+    differences[k] -= by_events[k];
+  double squares = 0.0;
+  for (const double difference : differences)
+    squares += std::pow(difference - mean(differences), 2);
+  EXPECT_LT(std::abs(mean(differences)), t_of_five * std::sqrt(squares / 4.0 / 5.0));
   for (const char* study : {"tension", "break-rules", "uniaxial", "triaxial-20", "triaxial-60"})
     for (const auto& volume : volumes_of(study))
       if (!volume.contains("variant") || volume["variant"] != "Strain path/Solver = explicit")

@@ -557,12 +557,13 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 30 mm\nend\n"
-                           "subsection Tests\n  set List = brazilian\nend\n");
+                           "subsection Tests\n  set List = brazilian\nend\n"
+                           "subsection Seeds\n  set Seeds = 2\nend\n"); // one with grains where it is loaded
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
   const auto json = summary(folder.path() / "out");
   EXPECT_EQ(json["tests"][0]["size_m"], nlohmann::json({0.02, 0.02, 0}));
   // Its grains lie in a circle of 10 mm about the middle of this size.
-  std::istringstream grains(content(folder.path() / "out/grains/brazilian_seed_1.csv"));
+  std::istringstream grains(content(folder.path() / "out/grains/brazilian_seed_2.csv"));
   std::string row;
   for (std::getline(grains, row); std::getline(grains, row);)
     {

@@ -258,7 +258,7 @@ TEST(Rve, TakesSpecimensOfItsKindOnly)
        {std::pair("rve with_box.prm --output bad", "is a specimen between walls; a representative volume needs"),
         std::pair("lab with_cell.prm --output bad", "is a periodic cell; a laboratory test needs")})
     {
-      const auto outcome = run_feldspar(folder.path(), arguments);
+      const auto outcome = run_feldspar(folder.path(), std::string(arguments) + " --quiet");
       EXPECT_EQ(outcome.exit_code, 2);
       EXPECT_NE(outcome.error.find(error), std::string::npos) << outcome.error;
       EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -447,7 +447,7 @@ TEST(Rve, PulledBeyondItsStrengthByStressSaysSoAndKeepsWhatWasBefore)
   const TemporaryFolder folder;
   folder.write("cell.prm", small_cell + along_file);
   folder.write("path.csv", "stress_xx_Pa,stress_yy_Pa,stress_xy_Pa\n0,40e6,0\n");
-  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out");
+  const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.error.find("feldspar: rve: no equilibrium was found at stress_xx = 0 MPa, stress_yy = "), 0u)
     << outcome.error;
