@@ -226,6 +226,43 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
               full["step_s"].get<double>() * full["projected_steps"].get<double>(), 1.0);
 }
 
+TEST(Example, TheContactModelsReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/contact-models/";
+  const std::string readme = content(folder + "README.md");
+  const auto bonds = nlohmann::json::parse(content(folder + "results/parallel-bond.json"));
+  const auto joints = results("ensemble");
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+  };
+  for (const auto& [name, group, key, scale, decimals] :
+       {Row{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
+        {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
+        {"Young's modulus, tangent at half of the peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa", 1e9,
+         1},
+        {"strength at 5 MPa [MPa]", "triaxial_compression_5_MPa", "peak_stress_Pa", 1e6, 1},
+        {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
+        {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1}})
+    shown(fmt::format("| {} | {} | {} |", name, mean_and_deviation(bonds, group, key, scale, decimals),
+                      mean_and_deviation(joints, group, key, scale, decimals)));
+  const auto r_squared = [](const nlohmann::json& fit) { return number(fit["r_squared"], 1.0, 4); };
+  shown(fmt::format("| R² of the line of Mohr and Coulomb | {} | {} |", r_squared(bonds["fits"]["mohr_coulomb"]),
+                    r_squared(joints["fits"]["mohr_coulomb"])));
+  shown(fmt::format("| R² of Hoek and Brown's curve, s = 1 and a = 0.5 | {} | {} |",
+                    r_squared(bonds["fits"]["intact"]["without_tension_point"]),
+                    r_squared(joints["fits"]["intact"]["without_tension_point"])));
+
+  // The traditional model at the stiffness and the compressive strength of the rock: the ratio of strengths that the
+  // literature has for it, where the flat joint has that of the rock.
+  const auto peak = [&](const char* group) { return bonds["ensemble"][group]["peak_stress_Pa"]["mean"].get<double>(); };
+  EXPECT_NEAR(peak("uniaxial_compression"), 163e6, 15e6);
+  EXPECT_NEAR(bonds["ensemble"]["uniaxial_compression"]["youngs_modulus_tangent_Pa"]["mean"].get<double>(), 61e9, 3e9);
+  EXPECT_GT(peak("direct_tension") / peak("uniaxial_compression"), 0.30);
+  EXPECT_LT(peak("direct_tension") / peak("uniaxial_compression"), 0.36);
+  for (const auto& test : bonds["tests"])
+    EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
+}
+
 TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
 {
   // Mean of three packings of more than 800 spheres, gap by gap; benchmarks/networks_in_space.cc.
