@@ -11,6 +11,14 @@
 #include <limits>
 #include <vector>
 
+// Packs handed to functions go by way of memory, which takes half as long again as the work: the sweep is made of one piece.
+// Under the address sanitizer, which looks at every access, that piece takes minutes to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define FELDSPAR_OF_ONE_PIECE
+#else
+#define FELDSPAR_OF_ONE_PIECE gnu::flatten
+#endif
+
 /// The sweep over all joints, written over the law: made for each law of the list in joint_sweep.cc.
 namespace feldspar
 {
@@ -130,7 +138,7 @@ struct StoredSegments
 
 /// The segments one by one; a face whose bonds still hold all answers as one.
 template <typename Real, typename Law, int dim>
-[[gnu::flatten, gnu::noinline]] FaceResultants<dim, Real> update_segments(
+[[FELDSPAR_OF_ONE_PIECE, gnu::noinline]] FaceResultants<dim, Real> update_segments(
   const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const Face<Real>& face,
   const FaceMotion<dim, Real>& motion, const FaceBefore<dim, Real>& before, const FaceResultants<dim, Real>& as_one,
   const std::size_t j, std::vector<Break>& breaks)
@@ -214,11 +222,10 @@ void ask_for_grains(const Joints<dim>& joints, const SweepMemory<dim>& memory, c
         __builtin_prefetch(memory.grain_records.data() + memory.record_size * joints.grain_2[j + ahead + k]);
 }
 
-/// Joint j, or the pack of joints that begins at j. Flattened: packs handed to functions go by way of memory, which
-/// takes half as long again as the work.
+/// Joint j, or the pack of joints that begins at j.
 template <typename Real, typename Law, int dim>
-[[gnu::flatten]] void update_joint(const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const std::size_t j,
-                                   std::vector<Break>& breaks)
+[[FELDSPAR_OF_ONE_PIECE]] void update_joint(const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory,
+                                            const std::size_t j, std::vector<Break>& breaks)
 {
   using Row = typename JointTables<dim>::Row;
   constexpr std::size_t n_turns = n_rotations<dim>, n_shear = dim - 1;
@@ -377,3 +384,5 @@ bool has_face(const Law&, const Joints<dim>& joints, const std::size_t j)
   return flat_joint::magnitude(slip) <= reach && joints.opening[j] <= reach;
 }
 } // namespace feldspar
+
+#undef FELDSPAR_OF_ONE_PIECE
