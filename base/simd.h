@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include <experimental/simd>
 
@@ -66,18 +65,4 @@ inline Pack load<Pack>(const double* from)
 
 inline void store(const double value, double* to) { *to = value; }
 inline void store(const Pack& value, double* to) { value.copy_to(to, std::experimental::element_aligned); }
-
-/// from[index[0]], from[index[1]], …
-template <typename Real>
-Real gather(const double* from, const std::uint32_t* index);
-template <>
-inline double gather<double>(const double* from, const std::uint32_t* index)
-{
-  return from[*index];
-}
-template <>
-inline Pack gather<Pack>(const double* from, const std::uint32_t* index)
-{
-  return Pack([&](const auto i) { return from[index[i]]; });
-}
 } // namespace feldspar::simd

@@ -37,7 +37,6 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , zero_force(where)
   , images(body)
   , grips(body.grains.size())
-  , sweep_memory(body.joints)
   , watch(body.grains)
   , ledger(body.grains.size())
 {

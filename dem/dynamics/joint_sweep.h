@@ -22,6 +22,7 @@ struct Break
 template <int dim>
 struct SweepMemory
 {
+  SweepMemory() = default;
   /// Anew after joints have gone or bonds were changed from outside.
   explicit SweepMemory(const Joints<dim>& joints);
 

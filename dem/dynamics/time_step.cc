@@ -29,15 +29,14 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
         k_turning[c][i] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
       }
   };
-  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = std::uint32_t(begin); i < end; ++i)
       {
         for (auto e = joints_of.first[i]; e < joints_of.first[i + 1]; ++e)
           {
             const std::uint32_t j = joints_of.entries[e] / 2;
             const bool is_second = joints_of.entries[e] % 2;
-            const FaceSprings springs =
-              std::visit([&](const auto& law) { return law.stiffest(joints.face(j)); }, joints.law);
+            const FaceSprings springs = law.stiffest(joints.face(j));
             const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
             add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? a.two : a.one, springs.bending,
                 springs.twist);
@@ -53,6 +52,9 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
             add(i, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? a.two : a.one, 0.0, 0.0);
           }
       }
+  };
+  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    std::visit([&](const auto& law) { add_contacts(law, begin, end); }, joints.law);
   });
   walls.for_each_touch([&](const Wall& wall, const WallTouch<dim>& touch) {
     if (!(touch.overlap > 0.0))

@@ -156,16 +156,6 @@ struct Joints : JointTables<dim>
   {
     return feldspar::face_area<dim>(this->half_length[joint], thickness);
   }
-  /// Second moment of the face about an axis in it [m⁴].
-  double face_second_moment(const std::size_t joint) const
-  {
-    return feldspar::face_second_moment<dim>(this->half_length[joint], thickness);
-  }
-  /// Second moment of the face about its normal [m⁴]; 0 in the plane.
-  double face_polar_moment(const std::size_t joint) const
-  {
-    return feldspar::face_polar_moment<dim>(this->half_length[joint]);
-  }
 
   bool holds(const std::size_t joint) const
   {

@@ -75,9 +75,6 @@ public:
   double& operator[](const std::size_t i) { return *place(i); }
   const double& operator[](const std::size_t i) const { return *place(i); }
 
-  /// Numbers in a pack of the table.
-  std::size_t pack_size() const { return table.n_rows() * width; }
-
   /// Column j of the row or, of several, of the i-th. The rest of its pack follows, then that of the next row.
   double* pack(const std::size_t j) { return table.at(first, j); }
   const double* pack(const std::size_t j) const { return table.at(first, j); }
