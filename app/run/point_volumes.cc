@@ -1,6 +1,7 @@
 #include "app/run/point_volumes.h"
 
 #include "app/run/volume_view.h"
+#include "base/byte_archive.h"
 #include "coupling/rve/state_archive.h"
 #include "coupling/sample/ranks.h"
 

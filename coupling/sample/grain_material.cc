@@ -1,5 +1,6 @@
 #include "coupling/sample/grain_material.h"
 
+#include "base/byte_archive.h"
 #include "base/fingerprint.h"
 #include "base/random.h"
 #include "coupling/rve/homogenisation.h"
@@ -113,42 +114,42 @@ void GrainPoint<dim>::reject()
 
 namespace
 {
-/// It goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
-template <typename Archive, int dim>
-void transfer(Archive& archive, std::optional<Tangent<dim>>& tangent)
+/// The tangent goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
+template <int dim>
+struct StoredPoint
 {
-  bool there = tangent.has_value();
-  transfer_flag(archive, "", there);
-  if (!there)
-    return tangent.reset();
-  if (!tangent)
-    tangent.emplace();
-  archive.value("", tangent->states);
-  for (double& entry : tangent->value.reshaped())
-    archive.value("", entry);
+  NetworkState<dim> state;
+  std::optional<Tangent<dim>> tangent;
+};
+
+template <int dim, typename Archive>
+void transfer(Archive& archive, StoredPoint<dim>& point)
+{
+  feldspar::transfer(archive, point.state);
+  bool has_tangent = point.tangent.has_value();
+  transfer_flag(archive, "has_tangent", has_tangent);
+  if (!has_tangent)
+    return;
+  if (!point.tangent)
+    point.tangent.emplace();
+  archive.value("states_of_tangent", point.tangent->states);
+  for (double& entry : point.tangent->value.reshaped())
+    archive.value("tangent_Pa", entry);
 }
 } // namespace
 
 template <int dim>
 std::string GrainPoint<dim>::stored() const
 {
-  BytesWriter writer;
-  // One description serves writing and reading, and reading changes.
-  NetworkState<dim> state = accepted.state();
-  std::optional<Tangent<dim>> tangent = accepted_tangent;
-  transfer(writer, state);
-  transfer(writer, tangent);
-  return writer.all;
+  return to_bytes(StoredPoint<dim>{accepted.state(), accepted_tangent});
 }
 
 template <int dim>
 void GrainPoint<dim>::restore(const std::string& stored)
 {
-  BytesReader reader(stored);
-  NetworkState<dim> state;
-  transfer(reader, state);
-  transfer(reader, accepted_tangent);
+  auto [state, tangent] = from_bytes<StoredPoint<dim>>(stored);
   accepted.restore(std::move(state));
+  accepted_tangent = std::move(tangent);
   events_accepted.clear();
   reject();
 }

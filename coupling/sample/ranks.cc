@@ -3,6 +3,8 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -17,50 +19,28 @@
 
 namespace feldspar::ranks
 {
-unsigned int number()
-{
-  int n = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &n);
-  return unsigned(n);
-}
+namespace mpi = dealii::Utilities::MPI;
 
-unsigned int mine()
-{
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return unsigned(rank);
-}
+unsigned int number() { return mpi::n_mpi_processes(MPI_COMM_WORLD); }
+unsigned int mine() { return mpi::this_mpi_process(MPI_COMM_WORLD); }
+bool any(const bool here) { return mpi::max(int(here), MPI_COMM_WORLD) != 0; }
+std::uint64_t sum(const std::uint64_t here) { return mpi::sum(here, MPI_COMM_WORLD); }
 
-bool any(const bool here)
+std::vector<double> sums(const std::vector<double>& here)
 {
-  int result = here;
-  MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  return result != 0;
-}
-
-std::uint64_t sum(std::uint64_t here)
-{
-  MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  return here;
-}
-
-std::vector<double> sums(std::vector<double> here)
-{
-  MPI_Allreduce(MPI_IN_PLACE, here.data(), int(here.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  return here;
+  std::vector<double> all(here.size());
+  mpi::sum(here, MPI_COMM_WORLD, all);
+  return all;
 }
 
 namespace
 {
 constexpr std::size_t most_at_once = std::size_t(1) << 30; // MPI counts with int
 
-std::string of_rank(const int rank, std::string text)
+std::string of_rank(const unsigned int rank, std::string text)
 {
-  std::uint64_t size = text.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, rank, MPI_COMM_WORLD);
-  text.resize(size);
-  for (std::size_t begin = 0; begin < size; begin += most_at_once)
-    MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, rank, MPI_COMM_WORLD);
+  text.resize(mpi::broadcast(MPI_COMM_WORLD, std::uint64_t(text.size()), rank));
+  mpi::broadcast(text.data(), text.size(), rank, MPI_COMM_WORLD);
   return text;
 }
 } // namespace
@@ -73,7 +53,7 @@ std::string gathered(const std::string& text)
   std::vector<std::uint64_t> sizes(n);
   const std::uint64_t size = text.size();
   MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-  // One message a rank, of those that have anything to say.
+  // One message a rank, of those that have anything to say. deal.II's gather() counts all bytes with int.
   constexpr int tag = 1;
   if (!is_first())
     {
@@ -138,13 +118,10 @@ void together(const std::function<void()>& work)
         std::rethrow_exception(alone);
       return;
     }
-  const int here = outcome == done ? int(number()) : int(mine());
-  int first_that_failed = 0;
-  MPI_Allreduce(&here, &first_that_failed, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
-  if (first_that_failed == int(number()))
+  const unsigned int first_that_failed = mpi::min(outcome == done ? number() : mine(), MPI_COMM_WORLD);
+  if (first_that_failed == number())
     return;
-  int its_outcome = outcome;
-  MPI_Bcast(&its_outcome, 1, MPI_INT, first_that_failed, MPI_COMM_WORLD);
+  const int its_outcome = mpi::broadcast(MPI_COMM_WORLD, int(outcome), first_that_failed);
   what = of_rank(first_that_failed, what);
   if (its_outcome == input_error)
     throw InputError(what);

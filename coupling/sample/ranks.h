@@ -17,7 +17,7 @@ inline bool is_first() { return mine() == 0; }
 bool any(bool here);
 
 std::uint64_t sum(std::uint64_t here);
-std::vector<double> sums(std::vector<double> here); ///< entry by entry
+std::vector<double> sums(const std::vector<double>& here); ///< entry by entry
 
 /// What the first rank says.
 std::string of_first(const std::string& text);

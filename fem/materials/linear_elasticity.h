@@ -1,11 +1,10 @@
 #pragma once
 
+#include "base/byte_archive.h"
 #include "fem/materials/material.h"
 
-#include <cstring>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace feldspar::fem
@@ -50,13 +49,13 @@ public:
 
   MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override { return {stiffness * strain, stiffness}; }
   void accept(const StrainVector<dim>& strain) override { stored_energy = 0.5 * strain.dot(stiffness * strain); }
-  std::string stored() const override { return {reinterpret_cast<const char*>(&stored_energy), sizeof(double)}; }
-  void restore(const std::string& stored) override
+  std::string stored() const override
   {
-    if (stored.size() != sizeof(double))
-      throw std::invalid_argument("not the state of an elastic point");
-    std::memcpy(&stored_energy, stored.data(), sizeof(double));
+    BytesWriter writer;
+    writer.value("stored_energy", stored_energy);
+    return writer.all;
   }
+  void restore(const std::string& stored) override { BytesReader(stored).value("stored_energy", stored_energy); }
   std::optional<PointEnergies> energies() const override { return PointEnergies{.stored = stored_energy}; }
 
 private:

@@ -1,17 +1,26 @@
 #include "fem/materials/mohr_coulomb.h"
 
+#include "base/byte_archive.h"
 #include "fem/materials/linear_elasticity.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 
 namespace feldspar::fem
 {
+template <typename Archive>
+void transfer(Archive& archive, MohrCoulombState& state)
+{
+  for (double& component : state.plastic_strain)
+    archive.value("plastic_strain", component);
+  archive.value("dissipated", state.dissipated);
+  archive.value("stored", state.stored);
+}
+
 namespace
 {
 using Principal = Eigen::Vector3d; ///< σ_1 ≥ σ_2 ≥ σ_3, or strains along the same axes
@@ -147,23 +156,8 @@ public:
     return update(parameters, state, strain).answer;
   }
   void accept(const StrainVector<3>& strain) override { state = update(parameters, state, strain).state; }
-  std::string stored() const override
-  {
-    std::string bytes(reinterpret_cast<const char*>(state.plastic_strain.data()), n_components<3> * sizeof(double));
-    for (const double energy : {state.dissipated, state.stored})
-      bytes.append(reinterpret_cast<const char*>(&energy), sizeof(double));
-    return bytes;
-  }
-  void restore(const std::string& stored) override
-  {
-    if (stored.size() != (n_components<3> + 2) * sizeof(double))
-      throw std::invalid_argument("not the state of a Mohr-Coulomb point");
-    const char* from = stored.data();
-    std::memcpy(state.plastic_strain.data(), from, n_components<3> * sizeof(double));
-    from += n_components<3> * sizeof(double);
-    std::memcpy(&state.dissipated, from, sizeof(double));
-    std::memcpy(&state.stored, from + sizeof(double), sizeof(double));
-  }
+  std::string stored() const override { return to_bytes(state); }
+  void restore(const std::string& stored) override { state = from_bytes<MohrCoulombState>(stored); }
   std::optional<PointEnergies> energies() const override
   {
     return PointEnergies{.stored = state.stored, .slip = state.dissipated};

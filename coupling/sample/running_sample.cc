@@ -1,0 +1,184 @@
+#include "coupling/sample/running_sample.h"
+
+#include "base/input_error.h"
+#include "coupling/sample/ranks.h"
+#include "dem/lab/protocols/protocols.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace feldspar
+{
+SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters)
+  : test(which)
+  , sample(of)
+  , wanted(parameters)
+  , stop_rule(test.kind)
+{
+  if (const std::string objection = objection_to_finite_elements(test.kind); !objection.empty())
+    throw InputError(objection);
+  record.kind = test.kind;
+  record.body = TestBody::finite_elements;
+  record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
+  record.confining_pressure = test.confining_pressure;
+  bookkeeping.solver_work.emplace();
+}
+
+void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_a_volume)
+{
+  body = std::move(its_body);
+  size = body->size();
+  standing.n_points = body->n_points();
+  standing.n_segments = standing.n_points * segments_a_volume;
+  record.size = body->box();
+}
+
+SampleSetUp SampleTest::Parts::set_up()
+{
+  return {test.confining_pressure, [this](const fem::NewtonReport& report) {
+            standing.n_newton_iterations = report.n_iterations;
+            standing.n_cascades = report.n_cascades;
+            if (watch)
+              watch(standing);
+          }};
+}
+
+void SampleTest::Parts::seat()
+{
+  if (test.confining_pressure > 0.0)
+    go([this](const double fraction) { return body->seat(fraction); });
+  height_at_seating = body->top_displacement();
+  lateral_strain_at_seating = body->lateral_strain();
+  seated = true;
+  record.curve.push_back(sample_row());
+}
+
+void SampleTest::Parts::load()
+{
+  const double step = sign() > 0.0 ? sample.tension_step : sample.compression_step;
+  widens = widens || (may_widen() && stress_falls());
+  if (!widens)
+    {
+      const double top = height_at_seating + sign() * step * double(record.curve.size()) * size.height;
+      go([=, this](const double fraction) { return body->press(top, fraction); });
+    }
+  if (widens)
+    {
+      if (!steps)
+        wanted_width = std::max(body->lateral_strain(), width_of_last_row()) + step;
+      go([=, this](const double fraction) { return body->widen(wanted_width, fraction); });
+    }
+}
+
+bool SampleTest::Parts::stress_falls() const
+{
+  const auto& curve = record.curve;
+  return curve.size() > 1 && std::abs(curve.back().axial_stress) < std::abs(curve[curve.size() - 2].axial_stress);
+}
+
+void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve)
+{
+  if (!steps)
+    steps.emplace(first_steps());
+  const auto most_events =
+    std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(standing.n_segments)));
+  constexpr unsigned int most_cuts_for_breaks = 2;
+  while (!steps->finished())
+    {
+      body->limit_events(avalanche ? standing.n_segments : most_events);
+      const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
+      ++bookkeeping.solver_work->n_solves;
+      bookkeeping.solver_work->n_iterations += report.n_iterations;
+      bookkeeping.solver_work->n_cascades += report.n_cascades;
+      if (report.converged)
+        {
+          body->accept();
+          steps->succeeded();
+          avalanche = false;
+          n_cuts_for_breaks = 0;
+          gather_cracks();
+          share_work();
+          step_done();
+          continue;
+        }
+      body->reject();
+      const bool breaks_too_much = !avalanche && report.n_events > most_events;
+      const bool was_cut = steps->cut();
+      if (!was_cut && !breaks_too_much)
+        {
+          record.came_apart = avalanche;
+          throw fem::StepFailure(report.failure);
+        }
+      if (!breaks_too_much)
+        continue;
+      avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
+      if (avalanche && may_widen() && !widens)
+        {
+          // At a held width there may be none.
+          widens = true;
+          avalanche = false;
+          n_cuts_for_breaks = 0;
+          break;
+        }
+    }
+  steps.reset();
+}
+
+void SampleTest::Parts::share_work()
+{
+  const fem::Balance balance = body->rebalance();
+  bookkeeping.solver_work->seconds_in_points += balance.mean * ranks::number();
+  RankBalance& ranks = bookkeeping.ranks;
+  ranks.mean += balance.mean;
+  ranks.longest += balance.longest;
+  ranks.longest_unmoved += balance.longest_unmoved;
+  ranks.n_moves += balance.moved;
+}
+
+void SampleTest::Parts::gather_cracks()
+{
+  ++bookkeeping.steps;
+  std::vector<Crack> broken = body->cracks_of_last_step();
+  const double strain = seated ? axial_strain() : 0.0;
+  for (Crack& crack : broken)
+    {
+      crack.step = bookkeeping.steps;
+      crack.axial_strain = strain;
+    }
+  const auto n_of = [&](const CrackKind kind) {
+    const auto is = [=](const Crack& crack) { return crack.kind == kind; };
+    return ranks::sum(std::uint64_t(std::count_if(broken.begin(), broken.end(), is)));
+  };
+  n_tension += n_of(CrackKind::tension);
+  n_shear += n_of(CrackKind::shear);
+  const std::string everywhere =
+    ranks::gathered({reinterpret_cast<const char*>(broken.data()), broken.size() * sizeof(Crack)});
+  broken.resize(everywhere.size() / sizeof(Crack));
+  std::copy(everywhere.begin(), everywhere.end(), reinterpret_cast<char*>(broken.data()));
+  std::stable_sort(broken.begin(), broken.end(),
+                   [](const Crack& one, const Crack& other) { return one.joint < other.joint; });
+  record.cracks.insert(record.cracks.end(), broken.begin(), broken.end());
+}
+
+CurveSample SampleTest::Parts::sample_row()
+{
+  const bool is_first = record.curve.empty();
+  CurveSample row;
+  row.step = bookkeeping.steps;
+  row.axial_strain = axial_strain();
+  row.axial_stress = is_first ? -test.confining_pressure : body->platen_stress("top");
+  row.end_stress_difference = is_first ? 0.0 : body->platen_stress("top") + body->platen_stress("bottom");
+  row.lateral_stress = -test.confining_pressure;
+  row.mid_stress = body->mean_axial_stress();
+  row.gauge_axial_strain = row.axial_strain;
+  row.gauge_lateral_strain = body->lateral_strain() - lateral_strain_at_seating;
+  row.gauge_volumetric_strain = row.gauge_axial_strain + body->n_lateral_directions() * row.gauge_lateral_strain;
+  row.n_tension_cracks = n_tension;
+  row.n_shear_cracks = n_shear;
+  row.energies = body->energies();
+  standing.n_damaged_points = body->n_damaged_points();
+  return row;
+}
+} // namespace feldspar

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "coupling/sample/sample_body.h"
+#include "coupling/sample/sample_run.h"
+#include "dem/lab/stop_rule.h"
+#include "fem/solid/advance.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace feldspar
+{
+/// A multiscale test on its way: what it consists of, and its steps.
+struct SampleTest::Parts
+{
+  TestCase test;
+  SampleParameters sample;
+  TestParameters wanted;
+  SampleStanding standing;
+  std::function<void(const SampleStanding&)> watch;
+  std::unique_ptr<SampleBody> body;
+  SampleSize size{};
+  std::optional<fem::FieldOutput> fields;
+  StopRule stop_rule;
+  TestRecord record;
+  RunBookkeeping bookkeeping;
+  std::function<void()> step_done;
+  std::optional<fem::StepControl> steps; ///< to the next row, where it is on its way
+  bool widens = false;                   ///< lateral strain is what is controlled
+  double wanted_width = 0.0;             ///< lateral strain of the row that is on its way
+  bool avalanche = false;                ///< the next of these steps may break as much as it likes
+  unsigned int n_cuts_for_breaks = 0;    ///< of the step that is tried
+  bool seated = false;
+  bool ended = false;
+  double height_at_seating = 0.0; ///< displacement of the top [m]
+  double lateral_strain_at_seating = 0.0;
+  std::uint64_t n_tension = 0;
+  std::uint64_t n_shear = 0;
+
+  /// Throws InputError for a test that such a sample cannot make.
+  Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters);
+
+  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_a_volume);
+  SampleSetUp set_up();
+
+  /// Pressure all round, the top plate free to follow.
+  void seat();
+  /// To the next row.
+  void load();
+  /// In steps that break no more than their share. Where a step cut twice for that, or the smallest, still does, it is an
+  /// avalanche, which no step divides. From where it was left, if it was. `solve` goes a fraction of the way that is left.
+  void go(const std::function<fem::NewtonReport(double)>& solve);
+  void share_work();
+  /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
+  void gather_cracks();
+  CurveSample sample_row();
+
+  /// What all ranks know besides the solid; in sample_checkpoint.cc.
+  template <typename Archive>
+  void transfer(Archive& archive, std::string& fields_written, fem::StoredSolid& solid);
+
+  double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }
+  fem::StepControl first_steps() const { return {1.0, sample.smallest_step_share, 1.0}; }
+
+private:
+  double sign() const { return test.kind.sign; }
+  /// From the first avalanche or fall of the stress on.
+  bool may_widen() const { return seated && sample.widened_past_peak && sign() < 0.0; }
+  bool stress_falls() const;
+  double width_of_last_row() const { return lateral_strain_at_seating + record.curve.back().gauge_lateral_strain; }
+};
+} // namespace feldspar
