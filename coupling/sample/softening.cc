@@ -1,12 +1,22 @@
 #include "coupling/sample/softening.h"
 
-#include "coupling/rve/state_archive.h"
+#include "base/byte_archive.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace feldspar
 {
+namespace
+{
+template <int dim>
+double total_energy(const fem::MaterialPoint<dim>& point)
+{
+  const auto energies = point.energies().value_or(fem::PointEnergies{});
+  return energies.stored + energies.slip + energies.released + energies.settled;
+}
+} // namespace
+
 template <int dim>
 SofteningPoint<dim>::SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, const double its_scale)
   : fem::ForwardingPoint<dim>(std::move(volume))
@@ -91,16 +101,30 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
   Voigt<dim> at = find(strain).volume_strain;
   Stiffness<dim> tangent = found->answer.tangent; // one event changes it little
   bool relation_holds = true;
+  std::optional<Held> first;
+  std::optional<Held> last;
   for (;;)
     {
+      const bool had_localised = at_work.localised;
+      const Voigt<dim> stress_before = found ? found->answer.stress : Voigt<dim>::Zero();
       const auto events = inner->relax_once(at);
       n_events += events.n;
       if (events.n == 0 && relation_holds)
-        return n_events;
+        {
+          if (first)
+            at_work.gained_while_held += gained(*first, *last, *found);
+          return n_events;
+        }
       if (events.n > 0)
         {
           found.reset();
           look_whether_localised(strain, events.stress);
+          if (at_work.localised)
+            {
+              last = {at, events.stress, total_energy(*inner)};
+              if (!first) // the event itself leaves the total as it is
+                first = {at, had_localised ? stress_before : events.stress, last->energy};
+            }
         }
       if (!at_work.localised)
         continue;
@@ -119,6 +143,18 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
     }
 }
 
+/// What the scaled energies of the piece would gain between two states at one of its strains: those of the volume do, along
+/// a straight way from its last event, and count 1/κ times but for the elastic one.
+template <int dim>
+double SofteningPoint<dim>::gained(const Held& first, const Held& last, const Found& now) const
+{
+  const Voigt<dim>& stress = now.answer.stress;
+  const double of_volume =
+    last.energy - first.energy + 0.5 * (last.stress + stress).dot(now.volume_strain - last.volume_strain);
+  const double elastic = elastic_energy(stress) - elastic_energy(first.stress);
+  return elastic + (of_volume - elastic) / scale;
+}
+
 template <int dim>
 void SofteningPoint<dim>::look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress)
 {
@@ -127,7 +163,7 @@ void SofteningPoint<dim>::look_whether_localised(const Voigt<dim>& strain, const
   at_work.localised = true;
   at_work.inelastic_strain = strain - compliance * stress;
   at_work.energies = inner->energies().value_or(fem::PointEnergies{});
-  at_work.elastic_energy = 0.5 * stress.dot(compliance * stress);
+  at_work.elastic_energy = elastic_energy(stress);
   at_work.elastic_strain = (compliance * stress).norm();
   nearby = strain;
 }
@@ -154,39 +190,38 @@ void SofteningPoint<dim>::reject()
 }
 
 template <int dim>
-template <typename Archive>
-void SofteningPoint<dim>::State::transfer(Archive& archive)
+struct SofteningPoint<dim>::Stored
 {
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    for (auto* const columns : {&strain, &volume_strain, &stress, &inelastic_strain})
-      archive.value("", (*columns)[k]);
-  transfer_flag(archive, "", localised);
-  archive.value("", energies);
-  archive.value("", elastic_energy);
-  archive.value("", elastic_strain);
-}
+  State state;
+  std::string volume;
+
+  template <typename Archive>
+  friend void transfer(Archive& archive, Stored& stored)
+  {
+    auto& state = stored.state;
+    for (auto* const columns : {&state.strain, &state.volume_strain, &state.stress, &state.inelastic_strain})
+      for (double& component : *columns)
+        archive.value("strains_and_stress", component);
+    transfer_flag(archive, "localised", state.localised);
+    archive.value("energies", state.energies);
+    archive.value("elastic_energy", state.elastic_energy);
+    archive.value("elastic_strain", state.elastic_strain);
+    archive.value("gained_while_held", state.gained_while_held);
+    archive.text("volume", stored.volume);
+  }
+};
 
 template <int dim>
 std::string SofteningPoint<dim>::stored() const
 {
-  BytesWriter writer;
-  State state = accepted; // one description serves writing and reading, and reading changes
-  state.transfer(writer);
-  const std::string of_volume = inner->stored();
-  std::vector<char> bytes(of_volume.begin(), of_volume.end());
-  writer.bytes("", bytes);
-  return writer.all;
+  return to_bytes(Stored{accepted, inner->stored()});
 }
 
 template <int dim>
 void SofteningPoint<dim>::restore(const std::string& stored)
 {
-  BytesReader reader(stored);
-  State state;
-  state.transfer(reader);
-  std::vector<char> bytes;
-  reader.bytes("a volume", bytes);
-  inner->restore({bytes.begin(), bytes.end()});
+  auto [state, volume] = from_bytes<Stored>(stored);
+  inner->restore(volume);
   accepted = state;
   reject();
 }
@@ -207,12 +242,13 @@ std::optional<fem::PointEnergies> SofteningPoint<dim>::energies() const
   if (!all || !accepted.localised)
     return all;
   const fem::PointEnergies& then = accepted.energies;
-  const double elastic = 0.5 * accepted.stress.dot(compliance * accepted.stress) - accepted.elastic_energy;
+  const double elastic = elastic_energy(accepted.stress) - accepted.elastic_energy;
   const auto scaled = [this](const double now, const double before, const double unscaled) {
     return before + unscaled + (now - before - unscaled) / scale;
   };
   return fem::PointEnergies{scaled(all->stored, then.stored, elastic), scaled(all->slip, then.slip, 0.0),
-                            scaled(all->released, then.released, 0.0), scaled(all->settled, then.settled, 0.0)};
+                            scaled(all->released, then.released, 0.0) - accepted.gained_while_held,
+                            scaled(all->settled, then.settled, 0.0)};
 }
 
 template <int dim>

@@ -44,7 +44,8 @@ public:
   /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
   /// a break in a small volume may let the stress fall for a moment.
   std::vector<double> fields() const override;
-  /// Of the piece: what the volume lost after it localised counts 1/κ times.
+  /// Of the piece: what the volume lost after it localised counts 1/κ times. While events run the piece stands still and
+  /// nothing works on it, so what its energies would gain then is taken from what breaks released; docs/theory.md §11.
   std::optional<fem::PointEnergies> energies() const override;
 
   bool has_localised() const { return at_work.localised; }
@@ -62,10 +63,9 @@ private:
     fem::PointEnergies energies{};                    ///< of the volume, when it localised
     double elastic_energy = 0.0;                      ///< ½ σ S_0 σ then [J/m³]
     double elastic_strain = 0.0;                      ///< |S_0 σ| then
-
-    template <typename Archive>
-    void transfer(Archive& archive);
+    double gained_while_held = 0.0;                   ///< by the scaled energies of the piece in its events [J/m³]
   };
+  struct Stored;
 
   /// A strain, where the volume is then, and what it answers.
   struct Found
@@ -75,6 +75,16 @@ private:
     fem::MaterialAnswer<dim> answer;
   };
 
+  /// The volume while the piece is held, at an event.
+  struct Held
+  {
+    Voigt<dim> volume_strain;
+    Voigt<dim> stress;
+    double energy; ///< of the volume, stored and lost [J/m³]
+  };
+
+  double elastic_energy(const Voigt<dim>& stress) const { return 0.5 * stress.dot(compliance * stress); }
+  double gained(const Held& first, const Held& last, const Found& now) const;
   const Found& find(const Voigt<dim>& strain) const;
   Voigt<dim> residual(const Voigt<dim>& strain, const Voigt<dim>& volume_strain, const Voigt<dim>& stress) const;
   /// ∂residual/∂(strain of the volume).

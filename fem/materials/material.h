@@ -121,7 +121,7 @@ public:
   /// Values of the accepted state for output, in the order of Material::field_names.
   virtual std::vector<double> fields() const { return {}; }
 
-  /// Of the accepted state; none where they are not known.
+  /// Of the structure at work, after its last event or accept(); none where they are not known.
   virtual std::optional<PointEnergies> energies() const { return {}; }
 
   /// Opened in the last accepted step.

@@ -52,6 +52,7 @@ public:
       return {0, trial(strain).stress};
     released += 0.5 * E * strain[1] * strain[1] * std::min(damage_of_an_event, 1.0 - damage);
     damage = std::min(1.0, damage + damage_of_an_event);
+    stored_energy = 0.5 * strain.dot(trial(strain).stress);
     return {1, trial(strain).stress};
   }
   void accept(const Voigt<2>& strain) override
@@ -59,11 +60,13 @@ public:
     stored_energy = 0.5 * strain.dot(trial(strain).stress);
     accepted_damage = damage;
     accepted_released = released;
+    accepted_stored = stored_energy;
   }
   void reject() override
   {
     damage = accepted_damage;
     released = accepted_released;
+    stored_energy = accepted_stored;
   }
   std::optional<fem::PointEnergies> energies() const override
   {
@@ -78,6 +81,7 @@ private:
   double released = 0.0;
   double accepted_released = 0.0;
   double stored_energy = 0.0;
+  double accepted_stored = 0.0;
 };
 
 constexpr double end = 10.0 * strain_at_peak;
@@ -184,6 +188,43 @@ TEST(ScaledSoftening, OfAVolumeOfGrainsHoldsItsRelation)
       again.accept(at);
     }
   EXPECT_EQ(again.trial(strain).stress, stress);
+}
+
+// Stress times strain of the piece, followed in small steps between its events, is what it has stored and lost, for volumes
+// of one size in pieces of several. While the events of a step run the piece stands still: no work is done on it. If what the
+// rest of the volume takes as it unloads were counted as work of the piece, the sum would be 2 % off at κ = 0.5, 5 % at 0.2.
+TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
+{
+  EquilibriumParameters tight;
+  tight.event_tolerance = tight.final_tolerance = 1e-10;
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  for (const double scale : {1.0, 0.5, 0.2})
+    {
+      SofteningPoint<2> point(std::make_unique<GrainPoint<2>>(network, Tensor<2>(Tensor<2>::Identity()), tight), scale);
+      const Voigt<2> step(-1e-6, 5e-6, 5e-7);
+      constexpr int n_steps = 120;
+      constexpr int n_parts = 8; // of a step, in which bonds are frozen: faces close and slide
+      double work = 0.0;
+      Voigt<2> stress = Voigt<2>::Zero();
+      for (int k = 0; k < n_steps; ++k)
+        {
+          for (int part = 1; part <= n_parts; ++part)
+            {
+              const Voigt<2> next = point.trial((k + double(part) / n_parts) * step).stress;
+              work += 0.5 * (stress + next).dot(step) / n_parts;
+              stress = next;
+            }
+          const Voigt<2> strain = (k + 1.0) * step;
+          point.relax(strain);
+          stress = point.trial(strain).stress;
+          point.accept(strain);
+        }
+      EXPECT_TRUE(point.has_localised());
+      const auto energies = *point.energies();
+      const double lost = energies.slip + energies.released + energies.settled;
+      EXPECT_GT(lost, 0.5 * work) << scale;
+      EXPECT_NEAR(energies.stored + lost, work, 1e-6 * work) << scale;
+    }
 }
 
 // A bar of 100 mm with a weak row of elements, of volumes of 25 mm: its strength is that of the weak row, and with scaled
