@@ -5,6 +5,8 @@
 #                            inside, both in one report; ends with its path
 #   ./bootstrap.sh test      packages, sanitizer build and its unit tests, the same with clang, release build, all tests
 #   ./bootstrap.sh build     packages and release build
+#   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
+#   ./bootstrap.sh package   a Debian package for any processor with AVX2; ends with its path
 #   ./bootstrap.sh packages  packages only: everything the other three need
 #
 # Root (or sudo) is needed only while packages are missing. With CI set in the environment warnings are errors and
@@ -33,6 +35,18 @@ die()
 
 is_installed() { [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 
+# as_root COMMAND [ARGUMENT...]
+as_root()
+{
+  if ((EUID == 0)); then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    die "neither root nor sudo is at hand for: $*"
+  fi
+}
+
 need_packages()
 {
   command -v dpkg-query >/dev/null ||
@@ -43,14 +57,9 @@ need_packages()
   done
   ((${#missing[@]})) || return 0
 
-  local as_root=()
-  if ((EUID != 0)); then
-    command -v sudo >/dev/null || die "packages are missing and neither root nor sudo is at hand: ${missing[*]}"
-    as_root=(sudo)
-  fi
   say "installing ${missing[*]}"
-  "${as_root[@]}" apt-get update --quiet
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  as_root apt-get update --quiet
+  as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install --quiet --yes --no-install-recommends "${missing[@]}" </dev/null
 }
 
@@ -89,7 +98,7 @@ check_lint()
 demo()
 {
   need_packages "${build_packages[@]}"
-  build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+  build_release
   local feldspar=build/release/app/feldspar
   say "breaking Beishan granite, a specimen of grains"
   "$feldspar" lab examples/beishan-granite/beishan.prm --output demo/direct --force
@@ -97,6 +106,34 @@ demo()
   "$feldspar" multiscale examples/multiscale-beishan/demo.prm --output demo/multiscale --force
   say "both in one report"
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force
+}
+
+build_release() { build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF; }
+
+# install_feldspar [DIR]
+install_feldspar()
+{
+  local prefix=${1:-/usr/local} parent
+  need_packages "${build_packages[@]}"
+  build_release
+  say "installing into $prefix"
+  parent=$prefix
+  until [[ -e $parent ]]; do parent=$(dirname "$parent"); done
+  if [[ -w $parent ]]; then
+    cmake --install build/release --prefix "$prefix" --strip
+  else
+    as_root cmake --install build/release --prefix "$prefix" --strip
+  fi
+  say "$("$prefix/bin/feldspar" version) is in $prefix/bin"
+}
+
+package()
+{
+  need_packages "${build_packages[@]}" dpkg-dev file
+  build package
+  say "packing"
+  (cd build/package && cpack -G DEB)
+  ls "$PWD"/build/package/*.deb
 }
 
 run_all_tests()
@@ -119,8 +156,10 @@ case "${1:-}" in
   test) run_all_tests ;;
   build)
     need_packages "${build_packages[@]}"
-    build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+    build_release
     ;;
+  install) install_feldspar "${@:2}" ;;
+  package) package ;;
   packages) need_packages "${build_packages[@]}" "${test_packages[@]}" ;;
-  *) die "usage: ./bootstrap.sh demo|test|build|packages" ;;
+  *) die "usage: ./bootstrap.sh demo|test|build|install [DIR]|package|packages" ;;
 esac

@@ -1,4 +1,5 @@
 #include "app/commands/commands.h"
+#include "app/commands/manual.h"
 #include "app/input/nearest_name.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
@@ -45,6 +46,7 @@ public:
     add_report();
     add_parameters();
     add_help();
+    add_manual();
     add_examples();
   }
 
@@ -121,7 +123,7 @@ private:
   {
     command.add_option("--threads", n_threads, "how many to use (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1u, 4096u));
+      ->check(CLI::Range(1u, 4096u).description("")); // its range would stand beside the N
   }
 
   void add_report()
@@ -177,6 +179,22 @@ private:
     app.add_subcommand("version", "the same as --version")->callback([this] {
       chosen = [] {
         print_result("feldspar {}\n", version);
+        return 0;
+      };
+    });
+  }
+
+  void add_manual()
+  {
+    app.add_subcommand("manual", "the manual page, for man: feldspar manual | man -l -")->callback([this] {
+      chosen = [this] {
+        print_result("{}", manual_page(app));
+        return 0;
+      };
+    });
+    app.add_subcommand("completion", "completion for bash: source <(feldspar completion)")->callback([this] {
+      chosen = [this] {
+        print_result("{}", bash_completion(app));
         return 0;
       };
     });

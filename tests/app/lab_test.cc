@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -615,6 +616,40 @@ TEST(Help, IsThereByTheWordsThatUsersTry)
   EXPECT_NE(said("help lab").find("Examples:\n  feldspar lab granite.prm"), std::string::npos) << said("help lab");
   EXPECT_EQ(said("version"), said("--version"));
   EXPECT_NE(said("parameters PLATEN").find("Tests/Platen friction\n    unit -; default 0"), std::string::npos);
+}
+
+// The manual page has every command and every entry, and man makes no request of a line of text. The completion is asked as
+// bash asks it.
+TEST(Help, IsThereForManAndBash)
+{
+  const TemporaryFolder folder;
+  const std::string page = run_feldspar(folder.path(), "manual").output;
+  for (const char* const command : {"lab", "rve", "multiscale", "specimen", "contact", "report", "parameters", "help"})
+    EXPECT_NE(page.find(fmt::format("\n.SS {}\n", command)), std::string::npos) << command;
+  std::string names = run_feldspar(folder.path(), "parameters").output;
+  std::size_t n_entries = 0;
+  for (std::size_t at = 0; (at = names.find("\n  ", at)) != std::string::npos; ++at)
+    if (names[at + 3] != ' ')
+      {
+        std::string entry = names.substr(at + 3, names.find('\n', at + 3) - at - 3);
+        EXPECT_NE(page.find("\\fB" + entry + "\\fR\n"), std::string::npos) << entry;
+        ++n_entries;
+      }
+  EXPECT_GT(n_entries, 100u);
+  for (std::size_t at = 0; (at = page.find("\n.", at)) != std::string::npos; ++at)
+    EXPECT_TRUE(std::isupper(page[at + 2])) << page.substr(at, 80); // TH, SH, SS, TP, PP, EX, EE
+
+  folder.write(
+    "complete",
+    R"(eval "$("$@")" tell() {
+      COMP_WORDS = ("$@");
+      COMP_CWORD = $(($ # - 1));
+      _feldspar;
+      echo "${COMPREPLY[@]}";
+    } tell feldspar la tell feldspar help multi tell feldspar lab-- res tell feldspar rve-- ext tell feldspar
+      multiscale-- ext tell feldspar parameters Fl) ");
+    EXPECT_EQ(run_feldspar(folder.path(), "completion", "bash ./complete").output,
+              "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\n");
 }
 
 TEST(Lab, SpeaksToWhoeverListens)
