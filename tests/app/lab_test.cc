@@ -639,17 +639,17 @@ TEST(Help, IsThereForManAndBash)
   for (std::size_t at = 0; (at = page.find("\n.", at)) != std::string::npos; ++at)
     EXPECT_TRUE(std::isupper(page[at + 2])) << page.substr(at, 80); // TH, SH, SS, TP, PP, EX, EE
 
-  folder.write(
-    "complete",
-    R"(eval "$("$@")" tell() {
-      COMP_WORDS = ("$@");
-      COMP_CWORD = $(($ # - 1));
-      _feldspar;
-      echo "${COMPREPLY[@]}";
-    } tell feldspar la tell feldspar help multi tell feldspar lab-- res tell feldspar rve-- ext tell feldspar
-      multiscale-- ext tell feldspar parameters Fl) ");
-    EXPECT_EQ(run_feldspar(folder.path(), "completion", "bash ./complete").output,
-              "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\n");
+  folder.write("complete", R"bash(eval "$("$@")"
+tell() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _feldspar; echo "${COMPREPLY[@]}"; }
+tell feldspar la
+tell feldspar help multi
+tell feldspar lab --res
+tell feldspar rve --ext
+tell feldspar multiscale --ext
+tell feldspar parameters Fl
+)bash");
+  EXPECT_EQ(run_feldspar(folder.path(), "completion", "bash ./complete").output,
+            "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\n");
 }
 
 TEST(Lab, SpeaksToWhoeverListens)
