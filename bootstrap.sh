@@ -7,7 +7,8 @@
 #   ./bootstrap.sh build     packages and release build
 #   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
 #   ./bootstrap.sh package   a Debian package for any processor with AVX2; ends with its path
-#   ./bootstrap.sh packages  packages only: everything the other three need
+#   ./bootstrap.sh docs      the documentation as a site; ends with its path
+#   ./bootstrap.sh packages  packages only: everything the others need
 #
 # Root (or sudo) is needed only while packages are missing. With CI set in the environment warnings are errors and
 # `test` also checks format and lint.
@@ -21,7 +22,9 @@ build_packages=(
   libceres-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
+site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
+  "${site_packages[@]}"
   clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium
   python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing
 )
@@ -158,8 +161,12 @@ case "${1:-}" in
     need_packages "${build_packages[@]}"
     build_release
     ;;
+  docs)
+    need_packages "${site_packages[@]}"
+    scripts/build-site.sh
+    ;;
   install) install_feldspar "${@:2}" ;;
   package) package ;;
   packages) need_packages "${build_packages[@]}" "${test_packages[@]}" ;;
-  *) die "usage: ./bootstrap.sh demo|test|build|install [DIR]|package|packages" ;;
+  *) die "usage: ./bootstrap.sh demo|test|build|install [DIR]|package|docs|packages" ;;
 esac
