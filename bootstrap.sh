@@ -3,7 +3,7 @@
 #
 #   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains and as finite elements with grains
 #                            inside, both in one report; ends with its path
-#   ./bootstrap.sh test      packages, sanitizer build and its unit tests, the same with clang, release build, all tests
+#   ./bootstrap.sh test      packages, build by clang under the sanitizers and its unit tests, release build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
 #   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
 #   ./bootstrap.sh package   a Debian package for any processor with AVX2; ends with its path
@@ -90,12 +90,12 @@ check_format()
   git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
 }
 
-# Reads build/clang-dem's compile commands.
+# Reads build/asan's compile commands, which are clang's.
 check_lint()
 {
   say "checking the lint"
   git ls-files -z 'dem/*.cc' |
-    xargs --null --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/clang-dem --quiet --warnings-as-errors='*'
+    xargs --null --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/asan --quiet --warnings-as-errors='*'
 }
 
 demo()
@@ -144,8 +144,6 @@ run_all_tests()
   need_packages "${build_packages[@]}" "${test_packages[@]}"
   build asan
   run_tests asan
-  build clang-dem
-  run_tests clang-dem
   if [[ -n "${CI:-}" ]]; then
     check_format
     check_lint

@@ -2,6 +2,7 @@
 
 #include "results/evaluation.h"
 #include "results/test_outcome.h"
+#include "results/variant_setting.h"
 
 #include <string>
 #include <vector>
@@ -30,11 +31,12 @@ struct Provenance
 /// A finished test with its results.
 struct FinishedTest
 {
-  std::string group;   ///< what it is averaged with over the seeds: triaxial_compression_5_MPa
-  std::string name;    ///< of its files and figures: triaxial_compression_5_MPa_seed_1
-  std::string variant; ///< Section/Entry = value; empty where there are none
-  TestRecord record;   ///< the measurement
-  TestResults results; ///< read off the record
+  std::string group;                    ///< what it is averaged with over the seeds: triaxial_compression_5_MPa
+  std::string name;                     ///< of its files and figures: triaxial_compression_5_MPa_seed_1
+  std::string variant;                  ///< Section/Entry = value for each entry; empty where there are none
+  std::vector<VariantSetting> settings; ///< the same, entry by entry
+  TestRecord record;                    ///< the measurement
+  TestResults results;                  ///< read off the record
   TestAppearance appearance;
   RunBookkeeping bookkeeping;
 
@@ -43,5 +45,6 @@ struct FinishedTest
 };
 
 /// With the figures read off its record.
-FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant);
+FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
+                      std::vector<VariantSetting> settings = {});
 } // namespace feldspar

@@ -76,7 +76,7 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
   if (has_grains && input.specimen.joint_law != FlatJoint<2>::name)
     refuse(fmt::format("Specimen/Joint law = {}: the volume at a point needs Joint law = {}", input.specimen.joint_law,
                        FlatJoint<2>::name));
-  if (!input.variant_entry.empty())
+  if (!input.variants.entries.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
   for (const TestKind& kind : input.test_list)
     if (const std::string objection = objection_to_finite_elements(kind); !objection.empty())

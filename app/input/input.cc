@@ -72,27 +72,32 @@ void check_joint_law(const Input& input, const GivenEntries& values)
   for (const GivenEntry& given : values.all())
     if (!has_use(given.section, given.entry))
       throw values.error(given.section, given.entry, refusal);
-  if (const std::size_t slash = input.variant_entry.find('/');
-      !input.variant_entry.empty() &&
-      !has_use(input.variant_entry.substr(0, slash), input.variant_entry.substr(slash + 1)))
-    throw values.error("Variants", "Entry", refusal);
+  for (const std::string& entry : input.variants.entries)
+    if (const std::size_t slash = entry.find('/'); !has_use(entry.substr(0, slash), entry.substr(slash + 1)))
+      throw values.error("Variants", input.variants.table.empty() ? "Entry" : "Table", refusal);
 }
 
-void check_variants(const Input& input, const GivenEntries& values)
+/// Reads the table, where there is one.
+void complete_variants(Input& input, const GivenEntries& values)
 {
-  if (input.variant_entry.empty() != input.variant_values.empty())
-    throw values.error("Variants", input.variant_entry.empty() ? "Entry" : "Values",
-                       "Entry and Values go together: name both, or neither");
+  VariantParameters& wanted = input.variants;
+  const bool has_table = !wanted.table.empty();
   try
     {
+      if (has_table)
+        read_variant_table(wanted);
       variants(input);
     }
   catch (const InputError& error)
     {
       const bool has_commas =
-        input.variant_values.size() == 1 && input.variant_values[0].find(',') != std::string::npos;
-      throw values.error("Variants", "Values",
-                         std::string(error.what()) + (has_commas ? "; values are separated by semicolons" : ""));
+        wanted.values.size() == 1 && wanted.values[0].size() == 1 && wanted.values[0][0].find(',') != std::string::npos;
+      throw values.error("Variants",
+                         has_table               ? "Table"
+                         : wanted.values.empty() ? "Entry"
+                                                 : "Values",
+                         std::string(error.what()) +
+                           (has_commas && !has_table ? "; values are separated by semicolons" : ""));
     }
 }
 
@@ -105,7 +110,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
     {
-      if (!specimen.specimen_file.empty() && (input.seeds.size() > 1 || !input.variant_entry.empty()))
+      if (!specimen.specimen_file.empty() && (input.seeds.size() > 1 || !input.variants.entries.empty()))
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
@@ -150,32 +155,6 @@ double expected_grains(const SpecimenParameters& specimen)
   return (1.0 - specimen.porosity) * of_body / of_grain;
 }
 
-std::vector<Variant> variants(const Input& input)
-{
-  if (input.variant_entry.empty())
-    return {{"", input}};
-  const std::size_t slash = input.variant_entry.find('/');
-  const Parameter& parameter =
-    *find_parameter(input.variant_entry.substr(0, slash), input.variant_entry.substr(slash + 1));
-  std::vector<Variant> result;
-  for (const std::string& value : input.variant_values)
-    {
-      result.push_back({fmt::format("{} = {}", input.variant_entry, value), input});
-      Input& varied = result.back().input;
-      parameter.read(varied, value);
-      // Of the two ways to say which pairs get a joint the varied one holds.
-      for_each_joint_section(varied, [&](const std::string_view law, auto& joint) {
-        if (parameter.section != section_of(law))
-          return;
-        if (parameter.entry == "Coordination number")
-          joint.installation_gap_ratio.reset();
-        if (parameter.entry == "Installation gap ratio")
-          joint.coordination_number.reset();
-      });
-    }
-  return result;
-}
-
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder,
                  const std::vector<std::string>& settings)
 {
@@ -194,7 +173,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       }
   settle_dimension(input, values);
   settle_installation(input, values);
-  check_variants(input, values);
+  complete_variants(input, values);
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))
     {

@@ -8,6 +8,7 @@
 #include "dem/laws/parameters.h"
 #include "dem/specimen/parameters.h"
 #include "results/kinds.h"
+#include "results/variant_setting.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +45,16 @@ struct StrainPathParameters
   unsigned int steps_per_millistrain = 100000; ///< of explicit dynamics
 };
 
+/// Entries that take several values in one run.
+struct VariantParameters
+{
+  std::vector<std::string> entries;             ///< Section/Entry; none: no variants
+  std::vector<std::vector<std::string>> values; ///< of each entry, as they would stand in an input file
+  bool in_step =
+    false;           ///< the first values of all entries, then the second, ...; else each value with each of the others
+  std::string table; ///< a CSV file that has them instead: a column an entry, a row a variant; empty: none
+};
+
 /// All that an input file says. A default-constructed value is what an empty file means.
 struct Input
 {
@@ -58,8 +69,7 @@ struct Input
   std::vector<double> confinements{5e6, 10e6, 20e6, 30e6, 40e6, 50e6, 60e6}; ///< of tests that take one [Pa]
   std::uint64_t steps_between_checkpoints = 20000;
   std::vector<std::uint64_t> seeds{1};
-  std::string variant_entry;               ///< Section/Entry; empty: no variants
-  std::vector<std::string> variant_values; ///< as they would stand in an input file
+  VariantParameters variants;
   ContactParameters contact;
   StrainPathParameters strain_path;
   EquilibriumParameters equilibrium;
@@ -68,11 +78,12 @@ struct Input
   std::string reference_file; ///< figures of the rock that results are set beside; empty: none
 };
 
-/// The same input but for one entry.
+/// The same input but for some entries.
 struct Variant
 {
-  std::string label; ///< Section/Entry = value; empty where there are no variants
+  std::string label; ///< Section/Entry = value, for each entry; empty where there are no variants
   Input input;
+  std::vector<VariantSetting> settings = {}; ///< what differs, entry by entry
 };
 
 /// Reads and checks a .prm or .json file. A mistake in it throws InputError, one line with file, line and entry.
@@ -84,6 +95,9 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
 /// How many grains genesis will pack.
 double expected_grains(const SpecimenParameters& specimen);
 
-/// One for each value of the variants' entry, or the input itself.
+/// One for each combination of the values of the variants' entries, or the input itself. Throws InputError.
 std::vector<Variant> variants(const Input& input);
+
+/// Fills entries and values from the table. Throws InputError.
+void read_variant_table(VariantParameters& wanted);
 } // namespace feldspar

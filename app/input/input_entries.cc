@@ -22,7 +22,6 @@ constexpr std::string_view none = "none";
 constexpr std::string_view free_component = "free";
 constexpr std::size_t most_seeds = 10000;
 constexpr std::size_t most_confinements = 1000;
-constexpr std::size_t most_variants = 10000;
 
 std::uint64_t parse_count(const std::string_view text)
 {
@@ -73,45 +72,47 @@ std::string write_confinements(const std::vector<double>& pressures)
   return text + " MPa";
 }
 
-std::string read_variant_entry(const std::string_view text)
+/// The pieces between separators, trimmed.
+std::vector<std::string_view> split_at(const char separator, std::string_view text)
 {
-  if (text == none)
-    return "";
-  std::vector<std::string> names;      // of all that can vary
-  std::vector<std::string> with_entry; // of these, with this entry
-  for (const Parameter& parameter : parameter_table())
-    if (parameter.name() == text && !parameter.flags.varies)
-      throw InputError("is one for all variants; it cannot vary");
-    else if (parameter.flags.varies)
-      {
-        names.push_back(parameter.name());
-        if (parameter.entry == text)
-          with_entry.push_back(parameter.name());
-      }
-  if (std::find(names.begin(), names.end(), text) != names.end())
-    return std::string(text);
-  if (!with_entry.empty())
-    throw InputError(fmt::format("lacks its section; write Section/Entry: {}", fmt::join(with_entry, " or ")));
-  const std::string nearest = suggestion(text, {names.begin(), names.end()});
-  throw InputError("is not an entry that can vary; write Section/Entry" +
-                   (nearest.starts_with("; there are") ? ", e.g. Flat joint/Segments" : nearest));
-}
-
-std::vector<std::string> read_variant_values(std::string_view text)
-{
-  std::vector<std::string> values;
-  if (text == none)
-    return values;
+  std::vector<std::string_view> pieces;
   for (;;)
     {
-      const std::size_t semicolon = text.find(';');
-      if (values.size() == most_variants)
-        throw InputError(fmt::format("must be at most {} values", most_variants));
-      values.emplace_back(trim(text.substr(0, semicolon)));
-      if (semicolon == std::string_view::npos)
-        return values;
-      text.remove_prefix(semicolon + 1);
+      const std::size_t end = text.find(separator);
+      pieces.push_back(trim(text.substr(0, end)));
+      if (end == std::string_view::npos)
+        return pieces;
+      text.remove_prefix(end + 1);
     }
+}
+
+std::vector<std::string> read_variant_entries(const std::string_view text)
+{
+  std::vector<std::string> entries;
+  if (text != none)
+    for (const std::string_view piece : split_at(';', text))
+      entries.push_back(varied_entry(piece));
+  return entries;
+}
+
+std::vector<std::vector<std::string>> read_variant_values(const std::string_view text)
+{
+  std::vector<std::vector<std::string>> values;
+  if (text != none)
+    for (const std::string_view list : split_at('|', text))
+      {
+        const auto pieces = split_at(';', list);
+        values.emplace_back(pieces.begin(), pieces.end());
+      }
+  return values;
+}
+
+std::string write_variant_values(const std::vector<std::vector<std::string>>& values)
+{
+  std::string text;
+  for (const auto& list : values)
+    text += fmt::format("{}{}", text.empty() ? "" : " | ", fmt::join(list, "; "));
+  return values.empty() ? std::string(none) : text;
 }
 
 std::vector<std::uint64_t> read_seeds(const std::string_view text)
@@ -200,25 +201,53 @@ Entry<Input> checkpoint_entry()
           {}};
 }
 
-std::vector<Entry<Input>> variant_entries()
+std::string varied_entry(const std::string_view text)
 {
-  return {{"Entry",
-           Entry<Input>::Text{
-             "", "none, or Section/Entry",
-             [](Input& input, const std::string_view text) { input.variant_entry = read_variant_entry(text); },
-             [](const Input& input) { return input.variant_entry.empty() ? std::string(none) : input.variant_entry; }},
-           "an entry that takes one value after the other",
-           {}},
-          {"Values",
-           Entry<Input>::Text{
-             "", "none, or values of that entry",
-             [](Input& input, const std::string_view text) { input.variant_values = read_variant_values(text); },
-             [](const Input& input) {
-               return input.variant_values.empty() ? std::string(none)
-                                                   : fmt::format("{}", fmt::join(input.variant_values, "; "));
-             }},
-           "each of them, separated by semicolons",
-           {}}};
+  std::vector<std::string> names;      // of all that can vary
+  std::vector<std::string> with_entry; // of these, with this entry
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.name() == text && !parameter.flags.varies)
+      throw InputError("is one for all variants; it cannot vary");
+    else if (parameter.flags.varies)
+      {
+        names.push_back(parameter.name());
+        if (parameter.entry == text)
+          with_entry.push_back(parameter.name());
+      }
+  if (std::find(names.begin(), names.end(), text) != names.end())
+    return std::string(text);
+  if (!with_entry.empty())
+    throw InputError(fmt::format("lacks its section; write Section/Entry: {}", fmt::join(with_entry, " or ")));
+  const std::string nearest = suggestion(text, {names.begin(), names.end()});
+  throw InputError("is not an entry that can vary; write Section/Entry" +
+                   (nearest.starts_with("; there are") ? ", e.g. Flat joint/Segments" : nearest));
+}
+
+std::vector<Entry<VariantParameters>> variant_entries()
+{
+  using P = VariantParameters;
+  return {
+    {"Entry",
+     Entry<P>::Text{"", "none, or Section/Entry, several separated by semicolons",
+                    [](P& wanted, const std::string_view text) { wanted.entries = read_variant_entries(text); },
+                    [](const P& wanted) {
+                      return wanted.entries.empty() ? std::string(none)
+                                                    : fmt::format("{}", fmt::join(wanted.entries, "; "));
+                    }},
+     "entries that take several values in one run",
+     {}},
+    {"Values",
+     Entry<P>::Text{"", "none, or values of each entry",
+                    [](P& wanted, const std::string_view text) { wanted.values = read_variant_values(text); },
+                    [](const P& wanted) { return write_variant_values(wanted.values); }},
+     "values separated by semicolons; the lists of several entries by |",
+     {}},
+    entry::choice("Combine", &P::in_step, {{"grid", false}, {"in step", true}},
+                  "grid: each value of an entry with each of the others; in step: the first values of all entries, "
+                  "then the second, ..."),
+    entry::file("Table", &P::table,
+                "a CSV file instead of Entry and Values: a column for each entry, named Section/Entry, and a row "
+                "for each variant")};
 }
 
 Entry<Input> seeds_entry()

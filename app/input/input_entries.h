@@ -11,7 +11,9 @@ namespace feldspar
 Entry<Input> test_list_entry();
 Entry<Input> confinements_entry();
 Entry<Input> checkpoint_entry();
-std::vector<Entry<Input>> variant_entries();
+std::vector<Entry<VariantParameters>> variant_entries();
+/// An entry of several values by its name, Section/Entry; throws InputError for one that cannot vary.
+std::string varied_entry(std::string_view text);
 Entry<Input> seeds_entry();
 std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();

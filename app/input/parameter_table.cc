@@ -52,7 +52,7 @@ std::vector<Parameter> make_parameter_table()
   table.add("Tests", {test_list_entry(), confinements_entry()});
   table.add("Tests", &Input::tests, test_entries());
   table.add("Tests", {checkpoint_entry()});
-  table.add("Variants", variant_entries());
+  table.add("Variants", &Input::variants, variant_entries());
   table.add("Seeds", {seeds_entry()});
   table.add("Contact", &Input::contact, contact_entries());
   table.add("Contact path", &Input::contact, {contact_path_entry()});

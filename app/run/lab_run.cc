@@ -176,7 +176,8 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
           board.say(fmt::format("{} cannot be made: {}", planned[k].name, error.what()));
       }
     board.finish(k);
-    slots[k] = finished(std::move(outcome), planned[k].group, planned[k].name, planned[k].variant->label);
+    slots[k] = finished(std::move(outcome), planned[k].group, planned[k].name, planned[k].variant->label,
+                        planned[k].variant->settings);
   });
 
   std::vector<FinishedTest> tests;

@@ -5,6 +5,7 @@
 #include "results/folder/csv_tables.h"
 #include "results/folder/provenance_json.h"
 #include "results/folder/summary.h"
+#include "results/folder/tests_table.h"
 #include "results/result_table.h"
 
 #include <fmt/format.h>
@@ -147,6 +148,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
         write_volume(volume, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
+  write_tests(tests, folder / result_file::tests);
   write_summary(made_by, tests, envelopes, folder / result_file::summary);
 }
 

@@ -28,6 +28,18 @@ Json number(const double value)
   return value;
 }
 
+/// A number with the unit it was written in, or the words.
+Json as_json(const VariantSetting& setting)
+{
+  const auto written = number_of(setting);
+  if (!written)
+    return {{"value", setting.value}};
+  Json json{{"value", number(written->value)}};
+  if (!written->unit.empty())
+    json["unit"] = written->unit;
+  return json;
+}
+
 /// A number, or null with the reason in a field beside it.
 void write_figure(Json& json, const std::string& key, const Figure& figure)
 {
@@ -64,6 +76,8 @@ Json describe(const FinishedTest& test)
     json["intermediate_stress_Pa"] = number(*test.record.intermediate_stress);
   if (!test.variant.empty())
     json["variant"] = test.variant;
+  for (const VariantSetting& setting : test.settings)
+    json["variant_values"][setting.entry] = as_json(setting);
   json["interrupted"] = test.record.interrupted;
   if (!test.record.failure.empty())
     json["failure"] = test.record.failure;

@@ -1,5 +1,6 @@
 // The laboratory as a user runs it, on small specimens.
 
+#include "base/csv.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
@@ -396,6 +397,21 @@ end
     json["tests"][1]["peak_stress_Pa"].get<double>() / json["tests"][0]["peak_stress_Pa"].get<double>();
   EXPECT_NEAR(ratio, 2.0, 0.3);
   EXPECT_TRUE(json["ensemble"].contains("direct_tension_variant_2"));
+
+  const auto& setting = json["tests"][1]["variant_values"]["Flat joint/Bond tensile strength"];
+  EXPECT_EQ(setting["value"], 44);
+  EXPECT_EQ(setting["unit"], "MPa");
+  CsvReader table(folder.path() / "out/tests.csv");
+  for (const auto& test : json["tests"])
+    {
+      ASSERT_TRUE(table.next());
+      EXPECT_EQ(table.text(table.place("name")), test["name"].get<std::string>());
+      EXPECT_EQ(table.number(table.place("Flat joint/Bond tensile strength [MPa]")),
+                test["variant_values"]["Flat joint/Bond tensile strength"]["value"].get<double>());
+      const double peak = test["peak_stress_Pa"].get<double>();
+      EXPECT_NEAR(table.number(table.place("peak_stress_Pa")), peak, 1e-9 * peak); // ten digits
+    }
+  EXPECT_FALSE(table.next());
 }
 
 TEST(Lab, VariantsOfTheTestsShareTheirSpecimens)

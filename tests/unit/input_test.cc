@@ -92,6 +92,8 @@ end
 subsection Variants
   set Entry = Flat joint/Segments
   set Values = 2; 4
+  set Combine = in step
+  set Table = none
 end
 subsection Seeds
   set Seeds = 7, 1..3
@@ -367,6 +369,58 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
             "bond");
   EXPECT_EQ(error_of_entry("Specimen", "Joint law = parallel"),
             "a.prm:2: Specimen/Joint law = parallel: must be flat joint or parallel bond");
+}
+
+// Each value with each of the others, the last entry fastest; in step as many as the lists are long; a table the same by
+// rows.
+TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
+{
+  const TemporaryFolder folder;
+  const auto labels = [&](const std::string& section) {
+    std::vector<std::string> all;
+    for (const Variant& variant :
+         variants(read_input(folder.write("a.prm", "subsection Variants\n" + section + "end\n"))))
+      all.push_back(variant.label);
+    return all;
+  };
+  const std::string entries = "set Entry = Flat joint/Friction; Flat joint/Bond cohesion\n";
+  const auto named = [](const char* friction, const char* cohesion) {
+    return fmt::format("Flat joint/Friction = {}, Flat joint/Bond cohesion = {}", friction, cohesion);
+  };
+  EXPECT_EQ(
+    labels(entries + "set Values = 0.2; 0.6 | 80 MPa; 0.12 GPa\n"),
+    (std::vector{named("0.2", "80 MPa"), named("0.2", "0.12 GPa"), named("0.6", "80 MPa"), named("0.6", "0.12 GPa")}));
+  EXPECT_EQ(labels(entries + "set Values = 0.2; 0.6 | 80 MPa; 0.12 GPa\nset Combine = in step\n"),
+            (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
+  folder.write("plan.csv", "Flat joint/Friction, Flat joint/Bond cohesion\n0.2, 80 MPa\n0.6, 0.12 GPa\n");
+  EXPECT_EQ(labels("set Table = plan.csv\n"), (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
+
+  const auto all = variants(read_input(folder.write("a.prm", "subsection Variants\nset Table = plan.csv\nend\n")));
+  EXPECT_EQ(all[1].input.flat_joint.friction, 0.6);
+  EXPECT_EQ(all[1].input.flat_joint.bond_cohesion, 120e6);
+  ASSERT_EQ(all[1].settings.size(), 2u);
+  const auto written = number_of(all[1].settings[1]);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(written->value, 0.12);
+  EXPECT_EQ(written->unit, "GPa");
+  EXPECT_FALSE(number_of({"Specimen/Joint law", "flat joint"}));
+  EXPECT_FALSE(number_of({"Tests/Confinements", "5, 10 MPa"}));
+
+  const auto refused = [&](const std::string& section, const std::string& with) {
+    EXPECT_NE(error_of("a.prm", "subsection Variants\n" + section + "end\n").find(with), std::string::npos) << with;
+  };
+  refused(entries + "set Values = 0.2; 0.6\n", "there are 2 entries and 1 lists of values");
+  refused(entries + "set Values = 0.2; 0.6 | 80 MPa\nset Combine = in step\n", "in step they need as many");
+  refused("set Entry = Flat joint/Friction; Flat joint/Friction\nset Values = 0.2 | 0.6\n", "is named twice");
+  try
+    {
+      labels(entries + "set Values = 0.2 | 80 MPa\nset Table = plan.csv\n");
+      ADD_FAILURE() << "a table beside entries and values";
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("excludes Entry and Values"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Input, VariantsMayDifferInJointLaw)

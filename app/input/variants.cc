@@ -1,0 +1,143 @@
+#include "app/input/input.h"
+#include "app/input/input_entries.h"
+#include "app/input/joint_sections.h"
+#include "app/input/parameter_table.h"
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "base/quoted.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::size_t most_variants = 10000;
+
+const Parameter& parameter_named(const std::string& name)
+{
+  const std::size_t slash = name.find('/');
+  return *find_parameter(name.substr(0, slash), name.substr(slash + 1));
+}
+
+/// An entry takes its value; returns how an input file would say it. Of the two ways to say which pairs of grains get a joint
+/// the varied one holds.
+VariantSetting set(Input& input, const std::string& entry, const std::string& value)
+{
+  const Parameter& parameter = parameter_named(entry);
+  try
+    {
+      parameter.read(input, value);
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{} = {}: {}", entry, excerpt(value), error.what()));
+    }
+  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
+    if (parameter.section != section_of(law))
+      return;
+    if (parameter.entry == "Coordination number")
+      joint.installation_gap_ratio.reset();
+    if (parameter.entry == "Installation gap ratio")
+      joint.coordination_number.reset();
+  });
+  return {entry, value};
+}
+
+std::size_t n_variants(const VariantParameters& wanted)
+{
+  if (wanted.in_step)
+    return wanted.values.front().size();
+  std::size_t n = 1;
+  for (const auto& values : wanted.values)
+    n = std::min(most_variants + 1, n * values.size());
+  return n;
+}
+/// Throws InputError, which says what does not fit.
+void check_fit(const VariantParameters& wanted)
+{
+  if (wanted.entries.size() != wanted.values.size())
+    throw InputError(wanted.values.empty() || wanted.entries.empty()
+                       ? "Entry and Values go together: name both, or neither"
+                       : fmt::format("there are {} entries and {} lists of values; lists are separated by |",
+                                     wanted.entries.size(), wanted.values.size()));
+  if (wanted.entries.empty())
+    return;
+  for (std::size_t k = 0; k < wanted.entries.size(); ++k)
+    {
+      if (std::find(wanted.entries.begin(), wanted.entries.begin() + std::ptrdiff_t(k), wanted.entries[k]) !=
+          wanted.entries.begin() + std::ptrdiff_t(k))
+        throw InputError(fmt::format("{} is named twice", wanted.entries[k]));
+      if (wanted.in_step && wanted.values[k].size() != wanted.values.front().size())
+        throw InputError(fmt::format("{} has {} values and {} has {}; in step they need as many",
+                                     wanted.entries.front(), wanted.values.front().size(), wanted.entries[k],
+                                     wanted.values[k].size()));
+    }
+  if (n_variants(wanted) > most_variants)
+    throw InputError(fmt::format("must be at most {} variants", most_variants));
+}
+} // namespace
+
+void read_variant_table(VariantParameters& wanted)
+{
+  if (!wanted.entries.empty() || !wanted.values.empty())
+    throw InputError("excludes Entry and Values, which are given too; keep one of them");
+  CsvReader table(wanted.table);
+  std::string_view names = table.header();
+  for (;;)
+    {
+      const std::size_t comma = names.find(',');
+      std::string_view name = trim(names.substr(0, comma));
+      try
+        {
+          wanted.entries.push_back(varied_entry(name));
+        }
+      catch (const InputError& error)
+        {
+          throw InputError(fmt::format("{}:1: {} {}", wanted.table, in_quotes(name), error.what()));
+        }
+      if (comma == std::string_view::npos)
+        break;
+      names.remove_prefix(comma + 1);
+    }
+  wanted.values.resize(wanted.entries.size());
+  wanted.in_step = true;
+  while (table.next())
+    for (std::size_t k = 0; k < wanted.entries.size(); ++k)
+      wanted.values[k].emplace_back(table.text(k));
+  if (wanted.values.front().empty())
+    throw InputError(fmt::format("{}: there is no row below the header", wanted.table));
+}
+
+std::vector<Variant> variants(const Input& input)
+{
+  const VariantParameters& wanted = input.variants;
+  check_fit(wanted);
+  if (wanted.entries.empty())
+    return {{"", input, {}}};
+  std::vector<Variant> all;
+  for (std::size_t number = 0; number < n_variants(wanted); ++number)
+    {
+      Variant variant{"", input, {}};
+      std::size_t of_grid = number; // the last entry varies fastest
+      std::vector<std::size_t> chosen(wanted.entries.size(), number);
+      if (!wanted.in_step)
+        for (std::size_t k = wanted.entries.size(); k-- > 0; of_grid /= wanted.values[k].size())
+          chosen[k] = of_grid % wanted.values[k].size();
+      for (std::size_t k = 0; k < wanted.entries.size(); ++k)
+        {
+          variant.settings.push_back(set(variant.input, wanted.entries[k], wanted.values[k][chosen[k]]));
+          const auto& [entry, value] = variant.settings.back();
+          variant.label += fmt::format("{}{} = {}", variant.label.empty() ? "" : ", ", entry, value);
+        }
+      all.push_back(std::move(variant));
+    }
+  return all;
+}
+} // namespace feldspar

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace feldspar
+{
+/// What a variant of an input says of one entry.
+struct VariantSetting
+{
+  std::string entry; ///< Section/Entry
+  std::string value; ///< as it would stand in an input file, such as 80 MPa
+};
+
+/// A number with its unit, as it was written.
+struct WrittenNumber
+{
+  double value;
+  std::string unit; ///< empty: none
+};
+
+/// None where the value is no single number, such as a name or a list.
+std::optional<WrittenNumber> number_of(const VariantSetting& setting);
+} // namespace feldspar
