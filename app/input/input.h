@@ -66,8 +66,8 @@ struct Input
   EquilibriumParameters equilibrium;
   SampleParameters sample;
   ContinuumParameters continuum;
-  std::string reference_file;   ///< figures of the rock that results are set beside; empty: none
-  std::string reference_folder; ///< results on another body of the same grains; empty: none
+  std::string reference_file;    ///< figures of the rock that results are set beside; empty: none
+  std::string reference_results; ///< summary.json of tests on another body of the same rock; empty: none
 };
 
 /// The same input but for one entry.

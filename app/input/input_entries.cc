@@ -286,11 +286,12 @@ Entry<Input> reference_entry()
                      "figures of the rock and of other models (JSON) to set the results beside");
 }
 
-Entry<Input> reference_folder_entry()
+Entry<Input> reference_results_entry()
 {
-  return entry::file("Reference folder", &Input::reference_folder,
-                     "result folder of tests on another body of the same rock, such as that of `feldspar lab` for a "
-                     "`feldspar multiscale`: its installation gap, coordination number and porosity are set beside "
-                     "those of this run, and another gap is said to be one");
+  return entry::file(
+    "Reference results", &Input::reference_results,
+    "the summary.json of tests on another body of the same rock, such as that of `feldspar lab` "
+    "for a `feldspar multiscale`: its installation gap, coordination number and porosity are set beside "
+    "those of this run, and another gap is said to be one");
 }
 } // namespace feldspar

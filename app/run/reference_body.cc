@@ -12,16 +12,17 @@ namespace feldspar
 {
 std::optional<BodyFigures> reference_body(const Input& input)
 {
-  if (input.reference_folder.empty())
+  if (input.reference_results.empty())
     return std::nullopt;
-  for (const Series& series : read_result_folder(input.reference_folder, test_kinds()))
+  const auto folder = std::filesystem::path(input.reference_results).parent_path();
+  for (const Series& series : read_result_folder(folder, test_kinds()))
     if (auto figures = body_figures(series))
       {
-        figures->label = "reference " + std::filesystem::path(input.reference_folder).filename().string();
+        figures->label = "reference " + folder.filename().string();
         return figures;
       }
   throw InputError(
-    fmt::format("Report/Reference folder = {}: no test in it was made on grains", input.reference_folder));
+    fmt::format("Report/Reference results = {}: no test in it was made on grains", input.reference_results));
 }
 
 std::vector<std::string> beside_reference_body(const Input& input, const std::vector<SpecimenReport>& bodies)

@@ -9,11 +9,11 @@
 
 namespace feldspar
 {
-/// The body of Report/Reference folder; none where there is no such entry. Throws InputError where the folder has no
+/// The body of Report/Reference results; none where there is no such entry. Throws InputError where the folder has no
 /// results of grains.
 std::optional<BodyFigures> reference_body(const Input& input);
 
-/// The bodies of a run beside that of its Report/Reference folder, a line each, and a line more where they are different
+/// The bodies of a run beside that of its Report/Reference results, a line each, and a line more where they are different
 /// rocks. Nothing without such an entry, or without grains.
 std::vector<std::string> beside_reference_body(const Input& input, const std::vector<SpecimenReport>& bodies);
 } // namespace feldspar

@@ -409,7 +409,7 @@ TEST(Lab, TestsCoresAndSaysWhatTheyAre)
            more;
   };
   folder.write("wide.prm", rock("0.05", ""));
-  folder.write("narrow.prm", rock("0.01", "subsection Report\n  set Reference folder = one\nend\n"));
+  folder.write("narrow.prm", rock("0.01", "subsection Report\n  set Reference results = one/summary.json\nend\n"));
   ASSERT_EQ(run_feldspar(folder.path(), "lab wide.prm --output one --quiet --threads 1").exit_code, 0);
   ASSERT_EQ(run_feldspar(folder.path(), "lab wide.prm --output two --quiet --threads 2").exit_code, 0);
   EXPECT_EQ(content(folder.path() / "one/curves/direct_tension_seed_1.csv"),
