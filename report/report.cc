@@ -5,6 +5,7 @@
 #include "report/pictures/lab_pictures.h"
 #include "report/sections/sections.h"
 #include "report/sections/test_tables.h"
+#include "results/bodies.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -102,6 +103,8 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   std::vector<std::string> missing;
   for (const auto& series : all)
     missing.insert(missing.end(), series.problems.begin(), series.problems.end());
+  for (const std::string& remark : gap_remarks(all))
+    missing.push_back(remark);
   for (const auto& problem : {input.reference_problem, not_drawn})
     if (!problem.empty())
       missing.push_back(problem);

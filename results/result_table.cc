@@ -113,6 +113,8 @@ const std::vector<ResultEntry>& result_table()
                    of_specimen("mean_overlap_ratio", &SpecimenReport::mean_overlap_ratio),
                    of_specimen("resolution", &SpecimenReport::resolution),
                    of_specimen("radius_multiplier", &SpecimenReport::radius_multiplier),
+                   of_specimen("n_cut_joints", &SpecimenReport::n_cut_joints),
+                   of_specimen("n_removed_grains", &SpecimenReport::n_removed_grains),
                    of_results("energy_imbalance", &TestResults::energy_imbalance, without_energies),
                    of_results("energy_imbalance_over_work", &TestResults::energy_imbalance_over_work, without_energies),
                    result("kinetic_to_strain_energy", &TestResults::kinetic_to_strain_energy),

@@ -5,9 +5,11 @@
 #include "app/run/interrupt.h"
 #include "app/run/lab_run.h"
 #include "app/run/provenance.h"
+#include "app/run/reference_body.h"
 #include "app/run/specimen_source.h"
 #include "app/screen/print_result.h"
 #include "app/screen/progress.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "report/sections/comparison.h"
@@ -118,7 +120,11 @@ RunEnd go(const Run& run)
   if (!input.reference_file.empty())
     std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
-  const auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder, envelopes});
+  auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder, envelopes});
+  std::vector<SpecimenReport> bodies;
+  for (const auto& specimen : specimens)
+    bodies.push_back(specimen.report);
+  append(missing, beside_reference_body(input, bodies));
   const std::string text = describe_run(all_variants, specimens, tests, envelopes, missing);
   write_whole_file(folder / "log.txt", text);
   if (!quiet)
@@ -159,6 +165,14 @@ void check(const Input& input, const std::filesystem::path& file)
                         *tests.intermediate_stress / 1e6, confinement / 1e6));
     }
   reference_of(input);
+  try
+    {
+      reference_body(input);
+    }
+  catch (const InputError& error)
+    {
+      refuse(error.what());
+    }
 }
 } // namespace
 

@@ -6,9 +6,11 @@
 #include "app/run/interrupt.h"
 #include "app/run/multiscale_run.h"
 #include "app/run/provenance.h"
+#include "app/run/reference_body.h"
 #include "app/run/specimen_source.h"
 #include "app/screen/print_result.h"
 #include "app/screen/test_board.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "coupling/sample/ranks.h"
@@ -86,6 +88,7 @@ std::vector<std::string> check(const Input& input, const std::filesystem::path& 
 
   try
     {
+      reference_body(input);
       check_body(input, Body::sample);
     }
   catch (const InputError& error)
@@ -209,6 +212,10 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     if (!tests.empty())
       for (auto& sentence : report_on({{folder}, {}, {}, folder, envelopes}))
         remarks.push_back(std::move(sentence));
+    std::vector<SpecimenReport> bodies;
+    for (const Rock& rock : rocks)
+      append(bodies, rock.reports());
+    append(remarks, beside_reference_body(input, bodies));
     const std::string text = describe_run(input, rocks, tests, envelopes, remarks);
     write_whole_file(folder / "log.txt", text);
     if (!quiet)

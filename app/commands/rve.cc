@@ -5,6 +5,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/provenance.h"
+#include "app/run/reference_body.h"
 #include "app/run/run_record.h"
 #include "app/run/rve_results.h"
 #include "app/run/specimen_source.h"
@@ -15,6 +16,7 @@
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/volume_file.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -96,6 +98,16 @@ auto go_path(const Begin& begin, const Checkpoints& checkpoints, const Show& sho
   return run;
 }
 
+/// From x towards y, in space from z towards x.
+template <int dim>
+Tensor<dim> turn_of_cell(const double angle)
+{
+  if constexpr (dim == 2)
+    return Eigen::Rotation2Dd(angle).toRotationMatrix();
+  else
+    return Eigen::AngleAxisd(angle, Vector<3>::UnitY()).toRotationMatrix();
+}
+
 /// The path of one volume by the solver that is wanted.
 template <int dim>
 FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
@@ -103,7 +115,8 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
 {
   const auto started = Clock::now();
   const Input& input = variant.input;
-  const auto network = std::make_shared<const Network<dim>>(specimen); // shared: the run and its result refer to it
+  // Shared: the run and its result refer to it.
+  const auto network = std::make_shared<const Network<dim>>(specimen, turn_of_cell<dim>(input.strain_path.cell_angle));
   const auto legs = path_legs<dim>(input.strain_path);
   const Checkpoints checkpoints(folder / "checkpoints", name, run_identity(input, name));
   const auto finish = [&](const auto& run) -> FinishedVolume<dim> {
@@ -113,6 +126,10 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
   std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())
     start = read_volume_state(file, *network);
+  if (start && input.strain_path.cell_angle != 0.0)
+    throw InputError(fmt::format("Strain path/Cell angle: {} is a volume in the state it has in its sample, which is "
+                                 "in the axes of its cell; set Cell angle = 0 deg",
+                                 input.specimen.specimen_file));
   if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
     throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
                                  "explicit dynamics begin at rest; set Solver = event by event",
@@ -182,6 +199,11 @@ RunEnd go(const Run& run)
   std::string text;
   for (const auto& volume : volumes)
     text += describe(volume) + "\n";
+  std::vector<SpecimenReport> bodies;
+  for (const auto& specimen : specimens)
+    bodies.push_back(specimen.report);
+  for (const std::string& line : beside_reference_body(input, bodies))
+    text += line + "\n";
   write_whole_file(folder / "log.txt", text);
   if (!quiet)
     print_result("\n{}", text);
@@ -203,6 +225,7 @@ void check(const Input& input, const std::filesystem::path& file)
                                          variant.input.specimen.shape));
           check(variant.input.strain_path);
         }
+      reference_body(input);
     }
   catch (const InputError& error)
     {

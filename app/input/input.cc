@@ -106,6 +106,15 @@ void check_specimen(const Input& input, const GivenEntries& values)
   const SpecimenParameters& specimen = input.specimen;
   if (specimen.shape == "cylinder" && specimen.dimension != 3)
     throw values.error("Specimen", "Shape", "needs Dimension = 3");
+  if (specimen.cored && specimen.shape == "periodic")
+    throw values.error("Specimen", "Coring",
+                       "a periodic cell has no sides to be cut free; set Shape = box or cylinder");
+  if (specimen.cored && !specimen.packing_file.empty())
+    throw values.error("Specimen", "Coring", "excludes Packing file, whose grains are not packed as a periodic cell");
+  for (const auto& [entry, n] :
+       {std::pair("Cells across", specimen.cells_across), std::pair("Cells along", specimen.cells_along)})
+    if (n > 1 && (!specimen.cored || specimen.dimension != 2))
+      throw values.error("Specimen", entry, "needs Coring = free sides and Dimension = 2");
   if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
     throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
@@ -123,9 +132,9 @@ void check_specimen(const Input& input, const GivenEntries& values)
   const std::string demand =
     fmt::format("must be at least {}, or there is no room for two grains of the largest radius",
                 format_quantity(least, "mm", length));
-  if (specimen.width < least)
+  if (specimen.width / specimen.cells_across < least)
     throw values.error("Specimen", "Width", demand);
-  if (specimen.height < least)
+  if (specimen.height / specimen.cells_along < least)
     throw values.error("Specimen", "Height", demand);
 }
 
@@ -144,7 +153,7 @@ double expected_grains(const SpecimenParameters& specimen)
   // The means of r² and r³ of radii spread uniformly from r to ρ r are r²(1+ρ+ρ²)/3 and r³(1+ρ)(1+ρ²)/4.
   const double r = specimen.minimum_radius;
   const double ratio = specimen.radius_ratio;
-  const double cylinder_over_box = specimen.shape == "cylinder" ? 0.25 * std::numbers::pi : 1.0;
+  const double cylinder_over_box = specimen.shape == "cylinder" && !specimen.cored ? 0.25 * std::numbers::pi : 1.0;
   if (specimen.dimension == 2)
     {
       const double of_grain = std::numbers::pi * r * r * (1.0 + ratio + ratio * ratio) / 3.0;

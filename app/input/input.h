@@ -41,6 +41,7 @@ struct StrainPathParameters
   double size = 1e-3;                           ///< of the strain at the end, over the direction
   double confining_pressure = 0.0;              ///< compression positive [Pa]
   double largest_step = 1e-5;                   ///< of any component of the strain
+  double cell_angle = 0.0;                      ///< by which the cell is turned before its path begins [rad]
   PathSolver solver = PathSolver::event_by_event;
   unsigned int steps_per_millistrain = 100000; ///< of explicit dynamics
 };
@@ -75,7 +76,8 @@ struct Input
   EquilibriumParameters equilibrium;
   SampleParameters sample;
   ContinuumParameters continuum;
-  std::string reference_file; ///< figures of the rock that results are set beside; empty: none
+  std::string reference_file;    ///< figures of the rock that results are set beside; empty: none
+  std::string reference_results; ///< summary.json of tests on another body of the same rock; empty: none
 };
 
 /// The same input but for some entries.

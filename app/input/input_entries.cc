@@ -298,6 +298,10 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
                           varies),
           entry::number("Largest step", &P::largest_step, {'(', 0.0, largest_strain, ']'},
                         "of any component of the strain in one increment", varies),
+          entry::quantity("Cell angle", &P::cell_angle, Measure::angle, "deg", {'[', -180.0, 180.0, ']'},
+                          "by which the periodic cell is turned before its path begins: from x towards y, in three "
+                          "dimensions from z towards x; strains and stresses stay in the axes of the path",
+                          varies),
           entry::choice("Solver", &P::solver,
                         {{"event by event", PathSolver::event_by_event}, {"explicit", PathSolver::explicit_dynamics}},
                         "from break to break without a rate, or explicit dynamics as in the laboratory", varies),
@@ -309,5 +313,14 @@ Entry<Input> reference_entry()
 {
   return entry::file("Reference file", &Input::reference_file,
                      "figures of the rock and of other models (JSON) to set the results beside");
+}
+
+Entry<Input> reference_results_entry()
+{
+  return entry::file(
+    "Reference results", &Input::reference_results,
+    "the summary.json of tests on another body of the same rock, such as that of `feldspar lab` "
+    "for a `feldspar multiscale`: its installation gap, coordination number and porosity are set beside "
+    "those of this run, and another gap is said to be one");
 }
 } // namespace feldspar

@@ -19,4 +19,5 @@ std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
 Entry<Input> reference_entry();
+Entry<Input> reference_results_entry();
 } // namespace feldspar

@@ -60,7 +60,7 @@ std::vector<Parameter> make_parameter_table()
   table.add("Representative volume", &Input::equilibrium, equilibrium_entries());
   table.add("Sample", &Input::sample, sample_entries());
   table.add("Continuum", &Input::continuum, continuum_entries());
-  table.add("Report", {reference_entry()});
+  table.add("Report", {reference_entry(), reference_results_entry()});
   return table.parameters;
 }
 } // namespace

@@ -117,6 +117,9 @@ void check(const StrainPathParameters& path)
     throw InputError("Strain path/Direction: excludes File, which is given too; keep one of them");
   if (!path.path_file.empty() && path.confining_pressure > 0.0)
     throw InputError("Strain path/Confining pressure: goes with a Direction; in a File give the stresses");
+  if (path.cell_angle != 0.0 && path.solver == PathSolver::explicit_dynamics)
+    throw InputError(
+      "Strain path/Cell angle: needs Solver = event by event; explicit dynamics have a cell along the axes");
   if (constexpr double most_increments = 1e7; path.size / path.largest_step > most_increments)
     throw InputError(fmt::format("Strain path/Largest step = {:g}: Size = {:g} would be more than {:g} increments",
                                  path.largest_step, path.size, most_increments));

@@ -48,7 +48,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
   const bool plane = specimen.dimension == 2;
   const double n = expected_grains(specimen);
   const double bytes_of_grain = plane ? 2e3 : 6e3;
-  const double longer = specimen.shape == "periodic" ? 1.8 : 1.0;
+  const double longer = specimen.shape == "periodic" || specimen.cored ? 1.8 : 1.0;
   const double n_steps = longer * (plane ? 900.0 * std::pow(n, 0.45) : 2400.0 * std::pow(n, 0.38));
   const double seconds_of_grain_and_step = plane ? 4e-8 : 1.6e-7;
   return {n, n_steps, n * bytes_of_grain, n * n_steps * seconds_of_grain_and_step};

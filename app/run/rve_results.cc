@@ -2,6 +2,7 @@
 
 #include "base/whole_file.h"
 #include "coupling/rve/homogenisation.h"
+#include "coupling/rve/stiffness_bounds.h"
 #include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
@@ -140,6 +141,9 @@ Json as_json(const FinishedVolume<dim>& volume)
   json["cell_m"] = rows(network.cell());
   json["stiffness_Pa"] = rows(network.intact_stiffness());
   write_constants(json, isotropic_constants<dim>(network.intact_stiffness()));
+  const StiffnessBounds<dim> bounds = stiffness_bounds(network);
+  json["stiffness_minimal_kinematic_Pa"] = rows(bounds.minimal_kinematic);
+  json["stiffness_affine_Pa"] = rows(bounds.affine);
   json["fabric"] = rows(fabric(network));
 
   for (const auto& [key, sign] : {std::pair("highest_stress", 1.0), std::pair("lowest_stress", -1.0)})

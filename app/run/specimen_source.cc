@@ -179,6 +179,10 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
 
 std::string describe(const SpecimenReport& report)
 {
+  const std::string coring =
+    report.n_cut_joints == 0
+      ? ""
+      : fmt::format("cored: joints cut / grains removed       {} / {}\n", report.n_cut_joints, report.n_removed_grains);
   return fmt::format("grains                                   {}\n"
                      "joints                                   {}\n"
                      "coordination number                      {:.3f}\n"
@@ -187,10 +191,10 @@ std::string describe(const SpecimenReport& report)
                      "porosity                                 {:.4f}\n"
                      "overlap over mean radius, mean / largest {:.2e} / {:.2e}\n"
                      "width over mean grain diameter           {:.1f}\n"
-                     "radii scaled by                          {:.4f}\n",
+                     "radii scaled by                          {:.4f}\n{}",
                      report.n_grains, report.n_joints, report.coordination_number, report.coordination_number_core,
                      report.installation_gap_ratio, report.porosity, report.mean_overlap_ratio,
-                     report.largest_overlap_ratio, report.resolution, report.radius_multiplier);
+                     report.largest_overlap_ratio, report.resolution, report.radius_multiplier, coring);
 }
 
 template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

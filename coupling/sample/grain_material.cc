@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace feldspar
@@ -221,15 +222,27 @@ std::vector<double> GrainPoint<dim>::fields() const
 
 namespace
 {
-/// A number of its own for each point of each sample.
-std::uint64_t point_seed(const std::uint64_t seed, const fem::PointPlace& place)
+/// A number of its own for each point of each sample; one for all points of a cell where they share their volume.
+std::uint64_t point_seed(const GrainMaterialParameters& parameters, const fem::PointPlace& place)
 {
   Fingerprint print;
-  print.add(seed);
+  print.add(parameters.seed);
   for (const char c : place.cell)
     print.add_byte(std::uint8_t(c));
-  print.add_byte(place.quadrature_point);
+  print.add_byte(parameters.to_elements ? 0 : place.quadrature_point);
   return print.value();
+}
+
+/// The realisation that a place gets from a shuffled stack.
+std::size_t dealt_in_turn(const GrainMaterialParameters& parameters, const fem::PointPlace& place, const std::size_t n)
+{
+  std::vector<std::size_t> stack(n);
+  std::iota(stack.begin(), stack.end(), std::size_t(0));
+  Random(parameters.seed, RandomStream::dealing).shuffle(stack);
+  const std::uint64_t number = parameters.to_elements
+                                 ? place.cell_number
+                                 : place.cell_number * parameters.n_points_of_cell + place.quadrature_point;
+  return stack[number % n];
 }
 
 /// Any turn as likely as any other.
@@ -281,9 +294,10 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
   material.field_names = names_of_fields<dim>();
   material.make_point = [realisations = std::move(realisations), parameters, weak = std::move(weak)](
                           const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
-    Random random(point_seed(parameters.seed, place), RandomStream::dealing);
+    Random random(point_seed(parameters, place), RandomStream::dealing);
     const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
-    const auto& network = candidates[std::size_t(random.uniform() * double(candidates.size()))];
+    const auto by_lot = std::size_t(random.uniform() * double(candidates.size()));
+    const auto& network = candidates[parameters.in_turn ? dealt_in_turn(parameters, place, candidates.size()) : by_lot];
     Tensor<dim> turn = Tensor<dim>::Identity();
     if (parameters.random_orientation)
       turn = random_turn<dim>(random);

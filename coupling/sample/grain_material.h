@@ -78,7 +78,10 @@ struct GrainMaterialParameters
 {
   std::uint64_t seed = 1;         ///< of the dealing
   bool random_orientation = true; ///< each volume turned by an angle of its own
-  bool in_local_axes = false;     ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
+  bool to_elements = false;       ///< the points of an element have the same volume, turned alike
+  bool in_turn = false;           ///< none is dealt twice before all are out; else by lot
+  unsigned int n_points_of_cell = 1;
+  bool in_local_axes = false; ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
   EquilibriumParameters equilibrium;
 };
 

@@ -360,6 +360,17 @@ std::uint64_t n_cells(const SampleParameters& sample)
                                                      : mesh_of<2>(sample).triangulation->n_global_active_cells();
 }
 
+namespace
+{
+/// As the quadrature of fem/solid has them.
+unsigned int n_points_of_cell(const SampleParameters& sample)
+{
+  const unsigned int each_way = sample.reduced_quadrature ? sample.order : sample.order + 1;
+  const unsigned int in_section = each_way * each_way;
+  return sample.geometry == SampleGeometry::cylinder ? in_section * each_way : in_section;
+}
+} // namespace
+
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
@@ -372,6 +383,9 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   GrainMaterialParameters material;
   material.seed = seed;
   material.random_orientation = sample.random_orientation;
+  material.to_elements = sample.dealt_to_elements;
+  material.in_turn = sample.dealt_in_turn;
+  material.n_points_of_cell = n_points_of_cell(sample);
   material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
   material.equilibrium = equilibrium;
   const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);

@@ -64,6 +64,13 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
                          "packings of the representative volume, assigned to the points by the seed"),
           entry::choice("Orientation", &P::random_orientation, {{"random", true}, {"fixed", false}},
                         "whether the representative volume at each point is turned by an angle of its own"),
+          entry::choice("Dealing", &P::dealt_to_elements, {{"to points", false}, {"to elements", true}},
+                        "to points: every point gets a representative volume of its own; to elements: the points of an "
+                        "element have the same packing in the same orientation"),
+          entry::choice("Draw", &P::dealt_in_turn, {{"by lot", false}, {"in turn", true}},
+                        "by lot: any Realisation as likely as any other; in turn: from a shuffled stack, so that none "
+                        "is dealt twice before all are out. With as many Realisations as points (or elements) each has "
+                        "its own"),
           entry::choice("Weak seed", &P::weak_seed,
                         {{"none", WeakSeed::none}, {"row", WeakSeed::row}, {"element", WeakSeed::element}},
                         "where the sample is to break first: the representative volumes of the row of elements just "

@@ -74,6 +74,8 @@ struct SampleParameters
   bool scaled_softening = true;    ///< with the size of the element over that of the volume
   unsigned int n_realisations = 4; ///< volumes packed, dealt to the points
   bool random_orientation = true;  ///< each turned by an angle of its own
+  bool dealt_to_elements = false;  ///< the points of an element have the same volume in the same orientation
+  bool dealt_in_turn = false;      ///< from a shuffled stack, none twice before all are out; else by lot
   WeakSeed weak_seed = WeakSeed::none;
   double weak_seed_strength = 0.9;       ///< share of the strengths that volumes there have
   double compression_step = 4e-5;        ///< axial strain between two rows of the curve

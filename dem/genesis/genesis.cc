@@ -3,6 +3,7 @@
 #include "base/input_error.h"
 #include "base/random.h"
 #include "dem/dynamics/dynamics.h"
+#include "dem/genesis/coring.h"
 #include "dem/genesis/joint_installation.h"
 #include "dem/genesis/packing_file.h"
 #include "dem/specimen/neighbours.h"
@@ -193,8 +194,13 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
   specimen.size[dim - 1] = wanted.height;
-  specimen.periodic = wanted.shape == "periodic";
-  specimen.round = wanted.shape == "cylinder";
+  if (wanted.cored) // a cell of the body that it is put together from
+    {
+      specimen.size[0] /= wanted.cells_across;
+      specimen.size[dim - 1] /= wanted.cells_along;
+    }
+  specimen.periodic = wanted.shape == "periodic" || wanted.cored;
+  specimen.round = wanted.shape == "cylinder" && !wanted.cored;
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
@@ -206,7 +212,13 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   const double porosity = 1.0 - specimen.grains.volume(specimen.thickness) / specimen.volume();
   specimen.grains.set_density(wanted.bulk_density / (1.0 - porosity), specimen.thickness);
   install_joints(specimen, joint);
-  return specimen;
+  if (!wanted.cored)
+    return specimen;
+  std::array<unsigned int, dim> n_cells;
+  n_cells.fill(1);
+  n_cells[0] = wanted.cells_across;
+  n_cells[dim - 1] = wanted.cells_along;
+  return cored<dim>(repeated<dim>(specimen, n_cells), wanted.shape == "cylinder");
 }
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointParameters&,

@@ -46,6 +46,17 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                     "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
     entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
                   "mean stress in the packing over Particle contact/Modulus, before the joints are installed", of_rock),
+    entry::choice("Coring", &P::cored, {{"none", false}, {"free sides", true}},
+                  "none: the grains are packed between walls, which take some of the joints beside them; free sides: "
+                  "packed as a periodic cell, joined everywhere and then cut free, at the sides and where the platens "
+                  "touch. Coordination number is then that of the rock before it is cut",
+                  of_rock),
+    entry::integer("Cells across", &P::cells_across, {'[', 1.0, 1000.0, ']'},
+                   "of a cored specimen in the plane: it is put together from so many equal cells, each with the same "
+                   "grains, joints and strengths as a representative volume of that size and seed",
+                   of_rock),
+    entry::integer("Cells along", &P::cells_along, {'[', 1.0, 1000.0, ']'}, "the same along the axis of the tests",
+                   of_rock),
     entry::file("Packing file", &P::packing_file,
                 "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing", of_body),
     entry::file("Specimen file", &P::specimen_file,

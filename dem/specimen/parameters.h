@@ -19,7 +19,10 @@ struct SpecimenParameters
   double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
   double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
   std::string joint_law = "flat joint";
-  std::string packing_file;  ///< lines `x y [z] radius` in metres; empty: make a packing
-  std::string specimen_file; ///< a finished specimen.h5; empty: make one
+  bool cored = false;            ///< packed without walls, joined everywhere, then cut free
+  unsigned int cells_across = 1; ///< of a cored specimen: equal cells that it is put together from
+  unsigned int cells_along = 1;  ///< the same along the axis of the test
+  std::string packing_file;      ///< lines `x y [z] radius` in metres; empty: make a packing
+  std::string specimen_file;     ///< a finished specimen.h5; empty: make one
 };
 } // namespace feldspar

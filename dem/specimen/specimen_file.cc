@@ -76,6 +76,14 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   report.value("radius_multiplier", specimen.report.radius_multiplier);
   report.value("packing_stress_Pa", specimen.report.packing_stress);
   report.value("mean_radius_m", specimen.report.mean_radius);
+  bool knows_coring = true; // a file may be older
+  if constexpr (Archive::reads)
+    knows_coring = report.has_attribute("n_cut_joints");
+  if (knows_coring)
+    {
+      report.value("n_cut_joints", specimen.report.n_cut_joints);
+      report.value("n_removed_grains", specimen.report.n_removed_grains);
+    }
 
   auto contact = root.subgroup("particle_contact");
   contact.value("modulus_Pa", specimen.particle_contact.modulus);

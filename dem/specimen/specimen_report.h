@@ -15,9 +15,11 @@ struct SpecimenReport
   double porosity = 0.0;
   double mean_overlap_ratio = 0.0; ///< of overlapping pairs, over the mean radius
   double largest_overlap_ratio = 0.0;
-  double resolution = 0.0;        ///< width over mean diameter
-  double radius_multiplier = 1.0; ///< by which genesis scaled the drawn radii
-  double packing_stress = 0.0;    ///< reached by genesis, compression positive [Pa]
-  double mean_radius = 0.0;       ///< [m]
+  double resolution = 0.0;            ///< width over mean diameter
+  double radius_multiplier = 1.0;     ///< by which genesis scaled the drawn radii
+  double packing_stress = 0.0;        ///< reached by genesis, compression positive [Pa]
+  double mean_radius = 0.0;           ///< [m]
+  std::uint64_t n_cut_joints = 0;     ///< by coring; 0 of a specimen that was packed between walls
+  std::uint64_t n_removed_grains = 0; ///< that coring left without a way to the rest of the body
 };
 } // namespace feldspar

@@ -34,6 +34,16 @@ std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, 
   return values;
 }
 
+/// One value a seed, of the body that it was tested on.
+std::map<std::uint64_t, double> of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
+{
+  std::map<std::uint64_t, double> values;
+  for (const auto& test : tests)
+    if (const SpecimenReport& body = test.record.specimen; body.n_grains > 0 && std::isfinite(body.*figure))
+      values[test.record.seed] = body.*figure;
+  return values;
+}
+
 /// Of each seed with more points of compression than such a line has parameters.
 std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<FinishedTest>& tests)
 {
@@ -169,6 +179,11 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
                    [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   for (const auto& [group, strengths] : others)
     add(strength_row(group), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
+
+  // Which body it is: two with different gaps are different rocks.
+  add("installation gap over mean radius", "", 4, 1.0, of_bodies(tests, &SpecimenReport::installation_gap_ratio), "");
+  add("coordination number in the bulk", "", 2, 1.0, of_bodies(tests, &SpecimenReport::coordination_number_core), "");
+  add("porosity", "", 3, 1.0, of_bodies(tests, &SpecimenReport::porosity), "");
   return rows;
 }
 

@@ -1,11 +1,13 @@
 #include "report/sections/test_tables.h"
 
+#include "base/append.h"
 #include "report/sections/text.h"
 #include "results/result_table.h"
 #include "results/test_groups.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -90,6 +92,14 @@ Table specimen_table(const Series& series)
   for (const auto& test : series.tests)
     if (test.record.failure.empty())
       made[test.record.seed].push_back(&test);
+  const bool any_cored = std::any_of(made.begin(), made.end(), [](const auto& of_seed) {
+    return of_seed.second.front()->record.specimen.n_cut_joints > 0;
+  });
+  if (any_cored)
+    {
+      table.caption += ". Cored: packed without walls, joined, then cut free";
+      append(table.header, {"joints cut", "grains removed"});
+    }
   for (const auto& [seed, tests] : made)
     {
       std::uint64_t steps = 0;
@@ -109,6 +119,8 @@ Table specimen_table(const Series& series)
                             number(report.porosity, 4), number(report.mean_overlap_ratio, 5),
                             number(report.resolution, 1), number(report.radius_multiplier, 4),
                             fmt::format("{}", tests.size()), fmt::format("{}", steps), number(time, 0)});
+      if (any_cored)
+        append(table.rows.back(), {fmt::format("{}", report.n_cut_joints), fmt::format("{}", report.n_removed_grains)});
     }
   return table;
 }

@@ -3,6 +3,7 @@
 #include "report/pictures/plot_style.h"
 #include "report/sections/comparison_table.h"
 #include "report/sections/verdict.h"
+#include "results/bodies.h"
 #include "results/trust.h"
 
 #include <fmt/format.h>
@@ -58,6 +59,8 @@ PageSection verdict_section(const Findings& findings)
   PageBlock table;
   if (!findings.reference_problem.empty())
     table.warnings.push_back(findings.reference_problem + ".");
+  for (const std::string& remark : gap_remarks(findings.all))
+    table.warnings.push_back(remark + ".");
   table.tables.push_back(comparison_table(findings));
   if (findings.reference)
     {

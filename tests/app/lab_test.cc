@@ -414,6 +414,50 @@ end
   EXPECT_FALSE(table.next());
 }
 
+// A core is tested like any specimen, to the same bits for any number of threads; what it is stands in the results, in
+// the log and on the page. Beside results on a body of another gap the log says so.
+TEST(Lab, TestsCoresAndSaysWhatTheyAre)
+{
+  const TemporaryFolder folder;
+  const auto rock = [](const std::string& gap, const std::string& more) {
+    return "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\n  set Coring = free sides\nend\n"
+           "subsection Flat joint\n  set Installation gap ratio = " +
+           gap + "\nend\nsubsection Tests\n  set List = direct_tension\n  set Tension strain rate = 1 1/s\nend\n" +
+           more;
+  };
+  folder.write("wide.prm", rock("0.05", ""));
+  folder.write("narrow.prm", rock("0.01", "subsection Report\n  set Reference results = one/summary.json\nend\n"));
+  ASSERT_EQ(run_feldspar(folder.path(), "lab wide.prm --output one --quiet --threads 1").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab wide.prm --output two --quiet --threads 2").exit_code, 0);
+  EXPECT_EQ(content(folder.path() / "one/curves/direct_tension_seed_1.csv"),
+            content(folder.path() / "two/curves/direct_tension_seed_1.csv"));
+  const auto test = summary(folder.path() / "one")["tests"][0];
+  EXPECT_GT(test["n_cut_joints"].get<int>(), 10);
+  EXPECT_GT(test["peak_stress_Pa"].get<double>(), 3e6);
+  EXPECT_NE(content(folder.path() / "one/log.txt").find("cored: joints cut / grains removed"), std::string::npos);
+  EXPECT_NE(content(folder.path() / "one/report.html").find("Cored: packed without walls"), std::string::npos);
+
+  const auto outcome = run_feldspar(folder.path(), "lab narrow.prm --output narrow --quiet");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const std::string log = content(folder.path() / "narrow/log.txt");
+  EXPECT_NE(log.find("this run: gap 0.0100 mean radii, coordination number "), std::string::npos) << log;
+  EXPECT_NE(log.find("reference one: gap 0.0500 mean radii"), std::string::npos) << log;
+  EXPECT_NE(log.find("this run and reference one are different rocks"), std::string::npos) << log;
+  ASSERT_EQ(run_feldspar(folder.path(), "report one narrow --output both --quiet").exit_code, 0);
+  EXPECT_NE(content(folder.path() / "both/report.html").find("are different rocks"), std::string::npos);
+
+  for (const auto& [entry, words] :
+       {std::pair("Specimen/Shape = periodic", "Specimen/Coring"), {"Specimen/Coring = none", "Specimen/Cells across"}})
+    {
+      const auto bad = run_feldspar(folder.path(), "specimen wide.prm --output bad --set 'Specimen/Cells across = 2' "
+                                                   "--set '" +
+                                                     std::string(entry) + "'");
+      EXPECT_EQ(bad.exit_code, 2) << entry;
+      EXPECT_NE(bad.error.find(words), std::string::npos) << bad.error;
+      EXPECT_FALSE(fs::exists(folder.path() / "bad"));
+    }
+}
+
 TEST(Lab, VariantsOfTheTestsShareTheirSpecimens)
 {
   // What differs is the rate: each seed is packed once, and is the specimen of a run without variants.

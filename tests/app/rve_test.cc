@@ -125,6 +125,42 @@ TEST(Rve, GoesAlongMixedPaths)
             int(table["n_tension_cracks"].back() + table["n_shear_cracks"].back()));
 }
 
+// Turned by a quarter the cell stands with its x axis along y: pulled along y it answers as it does along x unturned.
+// Turned by a half it is the cell again. By 30 degrees it is another body.
+TEST(Rve, ATurnedCellIsPulledInTheAxesOfThePath)
+{
+  const TemporaryFolder folder;
+  const auto pull = [&](const std::string& name, const std::string& direction, const std::string& angle) {
+    folder.write(name + ".prm", small_cell + "subsection Strain path\n  set Direction = " + direction +
+                                  "\n  set Size = 1.5e-4\n  set Cell angle = " + angle + " deg\nend\n");
+    const auto outcome = run_feldspar(folder.path(), "rve " + name + ".prm --quiet --output " + name);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return read_table(folder.path() / name / "curves/rve.csv");
+  };
+  auto along_x = pull("along_x", "1, free, free", "0");
+  auto along_y = pull("along_y", "free, 1, free", "0");
+  auto quarter = pull("quarter", "free, 1, free", "90");
+  auto half = pull("half", "free, 1, free", "180");
+  auto oblique = pull("oblique", "free, 1, free", "30");
+  const auto highest = [](const std::vector<double>& stress) {
+    return *std::max_element(stress.begin(), stress.end());
+  };
+  const double peak_x = highest(along_x["stress_xx_Pa"]);
+  const double peak_y = highest(along_y["stress_yy_Pa"]);
+  // Equal but for the order of sums; the forces balance to 1e-6.
+  EXPECT_NEAR(highest(quarter["stress_yy_Pa"]), peak_x, 1e-5 * peak_x);
+  EXPECT_NEAR(highest(half["stress_yy_Pa"]), peak_y, 1e-5 * peak_y);
+  EXPECT_EQ(quarter["n_tension_cracks"].back(), along_x["n_tension_cracks"].back());
+  EXPECT_GT(std::abs(highest(oblique["stress_yy_Pa"]) - peak_y), 1e-3 * peak_y);
+
+  folder.write("explicit.prm", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n"
+                                            "  set Cell angle = 30 deg\n  set Solver = explicit\nend\n");
+  const auto outcome = run_feldspar(folder.path(), "rve explicit.prm --output explicit");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("Strain path/Cell angle: needs Solver = event by event"), std::string::npos)
+    << outcome.error;
+}
+
 TEST(Rve, TakesSpheres)
 {
   const TemporaryFolder folder;

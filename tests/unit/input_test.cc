@@ -35,6 +35,9 @@ subsection Specimen
   set Porosity = 0.15
   set Density = 2.65 g/cm^3
   set Packing stress ratio = 4e-4
+  set Coring = none                # the other needs grains of its own, below
+  set Cells across = 1
+  set Cells along = 1
   set Packing file = grains.txt
   set Specimen file = none
   set Joint law = flat joint
@@ -113,6 +116,7 @@ subsection Strain path
   set Largest step = 3e-6
   set Solver = explicit
   set Steps per millistrain = 3000
+  set Cell angle = 30 deg
 end
 subsection Representative volume
   set Event tolerance = 1e-4
@@ -136,6 +140,8 @@ subsection Sample
   set Softening = as it is
   set Realisations = 5
   set Orientation = fixed
+  set Dealing = to elements
+  set Draw = in turn
   set Weak seed = element
   set Weak seed strength = 0.8
   set Compression step = 3e-5
@@ -153,6 +159,7 @@ subsection Continuum
 end
 subsection Report
   set Reference file = rock.json
+  set Reference results = summary.json
 end
 )";
 
@@ -202,6 +209,7 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("path.csv", "");
   folder.write("rock.json", "{}");
   folder.write("sample.msh", "");
+  folder.write("summary.json", "{}");
   const Input input = read_input(folder.write("everything.prm", everything));
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size(),
             parameter_table().size());
@@ -276,6 +284,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.strain_path.largest_step, 3e-6);
   EXPECT_EQ(input.strain_path.solver, PathSolver::explicit_dynamics);
   EXPECT_EQ(input.strain_path.steps_per_millistrain, 3000u);
+  EXPECT_DOUBLE_EQ(input.strain_path.cell_angle, std::numbers::pi / 6.0);
   EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
   EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
@@ -294,6 +303,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_FALSE(input.sample.scaled_softening);
   EXPECT_EQ(input.sample.n_realisations, 5u);
   EXPECT_FALSE(input.sample.random_orientation);
+  EXPECT_TRUE(input.sample.dealt_to_elements);
+  EXPECT_TRUE(input.sample.dealt_in_turn);
   EXPECT_EQ(input.sample.weak_seed, WeakSeed::element);
   EXPECT_EQ(input.sample.weak_seed_strength, 0.8);
   EXPECT_EQ(input.sample.compression_step, 3e-5);
@@ -308,6 +319,34 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.continuum.dilation_angle, std::numbers::pi / 6.0);
   EXPECT_EQ(input.equilibrium.most_iterations, 50u);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
+  EXPECT_EQ(input.reference_results, (folder.path() / "summary.json").string());
+}
+
+TEST(Input, EveryEntryOfCoresReachesItsMember)
+{
+  const TemporaryFolder folder;
+  const Input input = read_input(folder.write(
+    "core.prm",
+    "subsection Specimen\n  set Coring = free sides\n  set Cells across = 2\n  set Cells along = 4\nend\n"));
+  EXPECT_TRUE(input.specimen.cored);
+  EXPECT_EQ(input.specimen.cells_across, 2u);
+  EXPECT_EQ(input.specimen.cells_along, 4u);
+}
+
+// What has no sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the plane.
+TEST(Input, CoresAreRefusedWhereTheyCannotBe)
+{
+  const auto refused = [](const std::string& entries) {
+    return error_of("a.prm", "subsection Specimen\n" + entries + "end\n");
+  };
+  const std::string core = "  set Coring = free sides\n";
+  EXPECT_NE(refused(core + "  set Shape = periodic\n").find("a periodic cell has no sides"), std::string::npos);
+  EXPECT_NE(refused("  set Cells across = 2\n").find("needs Coring = free sides"), std::string::npos);
+  EXPECT_NE(refused(core + "  set Cells along = 2\n  set Dimension = 3\n").find("Cells along = 2: needs"),
+            std::string::npos);
+  // Cells of 50 mm / 20, with grains up to 1.03 mm: less than four radii.
+  EXPECT_NE(refused(core + "  set Cells across = 20\n").find("must be at least"), std::string::npos);
+  EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");
 }
 
 TEST(Input, EveryEntryOfParallelBondsReachesItsMember)
@@ -524,6 +563,7 @@ TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
   folder.write("grains.txt", "");
   folder.write("path.csv", "");
   folder.write("rock.json", "{}");
+  folder.write("summary.json", "{}");
   folder.write("sample.msh", "");
   const std::filesystem::path prm = folder.write("everything.prm", everything);
   const std::filesystem::path json = folder.write("a.json", R"({"Flat joint": {"Friction": 0.35}})");
@@ -763,7 +803,7 @@ std::string mutated(std::string text, std::mt19937& random)
 TEST(Input, MutatedFilesAreReadOrRefusedInOneLine)
 {
   const TemporaryFolder folder;
-  for (const char* name : {"grains.txt", "path.csv", "rock.json", "sample.msh"})
+  for (const char* name : {"grains.txt", "path.csv", "rock.json", "sample.msh", "summary.json"})
     folder.write(name, "");
   constexpr std::string_view json = R"({"Flat joint": {"Bond tensile strength": "21.5 MPa", "Segments": 3},
     "Seeds": {"Seeds": [1, 2, 18446744073709551615]}, "Tests": {"List": ["direct_tension"], "Stop strain": null}})";

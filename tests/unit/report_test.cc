@@ -6,6 +6,7 @@
 #include "report/pictures/envelope_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/verdict.h"
+#include "results/bodies.h"
 #include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
@@ -305,6 +306,50 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   // All of the interval inside: no such remark.
   EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches out"), std::string::npos);
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
+}
+
+/// Compressions of two seeds of a body.
+Series body(const std::string& label, const SeriesKind kind, const double gap, const double in_the_bulk)
+{
+  Series series{label, kind, {}, {compression(1), compression(2)}, {}};
+  for (FinishedTest& test : series.tests)
+    {
+      SpecimenReport& specimen = test.record.specimen;
+      specimen.installation_gap_ratio = gap * (test.record.seed == 1 ? 0.9 : 1.1);
+      specimen.coordination_number_core = in_the_bulk;
+      specimen.porosity = 0.16;
+    }
+  return series;
+}
+
+// Means over the seeds count: gaps of seeds may scatter by more than the bound of 5 % between two bodies.
+TEST(Bodies, OfDifferentGapsAreSaidToBeDifferentRocks)
+{
+  const Series grains = body("direct", SeriesKind::specimens, 0.0457, 4.36);
+  const Series alike = body("alike", SeriesKind::finite_elements, 0.0457 * 1.04, 4.36);
+  const Series sample = body("multiscale", SeriesKind::finite_elements, 0.0237, 4.2);
+  EXPECT_TRUE(gap_remarks({grains, alike}).empty());
+  const auto remarks = gap_remarks({grains, alike, sample});
+  ASSERT_EQ(remarks.size(), 1u);
+  for (const char* const words : {"direct and multiscale are different rocks", "0.0457 and 0.0237 mean radii",
+                                  "4.36 and 4.20", "0.160 and 0.160"})
+    EXPECT_NE(remarks[0].find(words), std::string::npos) << remarks[0];
+  // What was measured on rock has no gap, nor has a sample without grains.
+  Series measured = body("curve", SeriesKind::laboratory_curve, 0.5, 9.0);
+  Series without = body("continuum", SeriesKind::finite_elements, 0.5, 9.0);
+  for (FinishedTest& test : without.tests)
+    test.record.specimen.n_grains = 0;
+  EXPECT_TRUE(gap_remarks({measured, without, grains}).empty());
+  EXPECT_EQ(as_text(*body_figures(sample)),
+            "multiscale: gap 0.0237 mean radii, coordination number 4.20 in the bulk, porosity 0.160");
+  // The comparison shows them as properties of the rock: of gaps 0.9 and 1.1 times the mean.
+  const auto rows = compare(grains.tests, std::nullopt);
+  const auto gap = std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& row) {
+    return row.property == "installation gap over mean radius";
+  });
+  ASSERT_NE(gap, rows.end());
+  EXPECT_NEAR(gap->ours->mean, 0.0457, 1e-12);
+  EXPECT_NEAR(*gap->ours->standard_deviation, 0.2 * 0.0457 / std::sqrt(2.0), 1e-12);
 }
 
 TEST(Trust, SaysWhatIsOutOfItsBounds)

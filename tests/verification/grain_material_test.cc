@@ -274,6 +274,45 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
   EXPECT_NE(dealt(1, 0), dealt(2, 0));
 }
 
+// Two cells of four points. To elements: the points of one have the same network and orientation, those of the other
+// another orientation. In turn: with as many realisations as points (or elements) each is dealt once.
+TEST(GrainMaterial, VolumesAreDealtToElementsAndInTurn)
+{
+  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
+  using Dealt = std::pair<const Network<2>*, double>;
+  const auto dealt = [&](const GrainMaterialParameters& parameters, const std::size_t n, const std::uint64_t cell,
+                         const unsigned int q) -> Dealt {
+    const auto material =
+      grain_material<2>({realisations.begin(), realisations.begin() + std::ptrdiff_t(n)}, parameters);
+    const auto point = material.make_point({cell == 0 ? "0_0:" : "1_0:", cell, q, {0.0, 0.0}, 0.01});
+    const auto& grains = dynamic_cast<const GrainPoint<2>&>(*point);
+    return {&grains.volume().network(), grains.orientation()(0, 0)};
+  };
+
+  GrainMaterialParameters to_elements;
+  to_elements.to_elements = true;
+  for (unsigned int q = 1; q < 4; ++q)
+    {
+      EXPECT_EQ(dealt(to_elements, 8, 0, q), dealt(to_elements, 8, 0, 0));
+      EXPECT_EQ(dealt(to_elements, 8, 1, q), dealt(to_elements, 8, 1, 0));
+    }
+  EXPECT_NE(dealt(to_elements, 8, 0, 0).second, dealt(to_elements, 8, 1, 0).second);
+
+  GrainMaterialParameters in_turn;
+  in_turn.in_turn = true;
+  in_turn.n_points_of_cell = 4;
+  std::set<const Network<2>*> of_points;
+  for (const std::uint64_t cell : {0, 1})
+    for (unsigned int q = 0; q < 4; ++q)
+      of_points.insert(dealt(in_turn, 8, cell, q).first);
+  EXPECT_EQ(of_points.size(), 8u);
+  in_turn.to_elements = true;
+  EXPECT_NE(dealt(in_turn, 2, 0, 0).first, dealt(in_turn, 2, 1, 0).first);
+  EXPECT_EQ(dealt(in_turn, 2, 0, 3), dealt(in_turn, 2, 0, 0));
+}
+
 // Weak cells change nothing else: each of their points has the twin of the volume that it had without them, in the same
 // axes, and the twin is the same network with bonds of that share of their strengths.
 TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirVolumes)

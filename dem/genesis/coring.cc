@@ -1,0 +1,257 @@
+#include "dem/genesis/coring.h"
+
+#include "base/disjoint_sets.h"
+#include "dem/genesis/joint_installation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+using Place = std::array<int, dim>;
+
+/// In which order the elements of a face follow each other when it is seen from its other grain: the normal is turned
+/// round and t_1 kept in space, so that t_2 turns round; in the plane t turns round.
+template <int dim>
+std::vector<unsigned int> mirrored_elements(const std::vector<FaceElement<dim>>& elements)
+{
+  std::vector<unsigned int> order;
+  for (const auto& element : elements)
+    {
+      auto mirrored = element.offset;
+      mirrored[dim - 2] = -mirrored[dim - 2];
+      const auto miss = [&](const FaceElement<dim>& other) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < mirrored.size(); ++c)
+          sum += std::abs(other.offset[c] - mirrored[c]);
+        return sum;
+      };
+      const auto found = std::min_element(elements.begin(), elements.end(),
+                                          [&](const auto& one, const auto& other) { return miss(one) < miss(other); });
+      order.push_back(unsigned(found - elements.begin()));
+    }
+  return order;
+}
+
+/// Names grain 2 of a joint at rest first.
+template <int dim>
+void turn_round(Joints<dim>& joints, const std::size_t j, const std::vector<unsigned int>& mirrored)
+{
+  std::swap(joints.grain_1[j], joints.grain_2[j]);
+  for (auto& component : joints.normal)
+    component[j] = -component[j];
+  joints.half_radius_difference[j] = -joints.half_radius_difference[j];
+  joints.visit_per_segment([&](const std::string&, auto& row) {
+    std::vector<double> before;
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      before.push_back(row[joints.segment(i, j)]);
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      row[joints.segment(i, j)] = before[mirrored[i]];
+  });
+}
+
+/// The grains among them, in the same order.
+template <int dim>
+Grains<dim> selected(const Grains<dim>& grains, const std::vector<std::size_t>& kept)
+{
+  std::vector<double> radii;
+  Components<dim> positions;
+  for (const std::size_t i : kept)
+    {
+      radii.push_back(grains.radius[i]);
+      for (int c = 0; c < dim; ++c)
+        positions[c].push_back(grains.position[c][i]);
+    }
+  Grains<dim> left;
+  left.place(radii, positions);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    {
+      left.mass[k] = grains.mass[kept[k]];
+      left.moment_of_inertia[k] = grains.moment_of_inertia[kept[k]];
+    }
+  return left;
+}
+} // namespace
+
+template <int dim>
+Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int, dim>& n_cells)
+{
+  const std::size_t n_grains = cell.grains.size();
+  const std::size_t n_joints = cell.joints.size();
+  std::vector<Place<dim>> places{Place<dim>{}}; // of the copies, x fastest
+  const auto number_of = [&](const Place<dim>& place) {
+    std::size_t number = 0;
+    for (int c = dim - 1; c >= 0; --c)
+      number = number * n_cells[c] + std::size_t(place[c]);
+    return number;
+  };
+  const std::size_t n_copies =
+    std::accumulate(n_cells.begin(), n_cells.end(), std::size_t(1), std::multiplies<std::size_t>());
+  while (places.size() < n_copies)
+    {
+      Place<dim> next = places.back();
+      for (int c = 0; ++next[c] == int(n_cells[c]); ++c)
+        next[c] = 0;
+      places.push_back(next);
+    }
+
+  Specimen<dim> all = cell;
+  for (int c = 0; c < dim; ++c)
+    all.size[c] = cell.size[c] * n_cells[c];
+
+  std::vector<double> radii;
+  Components<dim> positions;
+  for (const auto& place : places)
+    for (std::size_t i = 0; i < n_grains; ++i)
+      {
+        radii.push_back(cell.grains.radius[i]);
+        for (int c = 0; c < dim; ++c)
+          positions[c].push_back(cell.grains.position[c][i] + place[c] * cell.size[c]);
+      }
+  all.grains.place(radii, positions);
+  for (std::size_t k = 0; k < n_copies * n_grains; ++k)
+    {
+      all.grains.mass[k] = cell.grains.mass[k % n_grains];
+      all.grains.moment_of_inertia[k] = cell.grains.moment_of_inertia[k % n_grains];
+    }
+
+  // What a joint and its segments are is the same in each copy.
+  Joints<dim> of_cell = cell.joints;
+  Joints<dim>& joints = all.joints;
+  joints.resize_all(n_copies * n_joints);
+  std::vector<std::vector<double>> of_joint, of_segment;
+  of_cell.visit_per_joint([&](const std::string&, auto& row) { of_joint.emplace_back(row.begin(), row.end()); });
+  of_cell.visit_per_segment([&](const std::string&, auto& row) { of_segment.emplace_back(row.begin(), row.end()); });
+  std::size_t r = 0;
+  joints.visit_per_joint([&](const std::string&, auto& row) {
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      row[j] = of_joint[r][j % n_joints];
+    ++r;
+  });
+  r = 0;
+  joints.visit_per_segment([&](const std::string&, auto& row) {
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        row[joints.segment(i, j)] = of_segment[r][of_cell.segment(i, j % n_joints)];
+    ++r;
+  });
+
+  const auto mirrored = mirrored_elements<dim>(joints.elements);
+  for (std::size_t k = 0; k < n_copies; ++k)
+    for (std::size_t j = 0; j < n_joints; ++j)
+      {
+        const auto second = cell.second_of(j);
+        Place<dim> place = places[k];
+        for (int c = 0; c < dim; ++c)
+          {
+            const int n = int(n_cells[c]);
+            place[c] = ((place[c] + second.boxes[c]) % n + n) % n;
+          }
+        const std::size_t joint = k * n_joints + j;
+        joints.grain_1[joint] = std::uint32_t(k * n_grains + cell.joints.grain_1[j]);
+        joints.grain_2[joint] = std::uint32_t(number_of(place) * n_grains + second.owner);
+        joints.number[joint] = std::uint32_t(joint);
+        if (joints.grain_1[joint] > joints.grain_2[joint])
+          turn_round(joints, joint, mirrored);
+      }
+  all.report.n_grains = all.grains.size();
+  all.report.n_joints = joints.size();
+  all.report.resolution *= n_cells[0];
+  return all;
+}
+
+template <int dim>
+Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
+{
+  Specimen<dim> core = cell;
+  core.periodic = false;
+  core.round = round;
+  const std::size_t n = cell.grains.size();
+  // A grain cut through its middle would have its centre pressed through a platen.
+  constexpr double least_depth_ratio = 0.25; // of its centre below a face, over its radius
+  std::vector<bool> lies_inside(n);
+  for (std::size_t i = 0; i < n; ++i)
+    {
+      const Vector<dim> x = at<dim>(cell.grains.position, i);
+      double depth = round ? 0.5 * cell.size[0] - cell.distance_from_axis(x) : cell.size[0];
+      for (int c = round ? dim - 1 : 0; c < dim; ++c)
+        depth = std::min({depth, x[c], cell.size[c] - x[c]});
+      lies_inside[i] = depth >= least_depth_ratio * cell.grains.radius[i];
+    }
+
+  DisjointSets groups(n);
+  std::vector<bool> is_cut(n, false); // lost a joint
+  std::vector<std::size_t> whole;     // joints
+  std::size_t n_cut = 0;
+  const PeriodicImage<dim> here{};
+  for (std::size_t j = 0; j < cell.joints.size(); ++j)
+    {
+      const auto second = cell.second_of(j);
+      const std::uint32_t first = cell.joints.grain_1[j];
+      if (second.boxes == here.boxes && lies_inside[first] && lies_inside[second.owner])
+        {
+          groups.merge(first, second.owner);
+          whole.push_back(j);
+        }
+      else
+        {
+          n_cut += lies_inside[first] || lies_inside[second.owner];
+          is_cut[first] = is_cut[second.owner] = true;
+        }
+    }
+
+  // The body is the largest group; others that were cut off are chips. A grain that never had a joint stays in its void.
+  std::vector<bool> has_cut(n, false);
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (is_cut[i])
+      has_cut[groups.root(i)] = true;
+  const auto sizes = groups.sizes();
+  const auto body = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<std::size_t> kept;
+  std::vector<std::uint32_t> new_number(n, 0);
+  std::size_t n_removed = round ? 0 : std::size_t(std::count(lies_inside.begin(), lies_inside.end(), false));
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (lies_inside[i])
+      {
+        const std::uint32_t group = groups.root(i);
+        if (group != body && has_cut[group])
+          {
+            ++n_removed;
+            continue;
+          }
+        new_number[i] = std::uint32_t(kept.size());
+        kept.push_back(i);
+      }
+  const auto stays = [&](const std::size_t joint) {
+    const std::uint32_t group = groups.root(cell.joints.grain_1[joint]);
+    return group == body || !has_cut[group];
+  };
+  std::vector<std::size_t> kept_joints;
+  std::copy_if(whole.begin(), whole.end(), std::back_inserter(kept_joints), stays);
+  core.joints.keep(kept_joints);
+  for (std::size_t j = 0; j < core.joints.size(); ++j)
+    {
+      core.joints.grain_1[j] = new_number[core.joints.grain_1[j]];
+      core.joints.grain_2[j] = new_number[core.joints.grain_2[j]];
+      core.joints.number[j] = std::uint32_t(j);
+    }
+  core.grains = selected(cell.grains, kept);
+  installation::fill_report(core, installation::pair_gaps(core, 0.0));
+  core.report.n_cut_joints = n_cut;
+  core.report.n_removed_grains = n_removed;
+  return core;
+}
+
+template Specimen<2> repeated<2>(const Specimen<2>&, const std::array<unsigned int, 2>&);
+template Specimen<3> repeated<3>(const Specimen<3>&, const std::array<unsigned int, 3>&);
+template Specimen<2> cored<2>(const Specimen<2>&, bool);
+template Specimen<3> cored<3>(const Specimen<3>&, bool);
+} // namespace feldspar

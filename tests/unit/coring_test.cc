@@ -1,0 +1,247 @@
+// Specimens packed as a periodic cell, joined and cut free.
+
+#include "dem/genesis/coring.h"
+
+#include "base/random.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_file.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/small_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+template <typename Case>
+class Cores : public testing::Test
+{
+};
+TYPED_TEST_SUITE(Cores, Dimensions);
+
+template <int dim>
+std::vector<unsigned int> joints_of_grains(const Specimen<dim>& specimen)
+{
+  std::vector<unsigned int> n(specimen.grains.size(), 0);
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    {
+      ++n[specimen.joints.grain_1[j]];
+      ++n[specimen.joints.grain_2[j]];
+    }
+  return n;
+}
+
+// Cells side by side in an endless body are the same body as the one cell: its stiffness, and the strain at which its
+// first bond breaks, whose segment must still lie where it lay on its face when the joint names its grains the other way
+// round. With the order of the segments left as it was, the first break comes at another strain.
+TYPED_TEST(Cores, CellsSideBySideAreTheSameRockAsOne)
+{
+  constexpr int dim = TypeParam::value;
+  const Specimen<dim> cell = periodic_specimen<dim>(2);
+  std::array<unsigned int, dim> n_cells;
+  n_cells.fill(1);
+  n_cells[0] = 2;
+  n_cells[dim - 1] = 3;
+  const Specimen<dim> many = repeated<dim>(cell, n_cells);
+  ASSERT_EQ(many.grains.size(), 6 * cell.grains.size());
+  EXPECT_NEAR(many.volume(), 6.0 * cell.volume(), 1e-12 * many.volume());
+  for (std::size_t j = 0; j < many.joints.size(); ++j)
+    ASSERT_LE(many.joints.grain_1[j], many.joints.grain_2[j]);
+
+  const Network<dim> of_one(cell);
+  const Network<dim> of_many(many);
+  // Both by conjugate gradients to 1e-13 of their own.
+  EXPECT_LT((of_many.intact_stiffness() - of_one.intact_stiffness()).norm(), 1e-9 * of_one.intact_stiffness().norm());
+  Random random(7, RandomStream::strengths);
+  for (int k = 0; k < 20; ++k)
+    {
+      Voigt<dim> direction;
+      for (double& component : direction)
+        component = random.uniform(-1.0, 1.0);
+      const auto one = of_one.first_break(direction);
+      const auto other = of_many.first_break(direction);
+      EXPECT_NEAR(other.factor, one.factor, 1e-7 * one.factor);
+      EXPECT_EQ(other.in_tension, one.in_tension);
+    }
+}
+
+TYPED_TEST(Cores, NoJointCrossesAFaceAndNoOtherIsCut)
+{
+  constexpr int dim = TypeParam::value;
+  const Specimen<dim> cell = periodic_specimen<dim>(1);
+  const Specimen<dim> core = cored(cell, false);
+  EXPECT_FALSE(core.periodic);
+  for (std::size_t j = 0; j < core.joints.size(); ++j)
+    {
+      const Vector<dim> branch = core.joints.rest_distance[j] * at<dim>(core.joints.normal, j);
+      const Vector<dim> between =
+        at<dim>(core.grains.position, core.joints.grain_2[j]) - at<dim>(core.grains.position, core.joints.grain_1[j]);
+      ASSERT_LT((branch - between).norm(), 1e-12 * cell.size[0]) << j;
+    }
+  // No platen can be pushed through the centre of a grain.
+  for (std::size_t i = 0; i < core.grains.size(); ++i)
+    {
+      const Vector<dim> x = at<dim>(core.grains.position, i);
+      const double depth = std::min(x.minCoeff(), (cell.size - x).minCoeff());
+      ASSERT_GE(depth, 0.25 * core.grains.radius[i]) << i;
+    }
+  // Of the joints that the cell had, those cut, or of grains that are gone, are missing: all that cross a face are among
+  // them.
+  std::size_t n_crossing = 0;
+  for (std::size_t j = 0; j < cell.joints.size(); ++j)
+    n_crossing += cell.second_of(j).boxes != (std::array<int, dim>{});
+  EXPECT_LE(core.joints.size() + n_crossing, cell.joints.size());
+  EXPECT_LE(core.joints.size() + core.report.n_cut_joints, cell.joints.size());
+  EXPECT_GT(core.report.n_cut_joints, 0u);
+  EXPECT_EQ(core.grains.size() + core.report.n_removed_grains, cell.grains.size());
+  EXPECT_EQ(core.report.installation_gap_ratio, cell.report.installation_gap_ratio);
+  EXPECT_LT(core.report.coordination_number, cell.report.coordination_number);
+  EXPECT_GE(core.report.porosity, cell.report.porosity - 1e-12);
+}
+
+// A grain alone in the corner, held by joints over the faces only, goes; a pair that holds on to itself only goes too; a
+// grain that had no joint before lies in its void as in the cell.
+TEST(Core, WhatLosesItsLastJointToTheBodyIsRemoved)
+{
+  Specimen<2> cell = periodic_specimen<2>(1, 0.016);
+  // Cut all joints inside but those of two grains at a side with each other and over the side.
+  const Specimen<2> before = cored(cell, false);
+  std::uint32_t one = 0, two = 0;
+  for (std::size_t j = 0; j < cell.joints.size(); ++j)
+    if (cell.second_of(j).boxes == std::array<int, 2>{} && cell.grains.position[0][cell.joints.grain_1[j]] < 1.2e-3 &&
+        cell.grains.position[0][cell.joints.grain_2[j]] < 1.2e-3)
+      {
+        one = cell.joints.grain_1[j];
+        two = cell.joints.grain_2[j];
+        break;
+      }
+  ASSERT_NE(one, two);
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < cell.joints.size(); ++j)
+    {
+      const auto is_of_pair = [&](const std::uint32_t grain) { return grain == one || grain == two; };
+      const bool leads_inside = cell.second_of(j).boxes == std::array<int, 2>{};
+      if (!leads_inside || is_of_pair(cell.joints.grain_1[j]) == is_of_pair(cell.joints.grain_2[j]))
+        kept.push_back(j);
+    }
+  cell.joints.keep(kept);
+  const Specimen<2> after = cored(cell, false);
+  EXPECT_EQ(after.report.n_removed_grains, before.report.n_removed_grains + 2);
+  EXPECT_EQ(after.grains.size() + after.report.n_removed_grains, cell.grains.size());
+  const auto n_of_cell = joints_of_grains(cell);
+  const auto n_of_core = joints_of_grains(after);
+  EXPECT_EQ(std::count(n_of_core.begin(), n_of_core.end(), 0u), std::count(n_of_cell.begin(), n_of_cell.end(), 0u));
+}
+
+SpecimenParameters cylinder(const double porosity)
+{
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.shape = "cylinder";
+  wanted.width = 0.010;
+  wanted.height = 0.010;
+  wanted.porosity = porosity;
+  return wanted;
+}
+
+/// By the gauge in the middle, of a uniaxial compression that breaks nothing.
+double initial_modulus(const Specimen<3>& specimen)
+{
+  TestParameters wanted;
+  wanted.compression_strain_rate = 8.0;
+  wanted.compression_sampling_strain = 2e-5;
+  wanted.stop_strain = 2e-4;
+  LabTest<3> test({uniaxial_compression}, specimen, wanted, {});
+  while (test.advance())
+    ;
+  const auto curve = test.finish(false).record.curve;
+  return curve.back().axial_stress / curve.back().gauge_axial_strain;
+}
+
+// Grains between one and two mean diameters from the side of a cylinder of spheres: of a core they have the joints of the
+// rock, but for the few that its cut takes; walls order the grains beside them and take a share.
+TEST(Core, HasTheRockUpToItsSides)
+{
+  FlatJointParameters joint;
+  joint.installation_gap_ratio = 0.05;
+  const auto silent = [](std::string_view, double) {};
+  // Walls leave voids beside them; so that the grains keep the radii of the input.
+  const auto walled = make_specimen<3>(cylinder(0.39), joint, {}, 1, silent);
+  SpecimenParameters box = cylinder(0.36);
+  box.shape = "periodic";
+  const auto cell = make_specimen<3>(box, joint, {}, 1, silent);
+  const auto core = cored(cell, true);
+  EXPECT_TRUE(core.round);
+  for (std::size_t i = 0; i < core.grains.size(); ++i)
+    ASSERT_LT(core.distance_from_axis(at<3>(core.grains.position, i)), 0.005);
+  // As many grains as lie in the cylinder by their centres: its share of the box, within the scatter of the few there.
+  EXPECT_NEAR(core.report.porosity, cell.report.porosity, 0.03);
+
+  const auto beside_the_side = [](const Specimen<3>& specimen) {
+    const auto n = joints_of_grains(specimen);
+    const double diameter = 2.0 * specimen.report.mean_radius;
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < n.size(); ++i)
+      {
+        const Vector<3> x = at<3>(specimen.grains.position, i);
+        const double depth = 0.5 * specimen.size[0] - specimen.distance_from_axis(x);
+        const double from_end = std::min(x[2], specimen.size[2] - x[2]);
+        if (depth > diameter && depth < 2.0 * diameter && from_end > 2.0 * diameter)
+          {
+            sum += n[i];
+            count += 1.0;
+          }
+      }
+    EXPECT_GT(count, 20.0);
+    return sum / count;
+  };
+  // The standard error of a mean over so many grains, each with 7 ± 1.5 joints, is 0.3.
+  EXPECT_NEAR(beside_the_side(core), cell.report.coordination_number, 0.6);
+  EXPECT_LT(beside_the_side(walled), cell.report.coordination_number);
+
+  // The modulus: that of the endless rock is an upper bound. A layer as deep as a mean diameter, the grains that lost
+  // joints to the cut, carries less; if it carried nothing, (1 - d/D)² would be left.
+  const Network<3> network(cell);
+  const double of_the_rock = isotropic_constants<3>(network.intact_stiffness()).youngs_modulus;
+  const double without_the_layer = std::pow(1.0 - 1.0 / core.report.resolution, 2);
+  const double found = initial_modulus(core);
+  EXPECT_LT(found, of_the_rock);
+  EXPECT_GT(found, without_the_layer * of_the_rock);
+}
+
+TEST(Core, SameSeedSameBitsAndTheCellOfTheRepresentativeVolume)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.024;
+  wanted.height = 0.012;
+  wanted.cored = true;
+  wanted.cells_across = 2;
+  FlatJointParameters joint;
+  joint.coordination_number = 4.2;
+  const auto silent = [](std::string_view, double) {};
+  const auto one = make_specimen<2>(wanted, joint, {}, 3, silent);
+  const auto again = make_specimen<2>(wanted, joint, {}, 3, silent);
+  EXPECT_EQ(one.grains.position, again.grains.position);
+  EXPECT_EQ(one.joints.tensile_strength, again.joints.tensile_strength);
+  // Each half has the grains of the representative volume of that seed.
+  const auto cell = periodic_specimen<2>(3);
+  const auto whole = cored(repeated<2>(cell, {2, 1}), false);
+  EXPECT_EQ(one.grains.position, whole.grains.position);
+  EXPECT_EQ(one.joints.cohesion, whole.joints.cohesion);
+
+  const tests::TemporaryFolder folder;
+  write_specimen(one, folder.path() / "core.h5");
+  const auto back = read_specimen<2>(folder.path() / "core.h5");
+  EXPECT_EQ(back.report.n_cut_joints, one.report.n_cut_joints);
+  EXPECT_GT(back.report.n_cut_joints, 0u);
+  EXPECT_EQ(back.report.n_removed_grains, one.report.n_removed_grains);
+}
+} // namespace
+} // namespace feldspar
