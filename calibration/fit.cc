@@ -70,8 +70,8 @@ Solution solve(const Residuals& residuals, std::vector<double> x, const FitFreed
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1; // the same bits for any number of threads
-  options.max_num_iterations = 200;
-  options.function_tolerance = 1e-10;
+  options.max_num_iterations = 60;
+  options.function_tolerance = 1e-8;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return {x, summary.final_cost};
@@ -87,7 +87,7 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
     residuals.widths.push_back(std::hypot(tolerance * model.response(target.response).per_share(target.value),
                                           model.deviation(target.response, start.point)));
   std::vector<UnitPoint> starts{start.point};
-  constexpr std::size_t n_starts = 12;
+  constexpr std::size_t n_starts = 6;
   constexpr std::uint64_t seed_of_starts = 1;
   if (n > 0)
     for (const UnitPoint& point : sobol_points(n_starts, n, seed_of_starts))
