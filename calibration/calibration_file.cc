@@ -185,9 +185,13 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
     text += answer.sentence + "\n";
   if (!outcome.scale_effects.empty())
     {
-      text += "\nHalf as much bond strength again at the same modulus changes, over that strength,";
+      text += "\nHalf as much bond strength again at the same modulus changed, over that strength and on one packing,";
+      const char* comma = "";
       for (const auto& [name, effect] : outcome.scale_effects)
-        text += fmt::format(" {} by {:+.1f} %", name, 100.0 * effect);
+        {
+          text += fmt::format("{} {} by {:+.1f} %", comma, name, 100.0 * effect);
+          comma = ",";
+        }
       text += ".\n";
     }
   return text + "\n" + outcome.statement + "\n";

@@ -145,6 +145,7 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   const auto without_host = [&](const std::string& run) {
     auto json = nlohmann::json::parse(content(folder.path() / run / "calibration.json"));
     json.erase("host");
+    json["input"].erase("parameters"); // where a run was taken up, files of the input have their whole paths
     return json;
   };
   EXPECT_EQ(without_host("whole"), without_host("cut"));
@@ -154,14 +155,14 @@ TEST(Calibrate, SaysWhatTargetsThatContradictEachOtherComeNearestTo)
 {
   const TemporaryFolder folder;
   // Half of the compressive strength in tension: flat joints have a twentieth, parallel bonds a third.
-  folder.write("rock.json", replaced(reference, "\"tensile_strength_MPa\": 6", "\"tensile_strength_MPa\": 50"));
+  folder.write("rock.json", replaced(reference, "strength_MPa\": 100", "strength_MPa\": 12"));
   folder.write("rock.prm",
                replaced(small_calibration, "set Tolerance", "set Cohesion ratio = 10, 30\n  set Tolerance"));
   const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
   EXPECT_EQ(outcome.error.find("feldspar: these targets cannot be reached together"), 0u) << outcome.error;
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-  EXPECT_NE(outcome.error.find("nearest come Young's modulus"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("; nearest come tensile strength "), std::string::npos) << outcome.error;
   EXPECT_FALSE(fs::exists(folder.path() / "out" / "best.prm")) << "a false optimum";
   EXPECT_TRUE(fs::exists(folder.path() / "out" / "nearest.prm"));
   const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
