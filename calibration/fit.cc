@@ -89,13 +89,12 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
   std::vector<UnitPoint> starts{start.point};
   constexpr std::size_t n_starts = 6;
   constexpr std::uint64_t seed_of_starts = 1;
-  if (n > 0)
-    for (const UnitPoint& point : sobol_points(n_starts, n, seed_of_starts))
-      {
-        starts.push_back(point);
-        for (std::size_t k = 0; k < n; ++k)
-          starts.back()[k] = std::clamp(freedom.centre[k] + freedom.half_width * (2.0 * point[k] - 1.0), 0.0, 1.0);
-      }
+  for (const UnitPoint& point : sobol_points(n_starts, n, seed_of_starts))
+    {
+      starts.push_back(point);
+      for (std::size_t k = 0; k < n; ++k)
+        starts.back()[k] = std::clamp(freedom.centre[k] + freedom.half_width * (2.0 * point[k] - 1.0), 0.0, 1.0);
+    }
   std::optional<Solution> best;
   for (const UnitPoint& point : starts)
     {

@@ -164,6 +164,11 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
                   std::find(wanted.targets.begin(), wanted.targets.end(), responses[j].name) != wanted.targets.end()))
       {
         Target target{j, value->middle(), 0.0, ""};
+        if (!(target.value > 0.0))
+          throw InputError(
+            fmt::format("{} of the reference file: is {:g}; a target must be above 0, because deviations "
+                        "are shares of it",
+                        responses[j].reference_key, target.value / responses[j].reference_unit));
         set_deviation(target, *value, wanted.tolerance);
         all.push_back(target);
       }

@@ -79,8 +79,12 @@ void check(const Input& input, const std::filesystem::path& file)
   if (input.reference_file.empty())
     refuse("Report/Reference file: is needed; it has the laboratory's figures that are to be reached");
   const Problem problem = problem_of(input);
-  if (problem.unknowns.empty() && !problem.has_modulus && !problem.has_strength)
-    refuse("Calibration: nothing is unknown: every bound is fixed, and no target tells a modulus or a strength");
+  if (problem.unknowns.empty())
+    refuse("Calibration: all its ratios are fixed; give bounds to one of them at least");
+  // A trend, and something left to tell its error by.
+  if (const std::size_t least = problem.unknowns.size() + 3; input.calibration.n_points < least)
+    refuse(fmt::format("Calibration/Design points = {}: must be at least {} for {} unknown ratios",
+                       input.calibration.n_points, least, problem.unknowns.size()));
 }
 
 /// Seeds of the packings, stage by stage.
@@ -153,7 +157,8 @@ public:
   {
     tell_cost();
     ResponseModel model = elastic_stage();
-    design_stage(model);
+    if (const std::string objection = design_stage(model); !objection.empty())
+      return {false, objection}; // its tests stay
 
     FitFreedom freedom{problem.has_modulus, problem.has_strength, UnitPoint(problem.unknowns.size(), 0.5), 0.5};
     Fit fit = best_fit(model, problem.targets, wanted.tolerance, freedom, start);
@@ -188,9 +193,9 @@ private:
     const ElasticTable elastic =
       elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap);
     check_poissons_ratio(problem, wanted, elastic);
-    progress.finish(fmt::format("Young's modulus {:.2f} to {:.2f} of the joints', Poisson's ratio {:.3f} to {:.3f}",
-                                elastic.least().modulus_ratio, elastic.largest().modulus_ratio,
-                                elastic.least().poissons_ratio, elastic.largest().poissons_ratio));
+    progress.finish(fmt::format("E {:.2f} to {:.2f} of the joints', nu {:.3f} to {:.3f}", elastic.least().modulus_ratio,
+                                elastic.largest().modulus_ratio, elastic.least().poissons_ratio,
+                                elastic.largest().poissons_ratio));
     start.point.assign(problem.unknowns.size(), 0.5);
     start.log_strength = std::log(problem.has_strength ? first_bond_strength(problem, fixed.bond_tensile_strength)
                                                        : fixed.bond_tensile_strength);
@@ -202,13 +207,12 @@ private:
   }
 
   /// Learns how the responses depend on the ratios.
-  void design_stage(ResponseModel& model)
+  /// Why it cannot; empty if it could.
+  std::string design_stage(ResponseModel& model)
   {
     const auto seeds = packings.take(wanted.n_packings);
     std::vector<PointOrder> orders;
-    const auto points = problem.unknowns.empty()
-                          ? std::vector<UnitPoint>(1)
-                          : sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
+    const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
     for (std::size_t i = 0; i < points.size(); ++i)
       for (const std::uint64_t seed : seeds)
         orders.push_back(
@@ -217,9 +221,10 @@ private:
     model.learn(tested);
     for (const Target& target : problem.targets)
       if (!model.knows(target.response))
-        throw InputError(fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: "
-                                     "raise Calibration/Design points, or narrow its bounds",
-                                     problem.response_of(target).title));
+        return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: "
+                           "raise Calibration/Design points, or narrow its bounds",
+                           problem.response_of(target).title);
+    return "";
   }
 
   /// Why the targets cannot be reached by the surrogates alone; empty if they may.
@@ -265,7 +270,8 @@ private:
     // Room is left for fresh packings; what the packings of a step scatter cannot be mended by another step.
     const auto is_near = [&](const TargetOutcome& outcome) {
       const double error = outcome.reached ? outcome.reached->standard_error.value_or(0.0) : 0.0;
-      return std::abs(outcome.deviation()) <= std::max(0.5 * wanted.tolerance, error / std::abs(outcome.target.value));
+      return outcome.reached &&
+             std::abs(outcome.deviation()) <= std::max(0.5 * wanted.tolerance, error / std::abs(outcome.target.value));
     };
     for (n_steps = 0; n_steps < wanted.most_steps;)
       {
@@ -366,7 +372,7 @@ private:
     CalibrationOutcome outcome = outcome_of(model, place, outcomes, has_reached, statement);
     progress.start("posterior");
     outcome.posterior = posterior(model, problem.targets, freedom, place, wanted.n_samples, input.seeds.front());
-    for (std::size_t j = 0; j < problem.responses.size() && !problem.unknowns.empty(); ++j)
+    for (std::size_t j = 0; j < problem.responses.size(); ++j)
       if (model.knows(j))
         outcome.sensitivities[problem.responses[j].name] =
           sobol_indices([&](const UnitPoint& point) { return model.learnt(j, point); }, problem.unknowns.size(), 1024,
@@ -528,7 +534,9 @@ private:
   /// Within the tolerance, or no further off than two standard errors.
   bool is_met(const TargetOutcome& outcome) const
   {
-    const double error = outcome.reached ? outcome.reached->standard_error.value_or(0.0) : 0.0;
+    if (!outcome.reached)
+      return false; // no specimen gave it
+    const double error = outcome.reached->standard_error.value_or(0.0);
     return std::abs(outcome.deviation()) <= std::max(wanted.tolerance, 2.0 * error / std::abs(outcome.target.value));
   }
 

@@ -199,6 +199,11 @@ TEST(Calibrate, RefusesWhatCannotBeCalibrated)
                  "Calibration/Friction = 1.2, 0.2: must be fixed, or the lower and the upper bound, e.g. 0.2, 1.2");
   expect_mistake(replaced(small_calibration, "Bond friction angle = fixed", "Bond friction angle = 0, 40"), reference,
                  "Calibration/Bond friction angle = 0, 40: a unit is missing; write an angle");
+  expect_mistake(replaced(small_calibration, "set Tolerance", "set Cohesion ratio = fixed\n  set Tolerance"), reference,
+                 "Calibration: all its ratios are fixed; give bounds to one of them at least");
+  expect_mistake(replaced(small_calibration, "Friction = fixed\n  set Tol",
+                          "Friction = 0.2, 1.2\n  set Installation gap ratio = 0.03, 0.1\n  set Tol"),
+                 reference, "Calibration/Design points = 5: must be at least 6 for 3 unknown ratios");
   // At once, before anything is broken.
   expect_mistake(replaced(small_calibration, "set Tolerance", "set Poissons ratio = initial\n  set Tolerance"),
                  replaced(reference, "\"youngs", "\"poissons_ratio\": 0.35, \"youngs"),

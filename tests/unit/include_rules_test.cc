@@ -1,5 +1,5 @@
-// One direction of dependence, room by room: app -> {report, coupling} -> {results, dem, fem} -> base; dem and fem never
-// meet.
+// One direction of dependence, room by room: app -> {report, calibration, coupling} -> {results, dem, fem} -> base;
+// dem and fem never meet.
 
 #include <gtest/gtest.h>
 
