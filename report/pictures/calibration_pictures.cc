@@ -45,11 +45,11 @@ Column column_of(const std::string& name, const std::vector<double>& si_values)
   return column;
 }
 
-/// Between the marks of an axis, so that two or three stand on it: 1, 2 or 5 times a power of ten.
+/// Between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
 double step_of_marks(const std::vector<double>& values)
 {
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  const double wanted = (*largest - *least) / 2.0;
+  const double wanted = (*largest - *least) / 1.3;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double first = wanted / power;
   return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
@@ -101,7 +101,8 @@ std::vector<Picture> pair_picture(const CalibrationRecord& record)
             plots += "set multiplot next\n";
             continue;
           }
-        plots += fmt::format("set xlabel {} noenhanced offset 0,0.6\nset ylabel {} noenhanced offset 1.2,0\n",
+        plots += fmt::format("set xlabel {} noenhanced offset 0,0.6 font ',9'\n"
+                             "set ylabel {} noenhanced offset 1.2,0 font ',8'\n",
                              row + 1 == n ? gnuplot_text(columns[c].label) : "''",
                              c == 0 && row > 0 ? gnuplot_text(columns[row].label) : "''");
         plots += fmt::format("set xtics {:g}\n", step_of_marks(columns[c].values));
@@ -131,11 +132,12 @@ std::vector<Picture> pair_picture(const CalibrationRecord& record)
   picture.height = 165 * int(n) + 60;
   picture.raster = true;
   picture.vector = false;
-  picture.script = fmt::format("{}set multiplot layout {},{} rowsfirst\nset border 3 lw 0.8\nset tics nomirror out\n"
-                               ""
-                               "set lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\nunset key\n{}"
-                               "unset multiplot\n",
-                               data, n, n, plots);
+  picture.script = fmt::format(
+    "{}set multiplot layout {},{} rowsfirst\nset border 3 lw 0.8\nset tics nomirror out\nset autoscale xfix\n"
+    ""
+    "set lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\nunset key\n{}"
+    "unset multiplot\n",
+    data, n, n, plots);
   return {picture};
 }
 } // namespace feldspar
