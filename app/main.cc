@@ -41,6 +41,7 @@ public:
     add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
     add_extract(add_resume(
       add_run("multiscale", "laboratory tests on a mesh with a representative volume at every point", run_multiscale)));
+    add_resume(add_run("calibrate", "micro-parameters of a rock from its laboratory values", run_calibrate));
     add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
     add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
     add_report();
@@ -210,6 +211,8 @@ private:
           {"rve", "feldspar rve cell.prm"},
           {"multiscale", "feldspar multiscale sample.prm\n  mpirun -np 8 feldspar multiscale sample.prm\n"
                          "  feldspar multiscale sample-results-001 --extract 12:0"},
+          {"calibrate", "feldspar calibrate rock.prm --output rock\n  feldspar lab rock/best.prm\n"
+                        "  feldspar calibrate --resume rock"},
           {"specimen", "feldspar specimen granite.prm"},
           {"contact", "feldspar contact contact.prm"},
           {"report", "feldspar report granite slate --reference rock.json\n"

@@ -42,7 +42,7 @@ Findings findings_of(const std::vector<Series>& all, const ReportInput& input)
 }
 
 /// The page without its pictures, which the book draws later.
-Page page_of(const Findings& findings, PictureBook& book)
+Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& calibration, PictureBook& book)
 {
   Page page;
   page.title = findings.reference && !findings.reference->rock.empty()
@@ -55,6 +55,8 @@ Page page_of(const Findings& findings, PictureBook& book)
   page.subtitle =
     fmt::format("Feldspar report of {} test{} in {} series.", n_tests, n_tests == 1 ? "" : "s", findings.all.size());
   page.sections.push_back(verdict_section(findings));
+  if (calibration)
+    page.sections.push_back(calibration_section(*calibration, book));
   page.sections.push_back(envelope_section(findings, book));
   page.sections.push_back(curve_section(findings, book));
   if (PageSection sample = sample_section(findings, book); !sample.blocks.empty())
@@ -87,7 +89,7 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const std::vector<Series> all = with_labels_to_show(input.all);
   const Findings findings = findings_of(all, input);
   PictureBook book;
-  Page page = page_of(findings, book);
+  Page page = page_of(findings, input.calibration, book);
   if (input.one_folder)
     keep_pictures_of_single_tests(all, book);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "results/fits/strength_envelopes.h"
+#include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/series.h"
 
@@ -17,8 +18,9 @@ struct ReportInput
   std::vector<Series> all;                  ///< the first is the one that is compared in words
   std::vector<StrengthEnvelopes> envelopes; ///< of each series
   std::optional<Reference> reference;
-  std::string reference_problem; ///< why there is none although there should be one
-  bool one_folder = true;        ///< the names of tests are unlike; every test gets pictures of its own, as files
+  std::string reference_problem;                               ///< why there is none although there should be one
+  std::optional<CalibrationRecord> calibration = std::nullopt; ///< of the one folder, if it is of one
+  bool one_folder = true; ///< the names of tests are unlike; every test gets pictures of its own, as files
 };
 
 /// Writes report.html, figures/ and tables/ into a folder that exists. Returns what is missing in the report and why,

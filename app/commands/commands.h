@@ -16,6 +16,8 @@ int run_rve(const CommonOptions& options);
 
 int run_multiscale(const CommonOptions& options);
 
+int run_calibrate(const CommonOptions& options);
+
 int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);

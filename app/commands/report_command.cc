@@ -9,6 +9,7 @@
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
 #include "results/fits/strength_data.h"
+#include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 
@@ -31,6 +32,16 @@ std::vector<std::string> report_on(const ReportOrder& order)
       if (!reference && std::filesystem::exists(folder / result_file::reference))
         reference = folder / result_file::reference;
     }
+  std::string calibration_problem;
+  if (input.one_folder)
+    try
+      {
+        input.calibration = read_calibration(order.result_folders.front());
+      }
+    catch (const InputError& error)
+      {
+        calibration_problem = error.what(); // the tests are there none the less
+      }
   for (const auto& curve : order.curves)
     input.all.push_back(read_laboratory_curve(curve));
   for (const auto& series : input.all)
@@ -51,7 +62,10 @@ std::vector<std::string> report_on(const ReportOrder& order)
   else
     input.reference_problem =
       "there is no reference file to compare with: name one by Report/Reference file, or by feldspar report --reference";
-  return write_report(input, order.output);
+  auto missing = write_report(input, order.output);
+  if (!calibration_problem.empty())
+    missing.push_back(calibration_problem);
+  return missing;
 }
 
 int run_report(const ReportOptions& options)

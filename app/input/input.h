@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibration/parameters.h"
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
@@ -76,6 +77,7 @@ struct Input
   EquilibriumParameters equilibrium;
   SampleParameters sample;
   ContinuumParameters continuum;
+  CalibrationParameters calibration;
   std::string reference_file;    ///< figures of the rock that results are set beside; empty: none
   std::string reference_results; ///< summary.json of tests on another body of the same rock; empty: none
 };

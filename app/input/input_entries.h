@@ -18,6 +18,7 @@ Entry<Input> seeds_entry();
 std::vector<Entry<ContactParameters>> contact_entries();
 Entry<ContactParameters> contact_path_entry();
 std::vector<Entry<StrainPathParameters>> strain_path_entries();
+std::vector<Entry<CalibrationParameters>> calibration_list_entries();
 Entry<Input> reference_entry();
 Entry<Input> reference_results_entry();
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "app/input/entry_parameter.h"
 #include "app/input/input_entries.h"
 #include "base/input_error.h"
+#include "calibration/entries.h"
 #include "coupling/rve/entries.h"
 #include "coupling/sample/sample_entries.h"
 #include "dem/dynamics/entries.h"
@@ -60,6 +61,8 @@ std::vector<Parameter> make_parameter_table()
   table.add("Representative volume", &Input::equilibrium, equilibrium_entries());
   table.add("Sample", &Input::sample, sample_entries());
   table.add("Continuum", &Input::continuum, continuum_entries());
+  table.add("Calibration", &Input::calibration, calibration_list_entries());
+  table.add("Calibration", &Input::calibration, calibration_entries());
   table.add("Report", {reference_entry(), reference_results_entry()});
   return table.parameters;
 }

@@ -1,6 +1,5 @@
 #include "app/run/lab_run.h"
 
-#include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
@@ -103,16 +102,14 @@ TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
   return outcome;
 }
 
-/// Runs a test from where it stands to its end or to Ctrl-C. Throws Interrupted where there is nothing to keep.
+} // namespace
+
 template <int dim>
-TestOutcome run(const PlannedTest<dim>& planned, const std::filesystem::path& checkpoint_folder,
-                const std::function<void(const CurveSample&)>& show)
+TestOutcome run_test(const TestCase& wanted, const Input& input, const Specimen<dim>& specimen,
+                     const Checkpoints& checkpoints, const std::function<void(const CurveSample&)>& show)
 {
-  const Input& input = planned.variant->input;
-  const Checkpoints checkpoints(checkpoint_folder, planned.name, planned.identity);
   LabTest<dim> test = checkpoints.open([&] {
-    return LabTest<dim>({protocol_of(planned.test.kind), planned.test.confining_pressure}, *planned.specimen,
-                        input.tests, input.dynamics);
+    return LabTest<dim>({protocol_of(wanted.kind), wanted.confining_pressure}, specimen, input.tests, input.dynamics);
   });
   CheckpointClock clock;
   const std::uint64_t interval = input.steps_between_checkpoints;
@@ -139,7 +136,6 @@ TestOutcome run(const PlannedTest<dim>& planned, const std::filesystem::path& ch
     }
   return test.finish(!test.has_ended());
 }
-} // namespace
 
 template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
@@ -160,9 +156,11 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
     TestOutcome outcome;
     try
       {
-        outcome = run(planned[k], checkpoint_folder, [&](const CurveSample& row) {
-          board.update(k, row, fmt::format(", {} cracks", row.n_tension_cracks + row.n_shear_cracks));
-        });
+        outcome =
+          run_test(planned[k].test, planned[k].variant->input, *planned[k].specimen,
+                   Checkpoints(checkpoint_folder, planned[k].name, planned[k].identity), [&](const CurveSample& row) {
+                     board.update(k, row, fmt::format(", {} cracks", row.n_tension_cracks + row.n_shear_cracks));
+                   });
       }
     catch (const Interrupted&)
       {
@@ -193,6 +191,10 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   return tests;
 }
 
+template TestOutcome run_test<2>(const TestCase&, const Input&, const Specimen<2>&, const Checkpoints&,
+                                 const std::function<void(const CurveSample&)>&);
+template TestOutcome run_test<3>(const TestCase&, const Input&, const Specimen<3>&, const Checkpoints&,
+                                 const std::function<void(const CurveSample&)>&);
 template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
                                                     const std::vector<Specimen<2>>&, const std::filesystem::path&,
                                                     Progress&);

@@ -1,16 +1,25 @@
 #pragma once
 
 #include "app/input/input.h"
+#include "app/run/checkpoints.h"
 #include "app/run/specimen_source.h"
 #include "app/screen/progress.h"
 #include "dem/specimen/specimen.h"
 #include "results/run.h"
+#include "results/test_outcome.h"
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace feldspar
 {
+/// Runs a test from where its checkpoint stands to its end or to Ctrl-C; `show` sees every row of its curve. Throws
+/// Interrupted where there is nothing to keep, and InputError where it cannot be made.
+template <int dim>
+TestOutcome run_test(const TestCase& wanted, const Input& input, const Specimen<dim>& specimen,
+                     const Checkpoints& checkpoints, const std::function<void(const CurveSample&)>& show);
+
 /// Runs the whole programme of an input on its specimens, as many tests at a time as there are threads, longest first.
 /// Each leaves its last two checkpoints in `folder`/checkpoints, by which a later call takes it up; a test that
 /// has ended is not run again. After Ctrl-C comes what is there. Results stand in the order of variants, seeds, tests.

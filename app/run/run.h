@@ -25,7 +25,7 @@ struct CommonOptions
 {
   std::filesystem::path input;
   std::vector<std::string> settings;           ///< Section/Entry = value each, in place of what the input says
-  std::optional<std::filesystem::path> resume; ///< of `lab`, `rve`, `multiscale`: the folder of a run to be taken up
+  std::optional<std::filesystem::path> resume; ///< of those that run long: the folder to be taken up
   std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
   std::optional<std::filesystem::path> output;
   bool force = false;

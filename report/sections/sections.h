@@ -2,12 +2,16 @@
 
 #include "report/page/picture_book.h"
 #include "report/sections/findings.h"
+#include "results/folder/calibration_record.h"
 
 /// The sections of the page, a file each; those with pictures keep them in the book, which draws them all at the end.
 namespace feldspar
 {
 /// Whether the model is the rock, each series beside the reference, and every warning.
 PageSection verdict_section(const Findings& findings);
+
+/// Targets and micro-parameters of a calibration.
+PageSection calibration_section(const CalibrationRecord& record, PictureBook& book);
 
 /// Strengths under confinement with the envelopes fitted to them.
 PageSection envelope_section(const Findings& findings, PictureBook& book);

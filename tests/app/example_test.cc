@@ -171,6 +171,52 @@ TEST(Documentation, ParametersAreThoseOfTheCommand)
     << "write it anew: feldspar parameters --markdown > docs/parameters.md";
 }
 
+TEST(Example, TheCalibrationsReadmeShowsTheCommittedAnswer)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/calibrate-beishan/";
+  const std::string readme = content(folder + "README.md");
+  const auto answer = nlohmann::json::parse(content(folder + "results/calibration.json"));
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+  };
+  struct Figure
+  {
+    const char* name;
+    const char* key;
+    double scale;
+    int decimals;
+  };
+  for (const auto& [name, key, scale, decimals] :
+       {Figure{"tensile strength [MPa]", "tensile_strength", 1e6, 2},
+        {"Young's modulus, tangent 40-60 % of peak [GPa]", "youngs_modulus", 1e9, 1},
+        {"Poisson's ratio, initial", "poissons_ratio", 1.0, 3},
+        {"uniaxial compressive strength [MPa]", "uniaxial_compressive_strength", 1e6, 1}})
+    {
+      const auto& target = answer["targets"][key];
+      shown(fmt::format("| {} | {} | {} ± {} | {:+.1f} % |", name, number(target["target"], scale, decimals),
+                        number(target["reached"], scale, decimals), number(target["standard_error"], scale, decimals),
+                        100.0 * target["deviation"].get<double>()));
+    }
+  for (const auto& [name, key, scale, decimals] :
+       {Figure{"modulus [GPa]", "modulus", 1e9, 1},
+        {"bond tensile strength [MPa]", "bond_tensile_strength", 1e6, 1},
+        {"bond cohesion [MPa]", "bond_cohesion", 1e6, 0},
+        {"stiffness ratio", "stiffness_ratio", 1.0, 2},
+        {"bond friction angle [deg]", "bond_friction_angle", M_PI / 180.0, 1},
+        {"friction", "friction", 1.0, 2}})
+    {
+      const auto& parameter = answer["parameters"][key];
+      shown(fmt::format("| {} | {} | {} to {} | {} |", name, number(parameter["best"], scale, decimals),
+                        number(parameter["lower_90"], scale, decimals), number(parameter["upper_90"], scale, decimals),
+                        parameter["verdict"].get<std::string>()));
+    }
+  // The input beside it is that answer.
+  EXPECT_NE(content(folder + "best.prm")
+              .find(fmt::format("set Bond tensile strength = {:.4g} MPa\n",
+                                answer["parameters"]["bond_tensile_strength"]["best"].get<double>() / 1e6)),
+            std::string::npos);
+}
+
 TEST(Example, TheInputsAreValid)
 {
   const TemporaryFolder folder;

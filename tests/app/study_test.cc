@@ -93,6 +93,11 @@ const std::vector<Piece> pieces{
    {"beishan-granite/results/rate-study.json"},
    {{"Seeds", "Seeds", "3"}, {"Variants", "Values", "1 1/s"}, no_reference}},
 
+  {"CalibratedGraniteInTension",
+   "lab",
+   "calibrate-beishan/best.prm",
+   {"calibrate-beishan/results/best.json"},
+   {{"Tests", "List", "direct_tension"}, {"Seeds", "Seeds", "131"}, no_reference}},
   {"VolumeInTension", "rve", "rve-beishan/tension.prm", {"rve-beishan/results/tension.json"}, {first_seed}},
   {"VolumeByBothBreakRules",
    "rve",

@@ -1,5 +1,5 @@
-// One direction of dependence, room by room: app -> {report, coupling} -> {results, dem, fem} -> base; dem and fem never
-// meet.
+// One direction of dependence, room by room: app -> {report, calibration, coupling} -> {results, dem, fem} -> base;
+// dem and fem never meet.
 
 #include <gtest/gtest.h>
 
@@ -38,6 +38,7 @@ const std::vector<Room> rooms = {
   {"results", {"base"}, {"dem/dynamics/energies.h", "dem/specimen/specimen_report.h"}},
   {"results/fits", {"base", "results"}},
   {"results/folder", {"base", "results", "results/fits"}},
+  {"calibration", {"base", "results", "results/fits", "results/folder"}},
   {"dem/lab", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics", "results"}},
   {"dem/lab/protocols", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics", "results", "dem/lab"}},
   {"fem/mesh", {"base"}},

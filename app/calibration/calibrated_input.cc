@@ -1,0 +1,109 @@
+#include "app/calibration/calibrated_input.h"
+
+#include "app/input/parameter_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::array<std::string_view, 7> sections_of_laboratory{
+  "Specimen", "Flat joint", "Particle contact", "Dynamics", "Tests", "Seeds", "Report"};
+
+/// b by which a ratio a : b is kept where a becomes another.
+double kept(const double a, const double b, const double new_a) { return a > 0.0 ? b * new_a / a : b; }
+
+double to_figures(const double value, const double unit)
+{
+  constexpr double figures = 4.0;
+  if (value == 0.0)
+    return value;
+  const double in_unit = value / unit;
+  const double last = std::pow(10.0, std::floor(std::log10(std::abs(in_unit))) + 1.0 - figures);
+  return std::round(in_unit / last) * last * unit;
+}
+} // namespace
+
+MicroParameters micro_parameters(const Input& input)
+{
+  const FlatJointParameters& joint = input.flat_joint;
+  return {joint.modulus,
+          joint.bond_tensile_strength,
+          joint.stiffness_ratio,
+          joint.bond_cohesion / joint.bond_tensile_strength,
+          joint.bond_friction_angle,
+          joint.friction,
+          joint.installation_gap_ratio};
+}
+
+Input with_parameters(const Input& input, const MicroParameters& parameters)
+{
+  Input result = input;
+  FlatJointParameters& joint = result.flat_joint;
+  const FlatJointParameters& before = input.flat_joint;
+  ParticleContactParameters& contact = result.particle_contact;
+  joint.modulus = parameters.modulus;
+  joint.stiffness_ratio = parameters.stiffness_ratio;
+  joint.friction = parameters.friction;
+  contact.modulus = kept(before.modulus, contact.modulus, joint.modulus);
+  contact.stiffness_ratio = kept(before.stiffness_ratio, contact.stiffness_ratio, joint.stiffness_ratio);
+  contact.friction = kept(before.friction, contact.friction, joint.friction);
+  joint.bond_tensile_strength = parameters.bond_tensile_strength;
+  joint.bond_tensile_strength_deviation =
+    kept(before.bond_tensile_strength, before.bond_tensile_strength_deviation, joint.bond_tensile_strength);
+  joint.bond_cohesion = parameters.cohesion_ratio * parameters.bond_tensile_strength;
+  joint.bond_cohesion_deviation = kept(before.bond_cohesion, before.bond_cohesion_deviation, joint.bond_cohesion);
+  joint.bond_friction_angle = parameters.bond_friction_angle;
+  if (parameters.gap)
+    {
+      joint.installation_gap_ratio = parameters.gap;
+      joint.coordination_number.reset();
+    }
+  return result;
+}
+
+std::string as_prm(const Input& input, const std::string& comment)
+{
+  std::string text;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);)
+    text += line.empty() ? "#\n" : "# " + line + "\n";
+  for (const std::string_view section : sections_of_laboratory)
+    {
+      fmt::format_to(std::back_inserter(text), "\nsubsection {}\n", section);
+      for (const Parameter& parameter : parameter_table())
+        if (parameter.section == section && has_use_for(input, parameter))
+          // The defaults of entries that only other bodies have are left out with them.
+          if (const std::string value = parameter.write(input);
+              parameter.flags.bodies.empty() || value != parameter.default_text())
+            fmt::format_to(std::back_inserter(text), "  set {} = {}\n", parameter.entry, value);
+      text += "end\n";
+    }
+  return text;
+}
+
+MicroParameters rounded(const MicroParameters& parameters)
+{
+  constexpr double degree = std::numbers::pi / 180.0;
+  MicroParameters result = parameters;
+  result.modulus = to_figures(parameters.modulus, 1e9);
+  result.bond_tensile_strength = to_figures(parameters.bond_tensile_strength, 1e6);
+  result.stiffness_ratio = to_figures(parameters.stiffness_ratio, 1.0);
+  result.cohesion_ratio =
+    to_figures(parameters.cohesion_ratio * parameters.bond_tensile_strength, 1e6) / result.bond_tensile_strength;
+  result.bond_friction_angle = to_figures(parameters.bond_friction_angle, degree);
+  result.friction = to_figures(parameters.friction, 1.0);
+  if (parameters.gap)
+    result.gap = to_figures(*parameters.gap, 1.0);
+  return result;
+}
+} // namespace feldspar

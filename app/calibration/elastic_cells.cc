@@ -1,0 +1,102 @@
+#include "app/calibration/elastic_cells.h"
+
+#include "app/calibration/calibrated_input.h"
+#include "app/run/interrupt.h"
+#include "app/run/jobs.h"
+#include "coupling/network/network.h"
+#include "coupling/rve/homogenisation.h"
+#include "dem/genesis/genesis.h"
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+std::vector<double> spread(const Bounds& bounds, const std::size_t n)
+{
+  std::vector<double> values;
+  for (std::size_t k = 0; k < n; ++k)
+    values.push_back(bounds.lower * std::pow(bounds.upper / bounds.lower, double(k) / double(n - 1)));
+  return values;
+}
+
+template <int dim>
+Specimen<dim> make(const Input& input, const std::uint64_t seed)
+{
+  return make_specimen<dim>(
+    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
+    end_if_interrupted);
+}
+
+/// The same rock as a periodic cell.
+Input cell_of(const Input& input)
+{
+  constexpr double n_grains = 900.0; // the constants of a cell then scatter by a per cent (docs/theory.md §3)
+  Input cell = input;
+  cell.specimen.shape = "periodic";
+  const double present = expected_grains(cell.specimen) / (cell.specimen.width * cell.specimen.height *
+                                                           (cell.specimen.dimension == 3 ? cell.specimen.width : 1.0));
+  cell.specimen.width = std::pow(n_grains / present, 1.0 / double(cell.specimen.dimension));
+  cell.specimen.height = cell.specimen.width;
+  return cell;
+}
+} // namespace
+
+template <int dim>
+ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
+                               const std::optional<Bounds>& gap, const double gap_of_specimens)
+{
+  constexpr std::size_t n_packings = 3;
+  constexpr std::size_t n_ratios = 17;
+  constexpr std::size_t n_gaps = 9;
+  const Input cell = cell_of(input);
+  std::vector<Specimen<dim>> packings(n_packings);
+  for_each_job(n_packings, [&](const std::size_t k) { packings[k] = make<dim>(cell, k + 1); });
+
+  const std::vector<double> ratios =
+    stiffness_ratio ? spread(*stiffness_ratio, n_ratios) : std::vector{input.flat_joint.stiffness_ratio};
+  const std::vector<double> gaps = gap ? spread(*gap, n_gaps) : std::vector{gap_of_specimens};
+  using Constants = ElasticTable::Constants;
+  std::vector<std::vector<Constants>> constants(gaps.size(), std::vector<Constants>(ratios.size()));
+  for_each_job(gaps.size() * ratios.size(), [&](const std::size_t job) {
+    end_if_interrupted();
+    const std::size_t g = job / ratios.size();
+    const std::size_t r = job % ratios.size();
+    MicroParameters parameters = micro_parameters(cell);
+    parameters.stiffness_ratio = ratios[r];
+    parameters.gap = gaps[g];
+    const Input rock = with_parameters(cell, parameters);
+    Constants mean{0.0, 0.0};
+    for (const Specimen<dim>& packing : packings)
+      {
+        Specimen<dim> specimen = packing;
+        specimen.joints = {};
+        specimen.particle_contact = rock.particle_contact;
+        install_joints(specimen, rock.flat_joint);
+        const IsotropicConstants of_cell = isotropic_constants<dim>(Network<dim>(specimen).intact_stiffness());
+        mean.modulus_ratio += of_cell.youngs_modulus / rock.flat_joint.modulus / double(n_packings);
+        mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
+      }
+    constants[g][r] = mean;
+  });
+  return {ratios, gaps, constants};
+}
+
+template <int dim>
+double installation_gap(const Input& input, const std::uint64_t seed)
+{
+  if (input.flat_joint.installation_gap_ratio)
+    return *input.flat_joint.installation_gap_ratio;
+  return make<dim>(input, seed).report.installation_gap_ratio;
+}
+
+template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
+                                           double);
+template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
+                                           double);
+template double installation_gap<2>(const Input&, std::uint64_t);
+template double installation_gap<3>(const Input&, std::uint64_t);
+} // namespace feldspar

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "calibration/elastic_table.h"
+#include "calibration/parameters.h"
+
+#include <optional>
+
+namespace feldspar
+{
+/// Elastic constants of the input's rock from intact periodic cells of some 900 grains: the mean of three packings for
+/// each stiffness ratio between the bounds, and each gap between them (or the one given). Without bounds: of the input's
+/// own ratio.
+template <int dim>
+ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
+                               const std::optional<Bounds>& gap, double gap_of_specimens);
+
+/// The gap of a specimen of the input; of one that asks for a coordination number, what genesis finds for it.
+template <int dim>
+double installation_gap(const Input& input, std::uint64_t seed);
+} // namespace feldspar

@@ -1,0 +1,161 @@
+#include "app/calibration/tested_points.h"
+
+#include "app/calibration/calibrated_input.h"
+#include "app/run/interrupt.h"
+#include "app/run/jobs.h"
+#include "app/run/lab_run.h"
+#include "app/run/run_record.h"
+#include "base/input_error.h"
+#include "base/json_text.h"
+#include "base/whole_file.h"
+#include "dem/genesis/genesis.h"
+#include "dem/lab/protocols/protocols.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <set>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using Values = std::vector<std::optional<double>>;
+
+/// What stands in the file of a point, if it is of this point, program and input.
+std::optional<Values> read_values(const std::filesystem::path& file, const std::string& identity, const std::size_t n)
+{
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    return std::nullopt;
+  const auto json = nlohmann::ordered_json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
+  if (!json.is_object() || !json.contains("identity") || json["identity"] != identity || !json.contains("values") ||
+      !json["values"].is_array() || json["values"].size() != n)
+    return std::nullopt; // torn, or of another program: it is made again
+  Values values;
+  for (const auto& value : json["values"])
+    {
+      if (!value.is_number() && !value.is_null())
+        return std::nullopt;
+      values.push_back(value.is_number() ? std::optional(value.get<double>()) : std::nullopt);
+    }
+  return values;
+}
+
+void write_values(const std::filesystem::path& file, const std::string& identity, const Values& values)
+{
+  nlohmann::ordered_json json{{"identity", identity}, {"values", nlohmann::ordered_json::array()}};
+  for (const auto& value : values)
+    json["values"].push_back(value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json());
+  write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+/// Of several points at a time, by the tests that are done.
+class PointBoard
+{
+public:
+  PointBoard(Progress& shown, const std::size_t n_tests)
+    : progress(shown)
+    , n(n_tests)
+  {
+  }
+
+  void finish(const std::size_t n_tests)
+  {
+    const std::lock_guard lock(showing);
+    n_done += n_tests;
+    progress.update(double(n_done) / double(n), fmt::format("{} of {} tests", n_done, n));
+  }
+
+private:
+  Progress& progress;
+  std::mutex showing;
+  std::size_t n;
+  std::size_t n_done = 0;
+};
+} // namespace
+
+std::string PointOrder::name() const
+{
+  std::string words = stage;
+  std::replace(words.begin(), words.end(), ' ', '_');
+  return fmt::format("{}_{}_seed_{}", words, number, seed);
+}
+
+template <int dim>
+std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
+                                     const std::vector<PointOrder>& orders, const std::filesystem::path& folder,
+                                     Progress& progress)
+{
+  const std::filesystem::path kept = folder / "calibration";
+  const std::filesystem::path checkpoints = folder / "checkpoints";
+  std::filesystem::create_directories(kept);
+  std::filesystem::create_directories(checkpoints);
+  const std::vector<TestCase> programme = test_cases(input.test_list, input.confinements);
+  std::vector<TestedPoint> tested(orders.size());
+  PointBoard board(progress, orders.size() * programme.size());
+  for_each_job(orders.size(), [&](const std::size_t k) {
+    const PointOrder& order = orders[k];
+    tested[k] = {order.stage, order.number, order.seed, order.point, order.parameters, {}};
+    const Input rock = with_parameters(input, order.parameters);
+    const std::string identity = run_identity(rock, order.name());
+    const auto file = kept / (order.name() + ".json");
+    if (auto values = read_values(file, identity, responses.size()))
+      {
+        tested[k].values = std::move(*values);
+        board.finish(programme.size());
+        return;
+      }
+    end_if_interrupted();
+    std::vector<FinishedTest> finished_tests;
+    const auto name_of = [&](const TestCase& test) { return fmt::format("{}_{}", order.name(), name(test)); };
+    try
+      {
+        const auto specimen = make_specimen<dim>(
+          rock.specimen, rock.flat_joint, rock.particle_contact, order.seed, [](std::string_view, double) {},
+          end_if_interrupted);
+        for (const TestCase& test : programme)
+          {
+            try
+              {
+                const std::string full_name = name_of(test);
+                TestOutcome outcome =
+                  run_test(test, rock, specimen, Checkpoints(checkpoints, full_name, run_identity(rock, full_name)),
+                           [](const CurveSample&) {});
+                end_if_interrupted();
+                finished_tests.push_back(finished(std::move(outcome), name(test), full_name, ""));
+              }
+            catch (const InputError&)
+              {
+                // These parameters cannot bear the test, such as its confinement: a point without that figure.
+              }
+            board.finish(1);
+          }
+      }
+    catch (const InputError&)
+      {
+        board.finish(programme.size()); // no specimen can be made of them
+      }
+    tested[k].values = values_of(responses, finished_tests);
+    write_values(file, identity, tested[k].values);
+    for (const TestCase& test : programme)
+      for (const char* const ending : {".h5", ".previous.h5"})
+        std::filesystem::remove(checkpoints / (name_of(test) + ending));
+  });
+  return tested;
+}
+
+template std::vector<TestedPoint> test_points<2>(const Input&, const std::vector<Response>&,
+                                                 const std::vector<PointOrder>&, const std::filesystem::path&,
+                                                 Progress&);
+template std::vector<TestedPoint> test_points<3>(const Input&, const std::vector<Response>&,
+                                                 const std::vector<PointOrder>&, const std::filesystem::path&,
+                                                 Progress&);
+} // namespace feldspar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "app/screen/progress.h"
+#include "calibration/response_model.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// A set of parameters to be tested on a packing.
+struct PointOrder
+{
+  std::string stage;
+  std::size_t number; ///< within its stage
+  std::uint64_t seed;
+  UnitPoint point;
+  MicroParameters parameters;
+
+  std::string name() const;
+};
+
+/// Runs the programme of the input on each, as many at a time as there are threads, by the same code as `feldspar lab`.
+/// What has come out stands in folder/calibration, a file each, and is not made again; a test that was broken off is
+/// taken up from its checkpoint. Throws Interrupted.
+template <int dim>
+std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
+                                     const std::vector<PointOrder>& orders, const std::filesystem::path& folder,
+                                     Progress& progress);
+} // namespace feldspar

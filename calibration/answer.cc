@@ -1,0 +1,324 @@
+#include "calibration/answer.h"
+
+#include "calibration/posterior.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+/// Of the posterior's walk: the unknowns, then those scales that are free.
+class Coordinates
+{
+public:
+  Coordinates(const std::size_t n_unknowns, const FitFreedom& freedom, const Place& start)
+    : n(n_unknowns)
+    , has_modulus(freedom.modulus)
+    , has_strength(freedom.strength)
+    , fixed(start)
+  {
+  }
+
+  std::size_t size() const { return n + std::size_t(has_modulus) + std::size_t(has_strength); }
+
+  std::vector<double> of(const Place& place) const
+  {
+    std::vector<double> x = place.point;
+    if (has_modulus)
+      x.push_back(place.log_modulus);
+    if (has_strength)
+      x.push_back(place.log_strength);
+    return x;
+  }
+
+  Place place(const std::vector<double>& x) const
+  {
+    Place result = fixed;
+    result.point.assign(x.begin(), x.begin() + std::ptrdiff_t(n));
+    if (has_modulus)
+      result.log_modulus = x[n];
+    if (has_strength)
+      result.log_strength = x[n + std::size_t(has_modulus)];
+    return result;
+  }
+
+private:
+  std::size_t n;
+  bool has_modulus;
+  bool has_strength;
+  Place fixed;
+};
+
+/// Variance of the difference between prediction and target, in the model's measure.
+double variance(const ResponseModel& model, const Target& target, const UnitPoint& point)
+{
+  const double of_rock = target.deviation / target.value * model.response(target.response).per_share(target.value);
+  return std::pow(of_rock, 2) + std::pow(model.deviation(target.response, point), 2);
+}
+
+double log_density(const ResponseModel& model, const std::vector<Target>& targets, const Place& place)
+{
+  double sum = 0.0;
+  for (const Target& target : targets)
+    {
+      const double spread = variance(model, target, place.point);
+      const double difference =
+        model.predict(target.response, place) - model.response(target.response).in_model(target.value);
+      sum -= 0.5 * (difference * difference / spread + std::log(spread));
+    }
+  return sum;
+}
+
+/// Of the normal distribution that is near the posterior at its best place: (Jᵀ W J + prior)⁻¹, by central differences.
+std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, const std::vector<Target>& targets,
+                                                   const Coordinates& coordinates, const Place& best)
+{
+  const std::size_t n = coordinates.size();
+  const std::size_t n_unknowns = model.unknowns().size();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(Eigen::Index(n), Eigen::Index(n));
+  for (std::size_t k = 0; k < n; ++k)
+    information(Eigen::Index(k), Eigen::Index(k)) = k < n_unknowns ? 12.0 : 1.0; // even over the unit; a factor of e
+  for (const Target& target : targets)
+    {
+      Eigen::VectorXd slope(static_cast<Eigen::Index>(n));
+      const std::vector<double> centre = coordinates.of(best);
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          constexpr double step = 1e-3;
+          std::vector<double> x = centre;
+          x[k] += step;
+          const double above = model.predict(target.response, coordinates.place(x));
+          x[k] -= 2.0 * step;
+          slope[Eigen::Index(k)] = (above - model.predict(target.response, coordinates.place(x))) / (2.0 * step);
+        }
+      information += slope * slope.transpose() / variance(model, target, best.point);
+    }
+  const Eigen::MatrixXd covariance = information.inverse();
+  std::vector<std::vector<double>> result(n, std::vector<double>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      result[i][k] = covariance(Eigen::Index(i), Eigen::Index(k));
+  return result;
+}
+
+/// A quantity of a place that is reported.
+struct Quantity
+{
+  std::string name, title, unit;
+  double unit_size;
+  std::function<double(const MicroParameters&)> value; ///< [SI]
+  std::optional<Bounds> bounds;
+  bool logarithmic;
+};
+
+std::vector<Quantity> quantities(const ResponseModel& model, const FitFreedom& freedom)
+{
+  constexpr double giga = 1e9;
+  constexpr double mega = 1e6;
+  std::vector<Quantity> all;
+  if (freedom.modulus)
+    all.push_back({"modulus", "modulus", "GPa", giga, [](const MicroParameters& p) { return p.modulus; }, {}, true});
+  if (freedom.strength)
+    all.push_back({"bond_tensile_strength",
+                   "bond tensile strength",
+                   "MPa",
+                   mega,
+                   [](const MicroParameters& p) { return p.bond_tensile_strength; },
+                   {},
+                   true});
+  bool has_cohesion = freedom.strength;
+  for (const Unknown& unknown : model.unknowns())
+    {
+      all.push_back({unknown.name, unknown.title, unknown.unit, unknown.unit_size,
+                     [unknown](const MicroParameters& p) { return unknown.member ? p.*unknown.member : *p.gap; },
+                     unknown.bounds, unknown.logarithmic});
+      has_cohesion |= unknown.name == "cohesion_ratio";
+    }
+  if (has_cohesion)
+    all.push_back({"bond_cohesion",
+                   "bond cohesion",
+                   "MPa",
+                   mega,
+                   [](const MicroParameters& p) { return p.cohesion_ratio * p.bond_tensile_strength; },
+                   {},
+                   true});
+  return all;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b)
+{
+  const double n = double(a.size());
+  double mean_a = 0.0;
+  double mean_b = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      mean_a += a[i] / n;
+      mean_b += b[i] / n;
+    }
+  double aa = 0.0;
+  double bb = 0.0;
+  double ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      aa += (a[i] - mean_a) * (a[i] - mean_a);
+      bb += (b[i] - mean_b) * (b[i] - mean_b);
+      ab += (a[i] - mean_a) * (b[i] - mean_b);
+    }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+/// The share of what the bounds allow. A scale has no bounds: its own range is taken as a factor of two to each side.
+double share_of_bounds(const Quantity& quantity, const double lower, const double upper)
+{
+  constexpr double middle_90 = 0.9; // of an even distribution
+  const auto measure = [&](const double value) { return quantity.logarithmic ? std::log(value) : value; };
+  const double range =
+    quantity.bounds ? measure(quantity.bounds->upper) - measure(quantity.bounds->lower) : 2.0 * std::numbers::ln2;
+  return (measure(upper) - measure(lower)) / (middle_90 * range);
+}
+
+Verdict verdict_of(const double share)
+{
+  constexpr double of_determined = 0.25;
+  constexpr double of_bounded = 0.75;
+  return share <= of_determined ? Verdict::determined
+         : share <= of_bounded  ? Verdict::bounded
+                                : Verdict::not_determined;
+}
+
+/// In the unit of tables, to three figures.
+std::string shown(const ParameterAnswer& answer, const double value)
+{
+  return fmt::format("{:.3g}", value / answer.unit_size);
+}
+
+std::string sentence_of(const ParameterAnswer& answer, const std::string& helpful_title)
+{
+  const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
+  std::string text =
+    fmt::format("The {} is {} by these tests: 90 % of what agrees with them lies between {} and {}{}", answer.title,
+                words(answer.verdict), shown(answer, answer.lower_90), shown(answer, answer.upper_90), unit);
+  if (answer.verdict == Verdict::determined)
+    return text + ".";
+  return text + (helpful_title.empty() ? "; no other test of the programme would tell more of it."
+                                       : fmt::format("; a measured {} would help most.", helpful_title));
+}
+} // namespace
+
+std::string words(const Verdict verdict)
+{
+  return verdict == Verdict::determined ? "determined" : verdict == Verdict::bounded ? "bounded" : "not determined";
+}
+
+double quantile(std::vector<double> values, const double share)
+{
+  std::sort(values.begin(), values.end());
+  const double place = share * double(values.size() - 1);
+  const auto below = std::size_t(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - double(below)) * (values[above] - values[below]);
+}
+
+Posterior posterior(const ResponseModel& model, const std::vector<Target>& targets, const FitFreedom& freedom,
+                    const Place& best, const std::size_t n_samples, const std::uint64_t seed)
+{
+  const std::size_t n_unknowns = model.unknowns().size();
+  const Coordinates coordinates(n_unknowns, freedom, best);
+  std::vector<double> lower(n_unknowns, 0.0);
+  std::vector<double> upper(n_unknowns, 1.0);
+  constexpr double far = 3.0; // a factor of 20 to each side
+  for (std::size_t k = n_unknowns; k < coordinates.size(); ++k)
+    {
+      lower.push_back(coordinates.of(best)[k] - far);
+      upper.push_back(coordinates.of(best)[k] + far);
+    }
+  std::vector<double> start = coordinates.of(best);
+  constexpr double off_the_bounds = 1e-6;
+  for (std::size_t k = 0; k < n_unknowns; ++k)
+    start[k] = std::clamp(start[k], off_the_bounds, 1.0 - off_the_bounds);
+
+  Posterior result;
+  for (const auto& x :
+       metropolis([&](const auto& at) { return log_density(model, targets, coordinates.place(at)); }, lower, upper,
+                  start, nearby_covariance(model, targets, coordinates, best), n_samples, seed))
+    result.samples.push_back(coordinates.place(x));
+
+  std::vector<std::vector<double>> responses(model.n_responses()); // in the model's measure
+  for (std::size_t j = 0; j < model.n_responses(); ++j)
+    if (model.knows(j))
+      {
+        for (const Place& place : result.samples)
+          responses[j].push_back(model.predict(j, place));
+        const Response& response = model.response(j);
+        // The surrogate's own error, taken at the best place.
+        constexpr double normal_90 = 1.644854;
+        const double error = normal_90 * model.deviation(j, best.point);
+        const double median = quantile(responses[j], 0.5);
+        const double below = std::hypot(median - quantile(responses[j], 0.05), error);
+        const double above = std::hypot(quantile(responses[j], 0.95) - median, error);
+        result.predictions.push_back(
+          {j, response.in_si(median), response.in_si(median - below), response.in_si(median + above)});
+      }
+
+  const MicroParameters at_best = model.parameters(best);
+  for (const Quantity& quantity : quantities(model, freedom))
+    {
+      std::vector<double> values;
+      std::vector<double> measured;
+      for (const Place& place : result.samples)
+        {
+          values.push_back(quantity.value(model.parameters(place)));
+          measured.push_back(quantity.logarithmic ? std::log(values.back()) : values.back());
+        }
+      ParameterAnswer answer{quantity.name,
+                             quantity.title,
+                             quantity.unit,
+                             quantity.unit_size,
+                             quantity.value(at_best),
+                             quantile(values, 0.5),
+                             quantile(values, 0.05),
+                             quantile(values, 0.95),
+                             quantity.bounds,
+                             0.0,
+                             Verdict::not_determined,
+                             "",
+                             ""};
+      answer.share_of_bounds = share_of_bounds(quantity, answer.lower_90, answer.upper_90);
+      answer.verdict = verdict_of(answer.share_of_bounds);
+      // A test helps by what it shares with the parameter, less what its own error of measurement would hide.
+      double most = 0.1; // of the variance; less is no help
+      std::string helpful_title;
+      for (std::size_t j = 0; j < model.n_responses(); ++j)
+        {
+          const bool is_target =
+            std::any_of(targets.begin(), targets.end(), [&](const Target& target) { return target.response == j; });
+          if (is_target || responses[j].empty())
+            continue;
+          const double error = model.deviation(j, best.point);
+          double spread = 0.0;
+          const double middle = quantile(responses[j], 0.5);
+          for (const double value : responses[j])
+            spread += (value - middle) * (value - middle) / double(responses[j].size());
+          const double told =
+            std::pow(correlation(measured, responses[j]), 2) * spread / std::max(spread + error * error, 1e-30);
+          if (told > most)
+            {
+              most = told;
+              answer.helpful_test = model.response(j).name;
+              helpful_title = model.response(j).title;
+            }
+        }
+      answer.sentence = sentence_of(answer, helpful_title);
+      result.parameters.push_back(answer);
+    }
+  return result;
+}
+} // namespace feldspar

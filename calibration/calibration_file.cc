@@ -1,0 +1,199 @@
+#include "calibration/calibration_file.h"
+
+#include "base/whole_file.h"
+#include "results/folder/provenance_json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+
+namespace feldspar
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+std::string si_unit(const Response& response) { return response.unit.empty() ? "1" : "Pa"; }
+
+std::string si_unit(const ParameterAnswer& answer)
+{
+  return answer.unit.empty() ? "1" : answer.unit == "deg" ? "rad" : "Pa";
+}
+
+Json as_json(const TargetOutcome& outcome, const Response& response, const double tolerance)
+{
+  Json json{{"title", response.title},
+            {"unit", si_unit(response)},
+            {"target", outcome.target.value},
+            {"target_standard_deviation", outcome.target.deviation},
+            {"target_standard_deviation_is", outcome.target.source},
+            {"reached", outcome.value()}};
+  if (outcome.reached && outcome.reached->standard_error)
+    json["standard_error"] = *outcome.reached->standard_error;
+  else
+    {
+      json["standard_error"] = nullptr;
+      json["standard_error_reason"] = "it was not tested on two packings or more; `reached` is the prediction";
+    }
+  json["n_packings"] = outcome.reached ? outcome.reached->n : 0;
+  if (outcome.reached && outcome.reached->standard_deviation)
+    json["standard_deviation_over_packings"] = *outcome.reached->standard_deviation;
+  json["deviation"] = outcome.deviation();
+  json["within_tolerance"] = std::abs(outcome.deviation()) <= tolerance;
+  return json;
+}
+
+Json as_json(const ParameterAnswer& answer)
+{
+  Json json{{"title", answer.title},   {"unit", si_unit(answer)},     {"best", answer.best},
+            {"median", answer.median}, {"lower_90", answer.lower_90}, {"upper_90", answer.upper_90}};
+  if (answer.bounds)
+    json["bounds"] = {answer.bounds->lower, answer.bounds->upper};
+  json["share_of_bounds"] = answer.share_of_bounds;
+  json["verdict"] = words(answer.verdict);
+  if (!answer.helpful_test.empty())
+    json["helpful_test"] = answer.helpful_test;
+  json["sentence"] = answer.sentence;
+  return json;
+}
+
+std::string design_table(const ResponseModel& model, const std::vector<TestedPoint>& tested)
+{
+  std::string text = "stage,point,seed,modulus_Pa,bond_tensile_strength_Pa,bond_cohesion_Pa,stiffness_ratio,"
+                     "bond_friction_angle_rad,friction,installation_gap_ratio";
+  for (std::size_t j = 0; j < model.n_responses(); ++j)
+    text += fmt::format(",{}{}", model.response(j).name, model.response(j).unit.empty() ? "" : "_Pa");
+  text += '\n';
+  for (const TestedPoint& one : tested)
+    {
+      const MicroParameters& p = one.parameters;
+      fmt::format_to(std::back_inserter(text), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}", one.stage,
+                     one.number, one.seed, p.modulus, p.bond_tensile_strength,
+                     p.cohesion_ratio * p.bond_tensile_strength, p.stiffness_ratio, p.bond_friction_angle, p.friction,
+                     p.gap ? fmt::format("{:.9g}", *p.gap) : "");
+      for (const auto& value : one.values)
+        text += value ? fmt::format(",{:.9g}", *value) : ",";
+      text += '\n';
+    }
+  return text;
+}
+
+std::string posterior_table(const CalibrationOutcome& outcome, const ResponseModel& model)
+{
+  std::string text = "modulus_Pa,bond_tensile_strength_Pa,bond_cohesion_Pa";
+  for (const Unknown& unknown : model.unknowns())
+    text += fmt::format(",{}{}", unknown.name, unknown.unit == "deg" ? "_rad" : "");
+  text += '\n';
+  for (const Place& place : outcome.posterior.samples)
+    {
+      const MicroParameters p = model.parameters(place);
+      fmt::format_to(std::back_inserter(text), "{:.7g},{:.7g},{:.7g}", p.modulus, p.bond_tensile_strength,
+                     p.cohesion_ratio * p.bond_tensile_strength);
+      for (std::size_t k = 0; k < model.unknowns().size(); ++k)
+        fmt::format_to(std::back_inserter(text), ",{:.7g}", model.unknowns()[k].value(place.point[k]));
+      text += '\n';
+    }
+  return text;
+}
+} // namespace
+
+void write_calibration(const Provenance& made_by, const CalibrationOutcome& outcome, const ResponseModel& model,
+                       const std::vector<TestedPoint>& tested, const std::filesystem::path& folder)
+{
+  Json json = as_json(made_by);
+  json["rock"] = outcome.rock;
+  json["has_reached"] = outcome.has_reached;
+  json["statement"] = outcome.statement;
+  json["tolerance"] = outcome.tolerance;
+  json["targets"] = Json::object();
+  for (const TargetOutcome& target : outcome.targets)
+    {
+      const Response& response = model.response(target.target.response);
+      json["targets"][response.name] = as_json(target, response, outcome.tolerance);
+    }
+  json["parameters"] = Json::object();
+  for (const ParameterAnswer& answer : outcome.posterior.parameters)
+    json["parameters"][answer.name] = as_json(answer);
+  json["predictions"] = Json::object();
+  for (const PredictedResponse& predicted : outcome.posterior.predictions)
+    {
+      const Response& response = model.response(predicted.response);
+      json["predictions"][response.name] = {{"title", response.title},
+                                            {"unit", si_unit(response)},
+                                            {"median", predicted.median},
+                                            {"lower_90", predicted.lower_90},
+                                            {"upper_90", predicted.upper_90}};
+    }
+  json["sensitivities"] = Json::object();
+  for (const auto& [name, indices] : outcome.sensitivities)
+    for (std::size_t k = 0; k < model.unknowns().size(); ++k)
+      json["sensitivities"][name][model.unknowns()[k].name] = {{"first_order", indices.first_order[k]},
+                                                               {"total", indices.total[k]}};
+  Json& learnt = json["surrogates"] = Json::object();
+  for (std::size_t j = 0; j < model.n_responses(); ++j)
+    if (model.knows(j))
+      {
+        Json& one = learnt[model.response(j).name];
+        one["noise_of_a_value"] = model.noise(j);
+        one["correction"] = model.correction(j);
+        if (model.scatter(j))
+          one["scatter_of_packings"] = *model.scatter(j);
+        one["is_of"] = model.response(j).scale == ResponseScale::none ? "the figure" : "its logarithm";
+      }
+  json["strain_scale_effects"] = outcome.scale_effects;
+  if (outcome.modulus_of_specimens_over_cells)
+    json["modulus_of_specimens_over_cells"] = *outcome.modulus_of_specimens_over_cells;
+  json["n_steps"] = outcome.n_steps;
+  write_whole_file(folder / calibration_file::answer, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(folder / calibration_file::design, design_table(model, tested));
+  write_whole_file(folder / calibration_file::posterior, posterior_table(outcome, model));
+}
+
+std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model)
+{
+  std::string text;
+  text += fmt::format("{:44} {:>10} {:>19} {:>10}\n", "", "target", "reached", "deviation");
+  for (const TargetOutcome& target : outcome.targets)
+    {
+      const Response& response = model.response(target.target.response);
+      const auto shown = [&](const double value) {
+        return fmt::format("{:.{}f}", value / response.unit_size, response.decimals);
+      };
+      std::string reached = shown(target.value());
+      if (target.reached && target.reached->standard_error)
+        reached += fmt::format(" +- {}", shown(*target.reached->standard_error));
+      text +=
+        fmt::format("{:44} {:>10} {:>19} {:>9.1f}%\n",
+                    response.unit.empty() ? response.title : fmt::format("{} [{}]", response.title, response.unit),
+                    shown(target.target.value), reached, 100.0 * target.deviation());
+    }
+  text += fmt::format("\n{:44} {:>10} {:>10} {:>19}  {}\n", "", "best", "median", "90 % interval", "verdict");
+  for (const ParameterAnswer& answer : outcome.posterior.parameters)
+    {
+      const auto shown = [&](const double value) { return fmt::format("{:.3g}", value / answer.unit_size); };
+      text +=
+        fmt::format("{:44} {:>10} {:>10} {:>19}  {}\n",
+                    answer.unit.empty() ? answer.title : fmt::format("{} [{}]", answer.title, answer.unit),
+                    shown(answer.best), shown(answer.median),
+                    fmt::format("{} to {}", shown(answer.lower_90), shown(answer.upper_90)), words(answer.verdict));
+    }
+  text += '\n';
+  for (const ParameterAnswer& answer : outcome.posterior.parameters)
+    text += answer.sentence + "\n";
+  if (!outcome.scale_effects.empty())
+    {
+      text += "\nHalf as much bond strength again at the same modulus changed, over that strength and on one packing,";
+      const char* comma = "";
+      for (const auto& [name, effect] : outcome.scale_effects)
+        {
+          text += fmt::format("{} {} by {:+.1f} %", comma, name, 100.0 * effect);
+          comma = ",";
+        }
+      text += ".\n";
+    }
+  return text + "\n" + outcome.statement + "\n";
+}
+} // namespace feldspar

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "calibration/answer.h"
+#include "calibration/response_model.h"
+#include "results/run.h"
+#include "results/statistics.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a calibration leaves in its folder beside the tests of its answer.
+namespace feldspar
+{
+/// Files of a calibration that more than one place names.
+namespace calibration_file
+{
+inline constexpr const char* answer = "calibration.json";
+inline constexpr const char* design = "design.csv";
+inline constexpr const char* posterior = "posterior.csv";
+inline constexpr const char* best = "best.prm";
+inline constexpr const char* nearest = "nearest.prm"; ///< where the targets cannot be reached
+} // namespace calibration_file
+
+/// A target and the tests of the answer.
+struct TargetOutcome
+{
+  Target target;
+  std::optional<Statistics> reached; ///< over packings that no choice was made by [SI]; else by the model
+  double predicted;                  ///< [SI]
+
+  double value() const { return reached ? reached->mean : predicted; }
+  double deviation() const { return value() / target.value - 1.0; }
+};
+
+struct CalibrationOutcome
+{
+  std::string rock;
+  std::string statement; ///< in a sentence
+  bool has_reached = false;
+  double tolerance = 0.0;
+  std::vector<TargetOutcome> targets;
+  Posterior posterior;
+  std::map<std::string, SobolIndices> sensitivities;     ///< by response, over the unknowns
+  std::map<std::string, double> scale_effects;           ///< relative, of half as much strain again
+  std::optional<double> modulus_of_specimens_over_cells; ///< initial Young's modulus, mean of the design
+  std::size_t n_steps = 0;
+  MicroParameters best{};
+};
+
+/// Writes calibration.json, design.csv and posterior.csv.
+void write_calibration(const Provenance& made_by, const CalibrationOutcome& outcome, const ResponseModel& model,
+                       const std::vector<TestedPoint>& tested, const std::filesystem::path& folder);
+
+/// For a terminal: targets, then parameters, then a sentence each.
+std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model);
+} // namespace feldspar

@@ -1,0 +1,121 @@
+#include "calibration/fit.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double weight_of_middle = 0.1; // its square beside 1 for a deviation of one tolerance
+
+Place place_of(const double* x, const std::size_t n) { return {UnitPoint(x, x + n), x[n], x[n + 1]}; }
+
+/// Deviations over the tolerance, then distances from the middle.
+struct Residuals
+{
+  const ResponseModel& model;
+  const std::vector<Target>& targets;
+  std::vector<double> widths; ///< of the targets, in the model's measure
+
+  bool operator()(const double* const* parameters, double* residuals) const
+  {
+    const std::size_t n = model.unknowns().size();
+    const Place place = place_of(parameters[0], n);
+    for (std::size_t t = 0; t < targets.size(); ++t)
+      {
+        const Response& response = model.response(targets[t].response);
+        residuals[t] = (model.predict(targets[t].response, place) - response.in_model(targets[t].value)) / widths[t];
+      }
+    for (std::size_t k = 0; k < n; ++k)
+      residuals[targets.size() + k] = weight_of_middle * (place.point[k] - 0.5);
+    return true;
+  }
+};
+
+struct Solution
+{
+  std::vector<double> x;
+  double cost;
+};
+
+Solution solve(const Residuals& residuals, std::vector<double> x, const FitFreedom& freedom)
+{
+  const std::size_t n = residuals.model.unknowns().size();
+  ceres::NumericDiffOptions steps;
+  steps.relative_step_size = 1e-5;
+  // The residuals outlive the problem.
+  auto* const cost = new ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL>(
+    &residuals, ceres::DO_NOT_TAKE_OWNERSHIP, steps); // owned by the problem
+  cost->AddParameterBlock(int(n + 2));
+  cost->SetNumResiduals(int(residuals.targets.size() + n));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, x.data());
+  std::vector<int> constant;
+  if (!freedom.modulus)
+    constant.push_back(int(n));
+  if (!freedom.strength)
+    constant.push_back(int(n + 1));
+  for (std::size_t k = 0; k < n; ++k)
+    {
+      problem.SetParameterLowerBound(x.data(), int(k), std::max(0.0, freedom.centre[k] - freedom.half_width));
+      problem.SetParameterUpperBound(x.data(), int(k), std::min(1.0, freedom.centre[k] + freedom.half_width));
+    }
+  if (!constant.empty() && constant.size() < n + 2)
+    problem.SetManifold(x.data(), new ceres::SubsetManifold(int(n + 2), constant));
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1; // the same bits for any number of threads
+  options.max_num_iterations = 60;
+  options.function_tolerance = 1e-8;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return {x, summary.final_cost};
+}
+} // namespace
+
+Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, const double tolerance,
+             const FitFreedom& freedom, const Place& start)
+{
+  const std::size_t n = model.unknowns().size();
+  Residuals residuals{model, targets, {}};
+  for (const Target& target : targets)
+    residuals.widths.push_back(std::hypot(tolerance * model.response(target.response).per_share(target.value),
+                                          model.deviation(target.response, start.point)));
+  std::vector<UnitPoint> starts{start.point};
+  constexpr std::size_t n_starts = 6;
+  constexpr std::uint64_t seed_of_starts = 1;
+  for (const UnitPoint& point : sobol_points(n_starts, n, seed_of_starts))
+    {
+      starts.push_back(point);
+      for (std::size_t k = 0; k < n; ++k)
+        starts.back()[k] = std::clamp(freedom.centre[k] + freedom.half_width * (2.0 * point[k] - 1.0), 0.0, 1.0);
+    }
+  std::optional<Solution> best;
+  for (const UnitPoint& point : starts)
+    {
+      std::vector<double> x(point);
+      for (std::size_t k = 0; k < n; ++k)
+        x[k] = std::clamp(x[k], std::max(0.0, freedom.centre[k] - freedom.half_width),
+                          std::min(1.0, freedom.centre[k] + freedom.half_width));
+      x.push_back(start.log_modulus);
+      x.push_back(start.log_strength);
+      const Solution found = solve(residuals, x, freedom);
+      if (!best || found.cost < best->cost)
+        best = found;
+    }
+  Fit fit{place_of(best->x.data(), n), 0.0, {}};
+  for (const Target& target : targets)
+    {
+      const Response& response = model.response(target.response);
+      const double deviation = response.in_si(model.predict(target.response, fit.place)) / target.value - 1.0;
+      fit.deviations.push_back(deviation);
+      fit.misfit += std::pow(deviation / tolerance, 2);
+    }
+  return fit;
+}
+} // namespace feldspar

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "calibration/elastic_table.h"
+#include "calibration/responses.h"
+#include "calibration/surrogate.h"
+#include "calibration/unknowns.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What came out of the tests of one set of parameters on one packing.
+struct TestedPoint
+{
+  std::string stage; ///< design, scale, step 1, ...
+  std::size_t number = 0;
+  std::uint64_t seed = 0;
+  UnitPoint point;
+  MicroParameters parameters{};
+  std::vector<std::optional<double>> values; ///< of the responses [SI]
+};
+
+/// A place of a calibration: the unknowns, and the two scales.
+struct Place
+{
+  UnitPoint point;
+  double log_modulus;  ///< of the joints [Pa]
+  double log_strength; ///< of the bonds in tension [Pa]
+};
+
+/// How the responses depend on the micro-parameters. Each is its scale (of stiffness: the intact representative volume's
+/// answer; of strength: the bond tensile strength) times a smooth function of the dimensionless parameters, which is
+/// learnt from a design, times a correction by later tests. Poisson's ratio is a sum of these instead.
+class ResponseModel
+{
+public:
+  ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns, const MicroParameters& fixed,
+                ElasticTable elastic, double gap_of_specimens);
+
+  /// Learns from a design whose points were all tested on the same packings. What a packing adds to all points alike is
+  /// no noise of the function: it is left to correct().
+  void learn(const std::vector<TestedPoint>& design);
+
+  /// Sets the corrections by tests on other packings, each packing by the mean of its tests.
+  void correct(const std::vector<TestedPoint>& tests);
+
+  std::size_t n_responses() const { return all.size(); }
+  const Response& response(const std::size_t j) const { return all[j]; }
+  const std::vector<Unknown>& unknowns() const { return unknown; }
+  /// Whether the design gave enough values of it.
+  bool knows(const std::size_t j) const { return surrogates[j].has_value(); }
+
+  MicroParameters parameters(const Place& place) const;
+  /// Of a response, in the model's measure.
+  double predict(std::size_t j, const Place& place) const;
+  /// Standard deviation of the prediction, by the surrogate and by the packings of the corrections.
+  double deviation(std::size_t j, const UnitPoint& point) const;
+  /// The part that the surrogate has learnt, for sensitivities.
+  double learnt(std::size_t j, const UnitPoint& point) const;
+  /// Of a single specimen about the mean of packings; none without two corrected packings.
+  std::optional<double> scatter(const std::size_t j) const { return scatters[j]; }
+  /// Standard deviation of a value of the design about the function, without what packings add to all points.
+  double noise(const std::size_t j) const { return noises[j]; }
+  double correction(const std::size_t j) const { return corrections[j]; }
+
+private:
+  double base(std::size_t j, const UnitPoint& point, double log_modulus, double log_strength) const;
+  double base(std::size_t j, const TestedPoint& tested) const;
+
+  std::vector<Response> all;
+  std::vector<Unknown> unknown;
+  MicroParameters fixed_values;
+  ElasticTable table;
+  double gap; ///< where it is no unknown
+  std::vector<std::optional<Surrogate>> surrogates;
+  std::vector<double> noises;
+  std::vector<double> corrections;
+  std::vector<double> correction_errors;
+  std::vector<std::optional<double>> scatters;
+};
+} // namespace feldspar

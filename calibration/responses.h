@@ -1,0 +1,66 @@
+#pragma once
+
+#include "calibration/parameters.h"
+#include "results/folder/reference.h"
+#include "results/kinds.h"
+#include "results/run.h"
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The figures that tests of a specimen give, and those of them that a laboratory measured.
+namespace feldspar
+{
+/// With which scale of the micro-parameters a figure goes, all their ratios kept.
+enum class ResponseScale
+{
+  modulus,  ///< of the joints
+  strength, ///< of the bonds in tension
+  none
+};
+
+/// A figure of a specimen.
+struct Response
+{
+  std::string name;  ///< in files: uniaxial_compressive_strength
+  std::string title; ///< in tables
+  std::string unit;  ///< in tables
+  double unit_size;  ///< in SI
+  int decimals;      ///< in that unit
+  std::string reference_key;
+  double reference_unit; ///< in SI
+  ResponseScale scale;
+  std::function<std::optional<double>(const FinishedTest&)> value; ///< SI; none of a test of another kind
+
+  /// Responses with a scale are products of it, and their scatter is a share of them: they are compared by logarithms.
+  /// Poisson's ratio, which may be 0, is not.
+  double in_model(double si_value) const;
+  double in_si(double model_value) const;
+  /// A small share of a value is this times the share in the model.
+  double per_share(double si_value) const { return scale == ResponseScale::none ? std::abs(si_value) : 1.0; }
+};
+
+/// All that a programme gives, in its order.
+std::vector<Response> responses(const std::vector<TestCase>& programme, const CalibrationParameters& wanted);
+
+/// Of the tests of one specimen; none where it could not be had.
+std::vector<std::optional<double>> values_of(const std::vector<Response>& responses,
+                                             const std::vector<FinishedTest>& of_specimen);
+
+/// A response that is to come out as the laboratory has it.
+struct Target
+{
+  std::size_t response; ///< its number
+  double value;         ///< [SI]
+  double deviation;     ///< standard deviation of the rock's mean about it [SI]
+  std::string source;   ///< of the deviation, in words
+};
+
+/// By the names wanted, or all that the reference has. Throws InputError for a name that the reference lacks or no test
+/// of the programme gives, and where there is none at all.
+std::vector<Target> targets(const std::vector<Response>& responses, const Reference& reference,
+                            const CalibrationParameters& wanted);
+} // namespace feldspar

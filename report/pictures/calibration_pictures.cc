@@ -1,0 +1,143 @@
+#include "report/pictures/calibration_pictures.h"
+
+#include "report/pictures/plot_style.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string_view>
+
+namespace feldspar
+{
+using namespace plot;
+
+namespace
+{
+constexpr std::size_t most_columns = 7;
+constexpr std::size_t most_points = 600; // of a pair; more only blacken the paper
+
+struct Column
+{
+  std::string label;
+  std::vector<double> values; ///< in the unit of the label
+};
+
+/// `bond_cohesion_Pa` as `bond cohesion [MPa]`.
+Column column_of(const std::string& name, const std::vector<double>& si_values)
+{
+  Column column;
+  std::string words = name;
+  std::string si_unit = "1";
+  for (const std::string_view unit : {"Pa", "rad"})
+    if (words.ends_with("_" + std::string(unit)))
+      {
+        si_unit = unit;
+        words.resize(words.size() - unit.size() - 1);
+      }
+  const ShownUnit unit = shown_unit(si_unit, si_values.front());
+  std::replace(words.begin(), words.end(), '_', ' ');
+  column.label = unit.name.empty() ? words : fmt::format("{} [{}]", words, unit.name);
+  for (const double value : si_values)
+    column.values.push_back(value / unit.size);
+  return column;
+}
+
+/// Between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
+double step_of_marks(const std::vector<double>& values)
+{
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double wanted = (*largest - *least) / 1.3;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double first = wanted / power;
+  return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
+}
+
+/// How many values fall into each of equal parts of the range.
+std::string histogram(const std::vector<double>& values)
+{
+  constexpr std::size_t n_bins = 24;
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  const double width = std::max(*largest - *least, 1e-12) / double(n_bins);
+  std::vector<std::size_t> counts(n_bins, 0);
+  for (const double value : values)
+    ++counts[std::min(n_bins - 1, std::size_t((value - *least) / width))];
+  std::string rows;
+  for (std::size_t b = 0; b < n_bins; ++b)
+    fmt::format_to(std::back_inserter(rows), "{:.6g} {}\n", *least + (double(b) + 0.5) * width, counts[b]);
+  return rows;
+}
+} // namespace
+
+ShownUnit shown_unit(const std::string& si_unit, const double size)
+{
+  constexpr double giga = 1e9;
+  if (si_unit == "rad")
+    return {"deg", std::numbers::pi / 180.0};
+  if (si_unit == "Pa")
+    return std::abs(size) >= 2.0 * giga ? ShownUnit{"GPa", giga} : ShownUnit{"MPa", mega};
+  return {"", 1.0};
+}
+
+std::vector<Picture> pair_picture(const CalibrationRecord& record)
+{
+  std::vector<Column> columns;
+  for (std::size_t c = 0; c < record.sampled.size() && columns.size() < most_columns; ++c)
+    if (const auto& values = record.samples[c]; !values.empty() && *std::max_element(values.begin(), values.end()) >
+                                                                     *std::min_element(values.begin(), values.end()))
+      columns.push_back(column_of(record.sampled[c], values));
+  if (columns.size() < 2)
+    return {};
+  const std::size_t n = columns.size();
+  std::string data;
+  std::string plots;
+  for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t c = 0; c < n; ++c)
+      {
+        if (c > row)
+          {
+            plots += "set multiplot next\n";
+            continue;
+          }
+        plots += fmt::format("set xlabel {} noenhanced offset 0,0.6 font ',9'\n"
+                             "set ylabel {} noenhanced offset 1.2,0 font ',8'\n",
+                             row + 1 == n ? gnuplot_text(columns[c].label) : "''",
+                             c == 0 && row > 0 ? gnuplot_text(columns[row].label) : "''");
+        plots += fmt::format("set xtics {:g}\n", step_of_marks(columns[c].values));
+        if (c == row)
+          {
+            data += fmt::format("$histogram{} << EOD\n{}EOD\n", c, histogram(columns[c].values));
+            plots += fmt::format("unset ytics\nset yrange [0:*]\nplot $histogram{} using 1:2 with boxes fill solid 0.6 "
+                                 "noborder lc rgb '{}' notitle\nset yrange [*:*]\nset ytics nomirror out\n",
+                                 c, blue);
+            continue;
+          }
+        std::string rows;
+        const std::size_t n_samples = columns[c].values.size();
+        const std::size_t stride = std::max<std::size_t>(1, n_samples / most_points);
+        for (std::size_t i = 0; i < n_samples; i += stride)
+          fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", columns[c].values[i], columns[row].values[i]);
+        data += fmt::format("$pair{}_{} << EOD\n{}EOD\n", row, c, rows);
+        plots += fmt::format("plot $pair{}_{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' notitle\n", row, c, blue);
+      }
+  Picture picture;
+  picture.name = "calibration_pairs";
+  picture.caption =
+    "Micro-parameters that agree with the tests: each pair, and on the diagonal each by itself. A narrow "
+    "band across a pair tells of the two together what the tests do not tell of each";
+  picture.alternative = fmt::format("Samples of {} micro-parameters of the posterior, pair by pair.", n);
+  picture.width = 190 * int(n) + 60;
+  picture.height = 165 * int(n) + 60;
+  picture.raster = true;
+  picture.vector = false;
+  picture.script = fmt::format(
+    "{}set multiplot layout {},{} rowsfirst\nset border 3 lw 0.8\nset tics nomirror out\nset autoscale xfix\n"
+    ""
+    "set lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\nunset key\n{}"
+    "unset multiplot\n",
+    data, n, n, plots);
+  return {picture};
+}
+} // namespace feldspar

@@ -1,0 +1,213 @@
+// A calibration as a user runs it, on specimens so small that it takes seconds: their scatter is large, and what is claimed
+// of the answer is little. The statistics are tested in tests/unit/calibration_test.cc.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Some 110 grains; the cohesion ratio and both scales are sought.
+const std::string small_calibration = R"(subsection Specimen
+  set Width = 12 mm
+  set Height = 24 mm
+end
+subsection Tests
+  set Stop stress over peak = 0.7
+end
+subsection Seeds
+  set Seeds = 5
+end
+subsection Calibration
+  set Stiffness ratio = fixed
+  set Bond friction angle = fixed
+  set Friction = fixed
+  set Tolerance = 0.1
+  set Design points = 5
+  set Step packings = 2
+  set Most steps = 1
+  set Most packings = 3
+  set Samples = 500
+end
+subsection Report
+  set Reference file = rock.json
+end
+)";
+
+const std::string reference = R"({"rock": "a rock for tests", "experiment": {
+  "youngs_modulus_GPa": 40, "tensile_strength_MPa": 6, "uniaxial_compressive_strength_MPa": 100}})";
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.json", reference);
+  folder.write("rock.prm", small_calibration);
+  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --threads 2");
+  ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << outcome.error; // so small a rock may be missed
+  EXPECT_NE(outcome.error.find("The design takes 10 specimens"), std::string::npos)
+    << "the cost is not said beforehand";
+  const fs::path out = folder.path() / "out";
+  const auto json = nlohmann::json::parse(content(out / "calibration.json"));
+  EXPECT_EQ(json["has_reached"], outcome.exit_code == 0);
+  const std::string input_file = outcome.exit_code == 0 ? "best.prm" : "nearest.prm";
+  EXPECT_TRUE(fs::exists(out / input_file));
+  EXPECT_NE(fs::exists(out / "best.prm"), fs::exists(out / "nearest.prm"));
+
+  for (const auto& [name, value] : {std::pair("youngs_modulus", 40e9), std::pair("tensile_strength", 6e6),
+                                    std::pair("uniaxial_compressive_strength", 100e6)})
+    {
+      const auto& target = json["targets"].at(name);
+      EXPECT_DOUBLE_EQ(target["target"].get<double>(), value) << name;
+      EXPECT_NEAR(target["deviation"].get<double>(), target["reached"].get<double>() / value - 1.0, 1e-12);
+      EXPECT_GT(target["standard_error"].get<double>(), 0.0);
+    }
+  for (const char* const name : {"modulus", "bond_tensile_strength", "cohesion_ratio", "bond_cohesion"})
+    {
+      const auto& parameter = json["parameters"].at(name);
+      EXPECT_LT(parameter["lower_90"].get<double>(), parameter["median"].get<double>());
+      EXPECT_LT(parameter["median"].get<double>(), parameter["upper_90"].get<double>());
+      const std::string verdict = parameter["verdict"];
+      EXPECT_TRUE(verdict == "determined" || verdict == "bounded" || verdict == "not determined") << verdict;
+    }
+  // The modulus of the rock is near 0.85 of the joints' in specimens so small; ten per cent of tolerance and the scatter
+  // of three packings leave it well within a third.
+  EXPECT_NEAR(json["parameters"]["modulus"]["best"].get<double>(), 40e9 / 0.85, 15e9);
+  for (const char* const file : {"design.csv", "posterior.csv", "report.html", "summary.json", "reference.json"})
+    EXPECT_GT(fs::file_size(out / file), 100u) << file;
+  EXPECT_NE(content(out / "report.html").find("How the micro-parameters were found"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out / "calibration")) << "what a resume needs is not needed any more";
+
+  // The input that was written gives the tests that were reported, to the last bit.
+  const auto lab =
+    run_feldspar(out, "lab " + input_file + " --output again --quiet --set 'Tests/List = direct_tension'");
+  ASSERT_EQ(lab.exit_code, 0) << lab.error;
+  const auto reported = nlohmann::json::parse(content(out / "summary.json"));
+  std::size_t n_compared = 0;
+  const auto again = nlohmann::json::parse(content(out / "again" / "summary.json"));
+  for (const auto& test : again["tests"])
+    for (const auto& other : reported["tests"])
+      if (other["kind"] == test["kind"] && other["seed"] == test["seed"])
+        {
+          EXPECT_EQ(test["peak_stress_Pa"], other["peak_stress_Pa"]);
+          ++n_compared;
+        }
+  EXPECT_EQ(n_compared, 3u);
+}
+
+TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.json", reference);
+  folder.write("rock.prm", replaced(small_calibration, "Height = 24 mm", "Height = 20 mm"));
+  ASSERT_NE(run_feldspar(folder.path(), "calibrate rock.prm --output whole --quiet --threads 1").exit_code, 130);
+  // Killed without warning in the middle of the design, then interrupted in what follows, then left to end.
+  const std::string command = "'" FELDSPAR_COMMAND "' calibrate";
+  const auto in_folder = [&](const std::string& text) {
+    return std::system(("cd '" + folder.path().string() + "' && " + text + " >/dev/null 2>&1").c_str());
+  };
+  in_folder("timeout --signal=KILL 2 " + command + " rock.prm --output cut --threads 2");
+  ASSERT_TRUE(fs::exists(folder.path() / "cut" / "run.json")) << "it had not begun";
+  in_folder("timeout --signal=INT 2 " + command + " --resume cut --threads 1");
+  const auto end = run_feldspar(folder.path(), "calibrate --resume cut --quiet --threads 2");
+  ASSERT_TRUE(end.exit_code == 0 || end.exit_code == 2) << end.error;
+  for (const char* const file : {"design.csv", "posterior.csv"})
+    {
+      EXPECT_GT(content(folder.path() / "cut" / file).size(), 1000u);
+      EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "cut" / file)) << file;
+    }
+  const auto without_host = [&](const std::string& run) {
+    auto json = nlohmann::json::parse(content(folder.path() / run / "calibration.json"));
+    json.erase("host");
+    json["input"].erase("parameters"); // where a run was taken up, files of the input have their whole paths
+    return json;
+  };
+  EXPECT_EQ(without_host("whole"), without_host("cut"));
+}
+
+TEST(Calibrate, SaysWhatTargetsThatContradictEachOtherComeNearestTo)
+{
+  const TemporaryFolder folder;
+  // Half of the compressive strength in tension: flat joints have a twentieth, parallel bonds a third.
+  folder.write("rock.json", replaced(reference, "strength_MPa\": 100", "strength_MPa\": 12"));
+  folder.write("rock.prm",
+               replaced(small_calibration, "set Tolerance", "set Cohesion ratio = 10, 30\n  set Tolerance"));
+  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_EQ(outcome.error.find("feldspar: these targets cannot be reached together"), 0u) << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_NE(outcome.error.find("; nearest come tensile strength "), std::string::npos) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "out" / "best.prm")) << "a false optimum";
+  EXPECT_TRUE(fs::exists(folder.path() / "out" / "nearest.prm"));
+  const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
+  EXPECT_FALSE(json["has_reached"].get<bool>());
+}
+
+/// One line, exit code 2, nothing left.
+void expect_mistake(const std::string& input, const std::string& rock, const std::string& error)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.json", rock);
+  folder.write("rock.prm", input);
+  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_NE(outcome.error.find(error), std::string::npos) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "out")) << error;
+}
+
+TEST(Calibrate, RefusesWhatCannotBeCalibrated)
+{
+  expect_mistake(replaced(small_calibration, "rock.json", "none"), reference,
+                 "Report/Reference file: is needed; it has the laboratory's figures");
+  expect_mistake(small_calibration, R"({"rock": "x", "experiment": {"density_kg_per_m3": 2700}})",
+                 "its experiment has none of the figures that the tests of Tests/List give");
+  expect_mistake(replaced(small_calibration, "set Tolerance", "set Targets = brazilian_strength\n  set Tolerance"),
+                 reference, "Calibration/Targets: no test of Tests/List gives brazilian_strength; they give tensile");
+  expect_mistake(replaced(small_calibration, "set Tolerance", "set Targets = poissons_ratio\n  set Tolerance"),
+                 reference, "Calibration/Targets: the experiment of the reference file has no poissons_ratio");
+  expect_mistake(replaced(small_calibration, "Seeds = 5", "Seeds = 5, 6"), reference,
+                 "Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");
+  expect_mistake(replaced(small_calibration, "Friction = fixed\n  set Tol", "Friction = 1.2, 0.2\n  set Tol"),
+                 reference,
+                 "Calibration/Friction = 1.2, 0.2: must be fixed, or the lower and the upper bound, e.g. 0.2, 1.2");
+  expect_mistake(replaced(small_calibration, "Bond friction angle = fixed", "Bond friction angle = 0, 40"), reference,
+                 "Calibration/Bond friction angle = 0, 40: a unit is missing; write an angle");
+  expect_mistake(replaced(small_calibration, "set Tolerance", "set Cohesion ratio = fixed\n  set Tolerance"), reference,
+                 "Calibration: all its ratios are fixed; give bounds to one of them at least");
+  expect_mistake(replaced(small_calibration, "Friction = fixed\n  set Tol",
+                          "Friction = 0.2, 1.2\n  set Installation gap ratio = 0.03, 0.1\n  set Tol"),
+                 reference, "Calibration/Design points = 5: must be at least 6 for 3 unknown ratios");
+  // At once, before anything is broken.
+  expect_mistake(replaced(small_calibration, "set Tolerance", "set Poissons ratio = initial\n  set Tolerance"),
+                 replaced(reference, "\"youngs", "\"poissons_ratio\": 0.35, \"youngs"),
+                 "an initial Poisson's ratio of 0.350 cannot be reached: the intact rock has 0.0");
+}
+} // namespace
+} // namespace feldspar::tests
