@@ -113,6 +113,11 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
   std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())
     start = read_volume_state(file, *network);
+  if (start && !input.flaws.all().empty())
+    throw InputError(
+      fmt::format("Flaws: {} is a volume in the state it has in its sample, and takes none; put them into "
+                  "the volume of the sample",
+                  input.specimen.specimen_file));
   if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
     throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
                                  "explicit dynamics begin at rest; set Solver = event by event",
