@@ -16,7 +16,8 @@ enum class RandomStream : std::uint32_t
   positions = 2,
   bonds = 3,
   strengths = 4,
-  dealing = 5 ///< of volumes to the points of a sample
+  dealing = 5,   ///< of volumes to the points of a sample
+  joint_sets = 6 ///< where their traces begin
 };
 
 /// The same numbers from the same seed with every compiler and library: the engine and its seeding are fixed by the

@@ -26,8 +26,11 @@ struct Snapshot
 {
   std::uint64_t step = 0;
   double axial_strain = 0.0;
-  double axial_stress = 0.0;                    ///< [Pa]
-  std::array<std::vector<double>, 3> position;  ///< of each grain [m]; the last is empty in the plane
+  double axial_stress = 0.0;                   ///< [Pa]
+  std::array<std::vector<double>, 3> position; ///< of each grain [m]; the last is empty in the plane
+  /// xx, xy, xz, yy, yz, zz of each grain, tension positive [Pa]; it scatters from grain to grain by its own
+  /// size. Empty where it is not known.
+  std::array<std::vector<double>, 6> stress;
   std::vector<std::uint32_t> fragment;          ///< of each grain, as in GrainPicture
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints since the start
 };
@@ -46,10 +49,19 @@ struct PointVolume
   std::string place() const { return std::to_string(cell) + ":" + std::to_string(point); }
 };
 
+/// A hole, slot or closed flaw that was in the rock before the test.
+struct FlawPicture
+{
+  std::string name;                           ///< of its kind
+  bool open;                                  ///< grains were taken out
+  std::vector<std::array<double, 3>> outline; ///< a line, of a hole closed [m]
+};
+
 /// Of a specimen its grains; of a sample of finite elements its fields and the grains of a few points.
 struct TestAppearance
 {
   std::vector<GrainPicture> grains_at_end;
+  std::vector<FlawPicture> flaws;
   std::vector<Snapshot> snapshots;  ///< a few, evenly over the curve; the first is the start
   SampleFields fields;              ///< read back from the folder; never written by who writes a result folder
   std::vector<PointVolume> volumes; ///< representative volumes of a few points

@@ -62,7 +62,9 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::unbalanced_force_ratio,
                                                       &TestResults::p_wave_transits_to_peak,
                                                       &TestResults::servo_error,
-                                                      &TestResults::servo_error_largest};
+                                                      &TestResults::servo_error_largest,
+                                                      &TestResults::fracture_toughness,
+                                                      &TestResults::fracture_energy};
 
 /// The rising branch of a curve, positive in the sense of the test.
 class RisingBranch
@@ -77,7 +79,7 @@ public:
   }
 
   double stress(const CurveSample& row) const { return kind.stress(row); }
-  double deviator(const CurveSample& row) const { return stress(row) - pressure; }
+  double deviator(const CurveSample& row) const { return kind.deviator(row, pressure); }
 
   /// First row whose deviator reaches this share of the peak's.
   std::size_t row_at(const double share) const
@@ -272,6 +274,34 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
     }
 }
 
+/// K_IC from the peak; the fracture energy from the work that the load did until it had fallen, over the ligament (RILEM
+/// 50-FMC 1985, the weight of the body left out).
+void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
+  if (!record.notch)
+    {
+      results.fracture_toughness = results.fracture_energy = unknown("the test has no notch");
+      return;
+    }
+  results.fracture_toughness = record.notch->is_valid
+                                 ? known(record.notch->intensity_over_stress * branch.stress(branch.rows.back()))
+                                 : unknown("the notch lies outside of the range of the formula");
+  constexpr double small_rest = 0.1; // of the peak: what is left of the work then is less than a hundredth
+  double work = 0.0;
+  const auto& curve = record.curve;
+  for (std::size_t k = 1; k < curve.size(); ++k)
+    {
+      work += record.notch->work_over_stress * 0.5 * (branch.stress(curve[k]) + branch.stress(curve[k - 1])) *
+              (record.kind.strain(curve[k]) - record.kind.strain(curve[k - 1]));
+      if (k >= branch.rows.size() && branch.stress(curve[k]) < small_rest * branch.stress(branch.rows.back()))
+        {
+          results.fracture_energy = known(work / record.notch->ligament_area);
+          return;
+        }
+    }
+  results.fracture_energy = unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
+}
+
 void evaluate_fragments(const TestRecord& record, TestResults& results)
 {
   results.n_fragments = results.largest_fragment_share = unknown("there are no grains to be counted");
@@ -347,6 +377,7 @@ TestResults evaluate(const TestRecord& record)
                                   : unknown("no crack before the peak");
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);
+  evaluate_toughness(record, branch, results);
   return results;
 }
 } // namespace feldspar

@@ -44,6 +44,8 @@ struct TestResults
   Figure p_wave_transits_to_peak;
   Figure servo_error;            ///< mean |lateral stress / pressure - 1| from seating to the peak
   Figure servo_error_largest;    ///< largest of the same
+  Figure fracture_toughness;     ///< K_IC at the peak [Pa √m]
+  Figure fracture_energy;        ///< work of fracture over the ligament [J/m²]
   Figure n_fragments;            ///< of two grains or more, at the end
   Figure largest_fragment_share; ///< of the grains' volume
 };

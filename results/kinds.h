@@ -47,12 +47,18 @@ struct TestKind
   EnvelopeRole envelope_role = EnvelopeRole::none;
   bool has_uniform_stress = false; ///< so that its curve gives elastic constants
   bool takes_confining_pressure = false;
+  bool pressure_acts_across = false;    ///< the pressure is square to the measured stress and no part of it
   bool runs_on_finite_elements = false; ///< a sample that is pulled or pressed at its ends
   int strength_decimals = 1;            ///< of the strength in MPa in tables
   int duration_rank = 0; ///< tests of the higher rank last longer; in one rank those of the higher pressure
 
   double stress(const CurveSample& row) const { return sign * row.*channel.value; } ///< positive in its sense [Pa]
   double strain(const CurveSample& row) const { return sign * row.axial_strain; }   ///< the same
+  /// The stress beyond what the pressure [Pa] alone gives.
+  double deviator(const CurveSample& row, const double pressure) const
+  {
+    return stress(row) - (pressure_acts_across ? 0.0 : pressure);
+  }
 
   friend constexpr bool operator==(const TestKind& a, const TestKind& b) { return a.name == b.name; }
 };

@@ -41,6 +41,15 @@ struct Fragments
   double largest_share; ///< of the grains' volume
 };
 
+/// By which a test with a notch gives the toughness of the rock.
+struct NotchGeometry
+{
+  double intensity_over_stress; ///< K_I at the notch over the measured stress [√m]
+  double work_over_stress;      ///< work of the load over ∫ stress d(strain) of the curve [m³]
+  double ligament_area;         ///< ahead of the notch [m²]
+  bool is_valid;                ///< within the range in which the formula is that of its source
+};
+
 /// A laboratory test as it was measured, and how it was made.
 struct TestRecord
 {
@@ -58,6 +67,8 @@ struct TestRecord
   std::vector<Crack> cracks;
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
+  /// Of a test with a notch; none without.
+  std::optional<NotchGeometry> notch;
   bool interrupted = false;
   std::string failure;     ///< why the test could not be made; empty if it could
   std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did

@@ -101,6 +101,8 @@ const std::vector<ResultEntry>& result_table()
                    result("n_tension_cracks_at_peak", &TestResults::n_tension_cracks_at_peak),
                    result("n_shear_cracks_at_peak", &TestResults::n_shear_cracks_at_peak),
                    result("shear_share_at_peak", &TestResults::shear_share_at_peak),
+                   result("fracture_toughness_Pa_sqrt_m", &TestResults::fracture_toughness),
+                   result("fracture_energy_J_per_m2", &TestResults::fracture_energy),
                    result("n_fragments", &TestResults::n_fragments),
                    result("largest_fragment_share", &TestResults::largest_fragment_share),
                    of_specimen("n_grains", &SpecimenReport::n_grains),

@@ -66,7 +66,7 @@ void check(const Input& input, const std::filesystem::path& file)
     refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
   if (!specimen.specimen_file.empty() || !specimen.packing_file.empty())
     refuse("Specimen: a calibration makes its own packings; name no Packing file and no Specimen file");
-  if (!input.variant_entry.empty())
+  if (!input.variants.entries.empty())
     refuse("Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
   if (input.seeds.size() > 1)
     refuse("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");

@@ -43,7 +43,8 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
 {
   std::string text;
   for (const auto& specimen : specimens)
-    text += fmt::format("Specimen, seed {}\n{}\n", specimen.seed, describe(specimen.report));
+    text +=
+      fmt::format("Specimen, seed {}\n{}{}\n", specimen.seed, describe(specimen.report), describe(specimen.flaws));
   for (const Variant& variant : variants)
     {
       std::vector<FinishedTest> of_variant;

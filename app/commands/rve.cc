@@ -130,6 +130,11 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
     throw InputError(fmt::format("Strain path/Cell angle: {} is a volume in the state it has in its sample, which is "
                                  "in the axes of its cell; set Cell angle = 0 deg",
                                  input.specimen.specimen_file));
+  if (start && !input.flaws.all().empty())
+    throw InputError(
+      fmt::format("Flaws: {} is a volume in the state it has in its sample, and takes none; put them into "
+                  "the volume of the sample",
+                  input.specimen.specimen_file));
   if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
     throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
                                  "explicit dynamics begin at rest; set Solver = event by event",

@@ -42,7 +42,7 @@ int make_specimens(const CommonOptions& options, const Input& input)
   for (std::size_t k = 0; k < orders.size(); ++k)
     {
       if (!options.quiet)
-        print_result("\nSeed {}\n{}", specimens[k].seed, describe(specimens[k].report));
+        print_result("\nSeed {}\n{}{}", specimens[k].seed, describe(specimens[k].report), describe(specimens[k].flaws));
       print_result("{}\n", (folder.path() / (orders[k].name + ".h5")).string());
     }
   return 0;

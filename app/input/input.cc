@@ -5,6 +5,7 @@
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
+#include "dem/flaws/apply.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace feldspar
 {
@@ -138,6 +140,25 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
+/// Of a specimen out of a file the size is not known yet; putting them in checks them again.
+void check_flaws(const Input& input, const GivenEntries& values)
+{
+  if (!input.specimen.specimen_file.empty())
+    return;
+  const auto check = [&](const std::vector<Shape>& shapes, const char* entry) {
+    const auto& [width, height] = std::pair(input.specimen.width, input.specimen.height);
+    const std::string what = input.specimen.dimension == 2 ? objection<2>(shapes, Vector<2>(width, height))
+                                                           : objection<3>(shapes, Vector<3>(width, width, height));
+    if (what.empty())
+      return;
+    if (values.has("Flaws", entry))
+      throw values.error("Flaws", entry, what);
+    throw values.error("Variants", "Values", what); // of Flaws/Shapes
+  };
+  check(input.flaws.shapes, "Shapes");
+  check(input.flaws.traces, "Traces file");
+}
+
 void check_strain_path(const Input& input, const GivenEntries& values)
 {
   const std::size_t n = input.strain_path.direction.size();
@@ -189,6 +210,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       check_fractions(variant.input, values);
       check_specimen(variant.input, values);
       check_strain_path(variant.input, values);
+      check_flaws(variant.input, values);
     }
   return input;
 }

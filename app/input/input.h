@@ -4,6 +4,7 @@
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
+#include "dem/flaws/shapes.h"
 #include "dem/lab/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/laws/parameters.h"
@@ -62,6 +63,7 @@ struct Input
 {
   std::filesystem::path folder; ///< relative paths of the input are relative to this
   SpecimenParameters specimen;
+  FlawParameters flaws;
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParallelBondParameters parallel_bond{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParticleContactParameters particle_contact;

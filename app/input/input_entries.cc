@@ -241,7 +241,7 @@ Entry<Input> confinements_entry()
     Entry<Input>::Text{"MPa", "> 0 MPa each",
                        [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
                        [](const Input& input) { return write_confinements(input.confinements); }},
-    "pressures of the triaxial tests, separated by commas",
+    "pressures of the triaxial tests, normal stresses of direct shear, separated by commas",
     {}};
 }
 

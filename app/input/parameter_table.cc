@@ -1,6 +1,7 @@
 #include "app/input/parameter_table.h"
 
 #include "app/input/entry_parameter.h"
+#include "app/input/flaw_entries.h"
 #include "app/input/input_entries.h"
 #include "base/input_error.h"
 #include "calibration/entries.h"
@@ -49,6 +50,7 @@ std::vector<Parameter> make_parameter_table()
   table.add("Flat joint", &Input::flat_joint, flat_joint_entries());
   table.add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
   table.add("Particle contact", &Input::particle_contact, particle_contact_entries());
+  table.add("Flaws", flaw_entries());
   table.add("Dynamics", &Input::dynamics, dynamics_entries());
   table.add("Tests", {test_list_entry(), confinements_entry()});
   table.add("Tests", &Input::tests, test_entries());

@@ -6,6 +6,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "base/input_error.h"
+#include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
 #include "dem/specimen/specimen_file.h"
 
@@ -170,6 +171,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
                          input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
                          [](std::string_view, double) {}, step)
                      : read_finished_specimen<dim>(input.specimen);
+    put_in_flaws(specimens[k], input.flaws.all());
     write_specimen(specimens[k], file);
     board.finish(k);
   });
@@ -197,6 +199,38 @@ std::string describe(const SpecimenReport& report)
                      report.largest_overlap_ratio, report.resolution, report.radius_multiplier, coring);
 }
 
+template <int dim>
+std::string describe(const std::vector<Flaw<dim>>& flaws)
+{
+  // A joint set has many traces: kinds in the order in which they come first.
+  struct Sum
+  {
+    std::string name;
+    bool open;
+    std::uint64_t n;
+    std::uint64_t n_grains;
+    std::uint64_t n_joints;
+  };
+  std::vector<Sum> sums;
+  for (const auto& flaw : flaws)
+    {
+      auto sum = std::find_if(sums.begin(), sums.end(), [&](const Sum& one) { return one.name == flaw.name; });
+      if (sum == sums.end())
+        sum = sums.insert(sums.end(), {flaw.name, flaw.open, 0, 0, 0});
+      ++sum->n;
+      sum->n_grains += flaw.n_grains;
+      sum->n_joints += flaw.n_joints;
+    }
+  std::string text;
+  for (const Sum& sum : sums)
+    text += sum.open
+              ? fmt::format("{} × {}: {} grains and {} joints taken out\n", sum.n, sum.name, sum.n_grains, sum.n_joints)
+              : fmt::format("{} × {}: {} joints unbonded\n", sum.n, sum.name, sum.n_joints);
+  return text;
+}
+
+template std::string describe<2>(const std::vector<Flaw<2>>&);
+template std::string describe<3>(const std::vector<Flaw<3>>&);
 template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
                                                        const std::filesystem::path&, Progress&);
 template std::vector<Specimen<2>> provide_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

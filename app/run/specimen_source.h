@@ -30,4 +30,8 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
 
 /// For a terminal: what genesis has to report.
 std::string describe(const SpecimenReport& report);
+
+/// For a terminal: what was put in, one line each kind; empty for intact rock.
+template <int dim>
+std::string describe(const std::vector<Flaw<dim>>& flaws);
 } // namespace feldspar

@@ -27,6 +27,35 @@ Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, 
 }
 
 template <int dim>
+std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls)
+{
+  const auto& grains = body.grains;
+  std::vector<Tensor<dim>> stress(grains.size(), Tensor<dim>::Zero());
+  // f on grain 2, at the middle of the face: as far from grain 1 as `arm`.
+  const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
+    const Vector<dim> branch = at<dim>(grains.position, two) - at<dim>(grains.position, one);
+    const double distance = branch.norm();
+    const double arm = 0.5 * (distance + grains.radius[one] - grains.radius[two]);
+    stress[one] -= force * branch.transpose() * (arm / distance);
+    stress[two] -= force * branch.transpose() * (1.0 - arm / distance);
+  };
+  for (std::size_t j = 0; j < body.joints.size(); ++j)
+    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
+  for (const auto& touch : touches.list())
+    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_1, touch.grain_2);
+  walls.for_each_touch([&](const Wall& wall, const WallTouch<dim>& touch) {
+    const Vector<dim> normal = wall_direction(body, wall, touch.grain);
+    const double distance = std::abs(wall_coordinate(body, wall, touch.grain) - wall.position);
+    stress[touch.grain] -=
+      walls.stiffness(body, grains.radius[touch.grain]) * touch.overlap * distance * (normal * normal.transpose());
+  });
+  const double solid_share = 1.0 - body.report.porosity;
+  for (std::size_t i = 0; i < stress.size(); ++i)
+    stress[i] *= solid_share / grain_volume<dim>(grains.radius[i], body.thickness);
+  return stress;
+}
+
+template <int dim>
 Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images)
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
@@ -75,6 +104,8 @@ double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches
 
 template Tensor<2> mean_stress<2>(const Specimen<2>&, const Touches<2>&, const Walls<2>&);
 template Tensor<3> mean_stress<3>(const Specimen<3>&, const Touches<3>&, const Walls<3>&);
+template std::vector<Tensor<2>> grain_stresses<2>(const Specimen<2>&, const Touches<2>&, const Walls<2>&);
+template std::vector<Tensor<3>> grain_stresses<3>(const Specimen<3>&, const Touches<3>&, const Walls<3>&);
 template Tensor<2> boundary_stress<2>(const Specimen<2>&, const Touches<2>&, const Images<2>&);
 template Tensor<3> boundary_stress<3>(const Specimen<3>&, const Touches<3>&, const Images<3>&);
 template double force_across<2>(const Specimen<2>&, const Touches<2>&, double);

@@ -390,6 +390,12 @@ Tensor<dim> Dynamics<dim>::mean_stress() const
 }
 
 template <int dim>
+std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
+{
+  return feldspar::grain_stresses(body, touches, wall_set);
+}
+
+template <int dim>
 Tensor<dim> Dynamics<dim>::boundary_stress() const
 {
   return feldspar::boundary_stress(body, touches, images);

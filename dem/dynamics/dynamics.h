@@ -93,6 +93,8 @@ public:
   double largest_unbalanced_force_ratio() const;
   /// -(1/V) Σ f ⊗ l over all contacts and walls [Pa], tension positive.
   Tensor<dim> mean_stress() const;
+  /// Of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
+  std::vector<Tensor<dim>> grain_stresses() const;
   /// Of a periodic body, the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
   /// where forces balance.
   Tensor<dim> boundary_stress() const;

@@ -59,6 +59,21 @@ double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uin
 {
   return (wall_coordinate(body, wall, grain) - wall.position) * wall.side;
 }
+
+/// Whether it stands above the plate, which may end.
+template <int dim>
+bool is_above(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  const double place = body.grains.position[extent_axis<dim>(wall)][grain];
+  return wall.round || (place >= wall.extent[0] && place <= wall.extent[1]);
+}
+
+/// Whether it has come round the end of a plate, so far that it is not pressed any more.
+template <int dim>
+bool is_past(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  return wall.ends() && distance_from(body, wall, grain) < 0.5 * body.grains.radius[grain];
+}
 } // namespace
 
 template <int dim>
@@ -118,14 +133,19 @@ void Walls<dim>::search(const Specimen<dim>& body, const double skin, const Zero
       for (std::uint32_t i = 0; i < body.grains.size(); ++i)
         {
           const double distance = distance_from(body, walls[w], i);
-          if (distance > radius[i] + skin)
+          if (distance > radius[i] + skin || !is_above(body, walls[w], i))
             continue;
           for (; known != before.end() && known->grain < i; ++known)
             ledger.slip_of_lost_contacts += known->slip_energy;
-          if (known != before.end() && known->grain == i)
+          const bool is_known = known != before.end() && known->grain == i;
+          if (!is_known && is_past(body, walls[w], i))
+            continue;
+          if (is_known)
             near.push_back(*known++);
           else
-            near.push_back({i, zero_force == ZeroForce::as_placed ? std::min(radius[i], distance) : radius[i]});
+            // A grain that came from beside a plate may lie deeper than its face: it is not thrown out.
+            near.push_back(
+              {i, zero_force == ZeroForce::as_placed || walls[w].ends() ? std::min(radius[i], distance) : radius[i]});
         }
       for (; known != before.end(); ++known)
         ledger.slip_of_lost_contacts += known->slip_energy;
@@ -155,7 +175,7 @@ double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std:
   for (std::uint32_t i = 0; i < body.grains.size(); ++i)
     if (listed != touches[wall].end() && listed->grain == i)
       ++listed;
-    else
+    else if (is_above(body, walls[wall], i) && !is_past(body, walls[wall], i))
       smallest = std::min(smallest, distance_from(body, walls[wall], i) - body.grains.radius[i]);
   return smallest;
 }

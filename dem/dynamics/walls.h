@@ -6,7 +6,9 @@
 #include "dem/specimen/specimen.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,19 @@ struct Wall
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
+  /// Of a plate that is not endless: where it lies along extent_axis(), from and to [m].
+  std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+  /// Whether it is a plate. Which grains stand above it is looked up with each search for contacts.
+  bool ends() const { return std::isfinite(extent[0]) || std::isfinite(extent[1]); }
 };
+
+/// Along which a plate may end: the last axis, or the first for one that lies across the last.
+template <int dim>
+int extent_axis(const Wall& wall)
+{
+  return wall.axis == dim - 1 ? 0 : dim - 1;
+}
 
 /// The side of a cylinder.
 template <int dim>

@@ -29,6 +29,7 @@ struct Loading
   double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
   double sampling_strain = 0.0;              ///< between two rows of the curve
   std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
+  std::optional<NotchGeometry> notch;
   /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
   std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty

@@ -22,6 +22,11 @@ struct TestParameters
   double tension_sampling_strain = 1e-6;
   double brazilian_strain_rate = 0.164; ///< of the diameter [1/s]
   double brazilian_sampling_strain = 2e-6;
+  double bending_strain_rate = 0.1; ///< of the deflection over the depth of the beam [1/s]
+  double bending_sampling_strain = 2e-6;
+  double notch_ratio = 0.4;       ///< depth of the notch of a bent beam over that of the beam
+  double shear_strain_rate = 0.1; ///< of the shear displacement over the length of the plane [1/s]
+  double shear_sampling_strain = 1e-5;
   double platen_friction = 0.0;
   double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
   LateralBoundary lateral_boundary = LateralBoundary::wall;

@@ -5,7 +5,7 @@ namespace feldspar
 bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure, const TestParameters& wanted)
 {
   const double strain = kind.strain(row);
-  const double deviator = kind.stress(row) - confining_pressure;
+  const double deviator = kind.deviator(row, confining_pressure);
   if (peak.is_highest(deviator))
     strain_at_peak = strain;
   // Nothing that is rock is left at such a strain, whether the curve has peaked or not.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/laws/parameters.h"
+#include "dem/specimen/flaw.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/periodic_images.h"
 #include "dem/specimen/specimen_report.h"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace feldspar
 {
@@ -27,6 +29,7 @@ struct Specimen
   Grains<dim> grains;
   Joints<dim> joints;
   SpecimenReport report;
+  std::vector<Flaw<dim>> flaws; ///< that have been put in
 
   /// The edges of the box as columns [m].
   Tensor<dim> cell() const { return size.asDiagonal(); }

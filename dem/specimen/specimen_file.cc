@@ -46,6 +46,50 @@ void transfer_law(Archive& archive, Joints<dim>& joints)
     joints.law);
 }
 
+/// Name, openness, counts and outline of each; a file that tells none is of intact rock. Rocks without any write none, so
+/// that their files stay as they were.
+template <int dim, typename Archive>
+void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
+{
+  constexpr std::uint32_t most_flaws = 100000;
+  std::uint32_t n = std::uint32_t(flaws.size());
+  if constexpr (Archive::reads)
+    {
+      if (!root.has("flaws"))
+        return;
+    }
+  else if (n == 0)
+    return;
+  auto all = root.subgroup("flaws");
+  all.value("n", n);
+  if (n > most_flaws)
+    throw InputError("more flaws than a specimen can have");
+  flaws.resize(n);
+  for (std::uint32_t k = 0; k < n; ++k)
+    {
+      Flaw<dim>& flaw = flaws[k];
+      auto one = all.subgroup(fmt::format("{}", k + 1));
+      one.text("name", flaw.name);
+      std::uint32_t open = flaw.open;
+      one.value("open", open);
+      flaw.open = open != 0;
+      one.value("n_grains", flaw.n_grains);
+      one.value("n_joints", flaw.n_joints);
+      for (int c = 0; c < dim; ++c)
+        {
+          std::vector<double> along;
+          for (const auto& point : flaw.outline)
+            along.push_back(point[c]);
+          one.array(fmt::format("outline_{}_m", "xyz"[c]), along);
+          if (c > 0 && along.size() != flaw.outline.size())
+            throw InputError("the outline of a flaw is incomplete");
+          flaw.outline.resize(along.size(), Vector<dim>::Zero());
+          for (std::size_t p = 0; p < along.size(); ++p)
+            flaw.outline[p][c] = along[p];
+        }
+    }
+}
+
 /// The layout of the file.
 template <int dim, typename Archive>
 void transfer(Archive& root, Specimen<dim>& specimen)
@@ -89,6 +133,8 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   contact.value("modulus_Pa", specimen.particle_contact.modulus);
   contact.value("stiffness_ratio", specimen.particle_contact.stiffness_ratio);
   contact.value("friction", specimen.particle_contact.friction);
+
+  transfer_flaws<dim>(root, specimen.flaws);
 
   auto grains = root.subgroup("grains");
   grains.array("radius_m", specimen.grains.radius);

@@ -21,6 +21,7 @@ namespace
 using namespace plot;
 
 constexpr double pi = std::numbers::pi;
+constexpr const char* flaw_colour = "#202020";
 
 /// The axis of the tests: the last one.
 std::size_t vertical(const TestRecord& record) { return record.size[2] > 0.0 ? 2 : 1; }
@@ -76,11 +77,16 @@ std::string map_set_up(const Frame& frame)
          frame.ranges() + "set key below center horizontal maxcols 2 Left reverse samplen 1.5 width 1 noenhanced\n";
 }
 
+/// Whether panels stand better one below the other.
+bool is_long(const Frame& frame) { return frame.width() > 1.5 * frame.height(); }
+
 /// Pixels of a panel that is high enough for tics and key.
 std::pair<int, int> panel_size(const Frame& frame)
 {
   constexpr int inner_height = 620;
   const double ratio = frame.width() / frame.height();
+  if (is_long(frame))
+    return {1100, std::max(160, int(990.0 / ratio)) + 170};
   return {std::max(300, int(inner_height * ratio) + 110), inner_height + 170};
 }
 
@@ -131,6 +137,40 @@ std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
   for (auto& [number, diameter] : diameters)
     diameter = 2.0 * std::pow(diameter, axis == 2 ? 1.0 / 3.0 : 0.5);
   return diameters;
+}
+
+/// Flaws as they were before the test: open ones as white areas with a rim, closed ones as lines.
+std::string flaw_data(const FinishedTest& test)
+{
+  const std::size_t axis = vertical(test.record);
+  std::string open;
+  std::string closed;
+  for (const auto& flaw : test.appearance.flaws)
+    {
+      std::string& rows = flaw.open ? open : closed;
+      for (const auto& point : flaw.outline)
+        fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g}\n", point[0] / milli, point[axis] / milli);
+      rows += "\n";
+    }
+  std::string data;
+  if (!open.empty())
+    data += fmt::format("$open << EOD\n{}EOD\n", open);
+  if (!closed.empty())
+    data += fmt::format("$closed << EOD\n{}EOD\n", closed);
+  return data;
+}
+
+/// To be drawn over the grains and under the cracks.
+std::string flaw_plots(const FinishedTest& test)
+{
+  const auto& flaws = test.appearance.flaws;
+  const auto is_open = [](const FlawPicture& flaw) { return flaw.open; };
+  std::string plots;
+  if (std::any_of(flaws.begin(), flaws.end(), is_open))
+    plots += fmt::format(", $open using 1:2 with lines lw 1.2 lc rgb '{}' notitle", flaw_colour);
+  if (!std::all_of(flaws.begin(), flaws.end(), is_open))
+    plots += fmt::format(", $closed using 1:2 with lines lw 3 lc rgb '{}' title 'flaw'", flaw_colour);
+  return plots;
 }
 
 std::string seed_of(const FinishedTest& test) { return fmt::format("seed {}", test.record.seed); }
@@ -247,7 +287,7 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
   const std::size_t axis = vertical(record);
   const auto all_stages = stages(record);
   const Frame frame = frame_of(test);
-  std::string data;
+  std::string data = flaw_data(test);
   std::string plots;
   for (std::size_t s = 0; s < all_stages.size(); ++s)
     {
@@ -263,22 +303,25 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
       plots +=
         fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
                     gnuplot_text(all_stages[s].title), s, light_grey);
+      plots += flaw_plots(test);
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
         add_cracks(data, plots, s, kind, stage_rows(record, kind, all_stages[s]), 1.8);
       plots += "\n";
     }
   const auto [width, height] = panel_size(frame);
+  const int columns = is_long(frame) ? 1 : int(all_stages.size());
+  const int rows = is_long(frame) ? int(all_stages.size()) : 1;
   return {
     {.name = test.name + "_cracks",
      .caption = fmt::format("{}, {}: cracks at crack initiation, at the peak and at the end", title, seed_of(test)),
      .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title,
                                 seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
-     .width = width * int(all_stages.size()),
-     .height = height,
+     .width = width * columns,
+     .height = height * rows,
      .raster = true,
      .vector = false,
      .script = data + map_set_up(frame) +
-               fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", all_stages.size(), plots)}};
+               fmt::format("set multiplot layout {},{}\n{}unset multiplot\n", rows, columns, plots)}};
 }
 
 std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& title)

@@ -30,6 +30,9 @@ FinishedTest plane_view(FinishedTest test)
       crack.normal = across > 0.0 ? std::array<double, 3>{crack.normal[0] / across, crack.normal[2] / across, 0.0}
                                   : std::array<double, 3>{1.0, 0.0, 0.0};
     }
+  for (auto& flaw : test.appearance.flaws)
+    for (auto& point : flaw.outline)
+      point = {point[0], point[2], 0.0};
   record.size = {record.size[0], record.size[2], 0.0};
   return test;
 }

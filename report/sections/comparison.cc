@@ -1,5 +1,6 @@
 #include "report/sections/comparison.h"
 
+#include "results/fits/direct_shear.h"
 #include "results/fits/mohr_coulomb.h"
 #include "results/test_groups.h"
 
@@ -76,6 +77,52 @@ std::string strength_key(const TestGroup& group)
   if (group.envelope_role() == EnvelopeRole::compression)
     return fmt::format("strength_at_{}_MPa", megapascals(group.confining_pressure));
   return fmt::format("{}_strength_MPa", group.name());
+}
+/// Of the tests with a notch, kind by kind: each has its own geometry.
+template <typename Add>
+void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
+{
+  std::vector<TestKind> kinds;
+  for (const auto& test : tests)
+    if (test.results.fracture_toughness.value && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
+      kinds.push_back(test.record.kind);
+  for (const TestKind& kind : kinds)
+    {
+      std::map<std::uint64_t, double> toughness;
+      std::map<std::uint64_t, double> energy;
+      for (const auto& test : tests)
+        if (test.record.kind == kind)
+          {
+            if (const auto& value = test.results.fracture_toughness.value)
+              toughness[test.record.seed] = *value;
+            if (const auto& value = test.results.fracture_energy.value)
+              energy[test.record.seed] = *value;
+          }
+      const std::string by = std::string(kind.name);
+      add(fmt::format("fracture toughness, {}", by), "MPa √m", 3, 1e6, toughness, "fracture_toughness_MPa_sqrt_m");
+      add(fmt::format("work of fracture, {}", by), "J/m²", 1, 1.0, energy, "fracture_energy_J_per_m2");
+    }
+}
+
+template <typename Add>
+void add_shear_line(const std::vector<FinishedTest>& tests, Add&& add)
+{
+  std::map<std::uint64_t, std::vector<const FinishedTest*>> of_seed;
+  for (const auto& test : tests)
+    if (test.record.kind.pressure_acts_across)
+      of_seed[test.record.seed].push_back(&test);
+  std::map<std::uint64_t, double> cohesion;
+  std::map<std::uint64_t, double> angle;
+  for (const auto& [seed, sheared] : of_seed)
+    if (const auto line = fit_shear_line(sheared).line)
+      {
+        cohesion[seed] = line->cohesion;
+        angle[seed] = line->friction_angle;
+      }
+  if (cohesion.empty())
+    return;
+  add("friction angle, direct shear", "deg", 1, std::numbers::pi / 180.0, angle, "");
+  add("cohesion, direct shear", "MPa", 2, 1e6, cohesion, "");
 }
 } // namespace
 
@@ -179,6 +226,8 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
                    [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   for (const auto& [group, strengths] : others)
     add(strength_row(group), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
+  add_toughness(tests, add);
+  add_shear_line(tests, add);
 
   // Which body it is: two with different gaps are different rocks.
   add("installation gap over mean radius", "", 4, 1.0, of_bodies(tests, &SpecimenReport::installation_gap_ratio), "");

@@ -57,6 +57,13 @@ public:
                    is_vector ? "Vector" : "Scalar", data);
   }
 
+  /// Symmetric: xx, xy, xz, yy, yz, zz.
+  void tensor(const std::string& name, const std::string& data)
+  {
+    fmt::format_to(std::back_inserter(text),
+                   "<Attribute Name=\"{}\" AttributeType=\"Tensor6\" Center=\"Node\">{}</Attribute>\n", name, data);
+  }
+
   std::string finish() const { return text + "</Grid>\n"; }
 
 private:
@@ -92,6 +99,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
   const std::size_t n_cracks = all_cracks.size();
   const std::string file = name + ".h5";
   const double sign = kind.sign;
+  const auto has_stress = [=](const Snapshot& snapshot) { return snapshot.stress[0].size() == n_grains; };
 
   write_hdf5(folder / file, [&](Hdf5Writer& root) {
     std::vector<double> radius;
@@ -110,6 +118,14 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
         std::vector<std::uint32_t> n_broken = snapshot.n_broken_segments;
         group.array("position_m", position, 3);
         group.array("displacement_m", displacement, 3);
+        if (has_stress(snapshot))
+          {
+            std::vector<double> stress(6 * n_grains);
+            for (std::size_t c = 0; c < 6; ++c)
+              for (std::size_t i = 0; i < n_grains; ++i)
+                stress[6 * i + c] = snapshot.stress[c][i];
+            group.array("stress_Pa", stress, 6);
+          }
         group.array("fragment", fragment);
         group.array("n_broken_segments", n_broken);
       }
@@ -145,6 +161,8 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
       PointGrid grains(time, n_grains, of_grains("position_m", 3, true));
       grains.attribute("radius", false, data_item(file + ":/radius_m", shape(n_grains, 1), true));
       grains.attribute("displacement", true, of_grains("displacement_m", 3, true));
+      if (has_stress(snapshot))
+        grains.tensor("stress", of_grains("stress_Pa", 6, true));
       grains.attribute("fragment", false, of_grains("fragment", 1, false));
       grains.attribute("broken elements", false, of_grains("n_broken_segments", 1, false));
       grain_grids += grains.finish();

@@ -48,6 +48,8 @@ constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
                                    {"crack_initiation_stress_lateral_MPa", 1e-2, 5000.0},
                                    {"crack_damage_stress_MPa", 1e-2, 5000.0},
                                    {"brazilian_strength_MPa", 1e-3, 1000.0},
+                                   {"fracture_toughness_MPa_sqrt_m", 1e-3, 100.0},
+                                   {"fracture_energy_J_per_m2", 1e-2, 1e5},
                                    {"friction_angle_deg", 1.0, 89.0},
                                    {"cohesion_MPa", 1e-3, 2000.0}};
 constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};

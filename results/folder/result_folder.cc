@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -44,6 +45,26 @@ Json read_summary(const std::filesystem::path& folder)
   return json;
 }
 
+/// Those that are described as this program does it; they are for pictures alone.
+std::vector<FlawPicture> flaws_of(const Json& json)
+{
+  std::vector<FlawPicture> flaws;
+  const auto described = json.find("flaws");
+  if (described == json.end() || !described->is_array())
+    return flaws;
+  for (const auto& one : *described)
+    try
+      {
+        flaws.push_back({one.at("name").get<std::string>(), one.at("open").get<bool>(),
+                         one.at("outline_m").get<std::vector<std::array<double, 3>>>()});
+      }
+    catch (const Json::exception&)
+      {
+        continue;
+      }
+  return flaws;
+}
+
 FinishedTest test_of(const Json& json, const TestKind& kind)
 {
   FinishedTest test;
@@ -64,6 +85,7 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
         test.record.size[c] = (*size)[c].get<double>();
   if (const auto stress = json.find("intermediate_stress_Pa"); stress != json.end() && stress->is_number())
     test.record.intermediate_stress = stress->get<double>();
+  test.appearance.flaws = flaws_of(json);
   for (const auto& entry : result_table())
     {
       const std::string key(entry.name);

@@ -1,6 +1,7 @@
 #include "results/folder/summary.h"
 
 #include "base/whole_file.h"
+#include "results/fits/direct_shear.h"
 #include "results/folder/provenance_json.h"
 #include "results/result_table.h"
 #include "results/statistics.h"
@@ -100,6 +101,13 @@ Json describe(const FinishedTest& test)
     {
       write_figure(json, std::string(entry.name), entry.value(test));
     }
+  if (const auto& notch = test.record.notch)
+    json["notch"] = {{"intensity_over_stress_sqrt_m", notch->intensity_over_stress},
+                     {"work_over_stress_m3", notch->work_over_stress},
+                     {"ligament_area_m2", notch->ligament_area},
+                     {"is_valid", notch->is_valid}};
+  for (const auto& flaw : test.appearance.flaws)
+    json["flaws"].push_back({{"name", flaw.name}, {"open", flaw.open}, {"outline_m", flaw.outline}});
   for (const auto& volume : test.appearance.volumes)
     json["volumes"].push_back({{"which", volume.which},
                                {"cell", volume.cell},
@@ -184,6 +192,28 @@ Json fits(const RunEnvelopes& envelopes)
     }
   return json;
 }
+/// The line through the shear tests of each rock; none where there are no such tests.
+Json shear_lines(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::string, std::vector<const FinishedTest*>> rocks;
+  for (const auto& test : tests)
+    if (test.record.kind.pressure_acts_across)
+      rocks[test.variant].push_back(&test);
+  Json json;
+  for (const auto& [variant, of_rock] : rocks)
+    {
+      Json& out = variant.empty() ? json : json[variant];
+      const auto [line, reason] = fit_shear_line(of_rock);
+      if (line)
+        out = {{"cohesion_Pa", line->cohesion},
+               {"friction_angle_rad", line->friction_angle},
+               {"r_squared", line->r_squared},
+               {"n_tests", line->n}};
+      else
+        out["reason"] = reason;
+    }
+  return json;
+}
 } // namespace
 
 void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
@@ -196,6 +226,8 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
   json["ensemble"] = ensemble(tests);
   json["verdict"] = verdict(tests);
   json["fits"] = fits(envelopes);
+  if (const Json lines = shear_lines(tests); !lines.is_null())
+    json["fits"]["direct_shear"] = lines;
   // Reasons may quote what is not UTF-8.
   write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

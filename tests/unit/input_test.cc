@@ -1,5 +1,6 @@
 #include "app/input/input.h"
 
+#include "app/input/flaw_entries.h"
 #include "app/input/given_entries.h"
 #include "app/input/parameter_table.h"
 #include "base/input_error.h"
@@ -68,6 +69,10 @@ subsection Particle contact
   set Stiffness ratio = 2.5
   set Friction = 0.4
 end
+subsection Flaws
+  set Shapes = hole centre 20, 50 mm radius 5 mm | joint set angle 30 deg spacing 10 mm
+  set Traces file = traces.csv
+end
 subsection Dynamics
   set Damping = 0
   set Time step safety = 0.5
@@ -79,6 +84,11 @@ subsection Tests
   set Tension strain rate = 0.082 1/s
   set Brazilian strain rate = 0.3 1/s
   set Brazilian sampling strain = 3e-6
+  set Bending strain rate = 0.2 1/s
+  set Bending sampling strain = 4e-6
+  set Notch ratio = 0.5
+  set Shear strain rate = 0.3 1/s
+  set Shear sampling strain = 3e-5
   set Platen friction = 0.1
   set Seating transits = 12
   set Steps between checkpoints = 500
@@ -210,6 +220,7 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("rock.json", "{}");
   folder.write("sample.msh", "");
   folder.write("summary.json", "{}");
+  folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size(),
             parameter_table().size());
@@ -251,6 +262,22 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.dynamics.damping, 0.0);
   EXPECT_EQ(input.dynamics.time_step_safety, 0.5);
 
+  ASSERT_EQ(input.flaws.shapes.size(), 2u);
+  const auto& hole = std::get<EllipseHole>(input.flaws.shapes[0]);
+  EXPECT_EQ(hole.centre, Vector<2>(0.020, 0.050));
+  EXPECT_EQ(hole.semi_axes, Vector<2>(0.005, 0.005));
+  const auto& set = std::get<JointSet>(input.flaws.shapes[1]);
+  EXPECT_DOUBLE_EQ(set.angle, std::numbers::pi / 6.0);
+  EXPECT_DOUBLE_EQ(set.spacing, 0.010);
+  EXPECT_EQ(input.flaws.traces_file, (folder.path() / "traces.csv").string());
+  ASSERT_EQ(input.flaws.traces.size(), 1u);
+  EXPECT_EQ(std::get<ClosedFlaw>(input.flaws.traces[0]).points[1], Vector<2>(0.03, 0.04));
+
+  EXPECT_EQ(input.tests.bending_strain_rate, 0.2);
+  EXPECT_EQ(input.tests.bending_sampling_strain, 4e-6);
+  EXPECT_EQ(input.tests.notch_ratio, 0.5);
+  EXPECT_EQ(input.tests.shear_strain_rate, 0.3);
+  EXPECT_EQ(input.tests.shear_sampling_strain, 3e-5);
   EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
   EXPECT_EQ(input.tests.compression_strain_rate, 0.5);
   EXPECT_EQ(input.tests.tension_strain_rate, 0.082);
@@ -836,6 +863,75 @@ TEST(Input, TellsWhatIsWrongWithTheFile)
   EXPECT_THROW(read_input(folder.path()), InputError);
   EXPECT_THROW(read_input(folder.write("a.txt", "")), InputError);
   EXPECT_THROW(read_input(std::string(5000, 'a') + ".prm"), InputError);
+}
+TEST(Input, ShapesAreReadInTheWordsOfTheUser)
+{
+  const auto shapes =
+    parse_shapes("hole centre 25, 50 mm semi-axes 6, 3 mm angle 90 deg | slot from 2.5, 0 cm to 2.5, 1.2 "
+                 "cm width 1 mm | closed flaw centre 25, 50 mm length 20 mm angle 90 deg | sphere centre "
+                 "1, 2, 3 mm radius 4 mm | disc flaw centre 1, 2, 3 mm radius 4 mm dip 90 deg | joint "
+                 "set spacing 10 mm persistence 0.5 trace-length 5 mm seed 7 | hole corners 1, 1, 5, 1, "
+                 "3, 4 mm");
+  ASSERT_EQ(shapes.size(), 7u);
+  EXPECT_DOUBLE_EQ(std::get<EllipseHole>(shapes[0]).semi_axes[0], 0.006);
+  EXPECT_DOUBLE_EQ(std::get<EllipseHole>(shapes[0]).angle, std::numbers::pi / 2.0);
+  EXPECT_DOUBLE_EQ(std::get<Slot>(shapes[1]).to[1], 0.012);
+  // Upright: from 40 to 60 mm at x = 25 mm.
+  const auto& flaw = std::get<ClosedFlaw>(shapes[2]);
+  EXPECT_NEAR(flaw.points[0][0], 0.025, 1e-15);
+  EXPECT_NEAR(flaw.points[0][1], 0.040, 1e-15);
+  EXPECT_NEAR(flaw.points[1][1], 0.060, 1e-15);
+  EXPECT_DOUBLE_EQ(std::get<SphereHole>(shapes[3]).radius, 0.004);
+  EXPECT_NEAR(std::get<DiscFlaw>(shapes[4]).normal[0], 1.0, 1e-15);
+  EXPECT_EQ(std::get<JointSet>(shapes[5]).seed, 7u);
+  EXPECT_EQ(std::get<JointSet>(shapes[5]).persistence, 0.5);
+  EXPECT_EQ(std::get<PolygonHole>(shapes[6]).corners.size(), 3u);
+}
+
+TEST(Input, ShapesThatAreWrongAreNamed)
+{
+  const auto error = [](const std::string& shapes) { return error_of_entry("Flaws", "Shapes = " + shapes); };
+  const std::string begin = "a.prm:2: Flaws/Shapes = ";
+  for (const auto& [shapes, why] : std::vector<std::pair<std::string, std::string>>{
+         {"cave", "shape 1, \"cave\" is no shape; it begins with one of: hole, sphere, slot, closed flaw"},
+         {"hole centre 25, 50 mm radius 5 mm | hole centre 25, 50 mm radius -5 mm",
+          "shape 2, hole: radius -5 mm: must be > 0 mm"},
+         {"hole centre 25 mm radius 5 mm", "shape 1, hole: centre 25 mm: has 1 coordinate(s); there must be 2"},
+         {"hole centre 25, 50 radius 5 mm", "shape 1, hole: centre 25, 50: a unit is missing"},
+         {"hole centre 25, 50 mm", "shape 1, hole: is given by \"centre X, Y mm radius R mm\""},
+         {"hole center 25, 50 mm radius 5 mm", "shape 1, hole: \"center\" is not one of its words"},
+         {"slot from 25, 0 mm to 25, 0 mm width 1 mm", "shape 1, slot: ends where it begins"},
+         {"slot from 25, 0 mm to 25, 5 mm", "shape 1, slot: is given by \"from X, Y mm to X, Y mm width W mm\" or"},
+         {"closed flaw from 25, 0 mm from 25, 5 mm", "shape 1, closed flaw: from is given twice"},
+         {"joint set spacing 5 mm persistence 0.5", "shape 1, joint set: trace-length is missing"},
+         {"joint set spacing 5 mm persistence 1.5 trace-length 3 mm",
+          "shape 1, joint set: persistence 1.5: must lie in (0, 1]"},
+         {"hole centre 49, 50 mm radius 5 mm", "shape 1, hole: (54, 50) mm lies outside of the specimen"},
+         {"sphere centre 25, 25, 50 mm radius 5 mm",
+          "shape 1, sphere: lies in space; it needs Specimen/Dimension = 3"}})
+    {
+      const std::string found = error(shapes);
+      EXPECT_TRUE(found.starts_with(begin)) << found;
+      EXPECT_NE(found.find(why), std::string::npos) << found;
+      EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+    }
+}
+
+TEST(Input, ATraceFileThatIsWrongIsNamedWithItsLine)
+{
+  const TemporaryFolder folder;
+  folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n0.01,0.02,0.01,0.02\n");
+  const auto file = folder.write("a.prm", "subsection Flaws\n  set Traces file = traces.csv\nend\n");
+  try
+    {
+      read_input(file);
+      ADD_FAILURE() << "was read";
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("traces.csv:3: the trace ends where it begins"), std::string::npos)
+        << error.what();
+    }
 }
 } // namespace
 } // namespace feldspar

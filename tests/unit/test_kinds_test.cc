@@ -64,7 +64,9 @@ std::string rows(const std::vector<FinishedTest>& tests)
 
 TEST(TestKinds, AreThoseOfTheManualAndSayWhatATestMust)
 {
-  EXPECT_EQ(names(test_kinds()), "direct_tension, uniaxial_compression, triaxial_compression, brazilian");
+  EXPECT_EQ(names(test_kinds()),
+            "direct_tension, uniaxial_compression, triaxial_compression, brazilian, three_point_bending, "
+            "semicircular_bending, direct_shear");
   std::set<std::string_view> all_names;
   for (const LaboratoryProtocol* protocol : laboratory_protocols())
     {

@@ -2,14 +2,15 @@
 #include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace feldspar
 {
@@ -18,29 +19,6 @@ namespace
 /// Half of the angle over which each end is loaded: discs loaded over 20° in all break from the middle, while a platen on
 /// the few grains that stand out crushes those and nothing else.
 constexpr double loaded_half_angle = 10.0 * std::numbers::pi / 180.0;
-
-/// In space a disc lies across the axis of the specimen it comes from: turns the specimen, so that the last axis runs
-/// across it and the second along it.
-template <int dim>
-Specimen<dim> laid_down(Specimen<dim> specimen)
-{
-  if constexpr (dim == 3)
-    {
-      // (x, y, z) -> (x, z, W - y), a quarter turn about x.
-      const double width = specimen.size[1];
-      const auto turn = [](auto& components) {
-        for (std::size_t i = 0; i < components[1].size(); ++i)
-          components[2][i] = -std::exchange(components[1][i], components[2][i]);
-      };
-      turn(specimen.grains.position);
-      for (double& z : specimen.grains.position[2])
-        z += width;
-      turn(specimen.joints.normal);
-      turn(specimen.joints.tangent);
-      std::swap(specimen.size[1], specimen.size[2]);
-    }
-  return specimen;
-}
 
 /// The grains that lie within a circle as wide as the specimen about its middle (wholly, unless the circle is the
 /// specimen's own side), in space from the middle of its length, with the joints between them; in the box of the disc.
@@ -51,55 +29,26 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, con
   if constexpr (dim == 3)
     size[1] = length;
   const Vector<dim> corner = 0.5 * (specimen.size - size);
-  const auto& grains = specimen.grains;
-  constexpr auto outside = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_number(grains.size(), outside);
-  std::vector<double> radii;
-  Components<dim> positions;
-  std::vector<double> masses, inertias;
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  std::vector<bool> kept(specimen.grains.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
     {
-      Vector<dim> from_middle = at<dim>(grains.position, i) - 0.5 * specimen.size;
+      Vector<dim> from_middle = at<dim>(specimen.grains.position, i) - 0.5 * specimen.size;
+      bool within = true;
       if constexpr (dim == 3)
         {
-          if (std::abs(from_middle[1]) > 0.5 * length)
-            continue;
+          within = std::abs(from_middle[1]) <= 0.5 * length;
           from_middle[1] = 0.0;
         }
-      if (!specimen.round && from_middle.norm() + grains.radius[i] > 0.5 * diameter)
-        continue;
-      new_number[i] = std::uint32_t(radii.size());
-      radii.push_back(grains.radius[i]);
-      masses.push_back(grains.mass[i]);
-      inertias.push_back(grains.moment_of_inertia[i]);
-      for (int c = 0; c < dim; ++c)
-        positions[c].push_back(grains.position[c][i] - corner[c]);
+      kept[i] = within && (specimen.round || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
     }
-  if (radii.size() < 2)
+  if (std::count(kept.begin(), kept.end(), true) < 2)
     throw InputError(fmt::format("Specimen/Width: a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
                                  "specimen wider or the grains smaller (Specimen/Minimum radius)",
                                  1e3 * diameter));
 
-  Specimen<dim> disc = specimen;
-  disc.size = size;
-  disc.grains.place(radii, positions);
-  disc.grains.mass = masses;
-  disc.grains.moment_of_inertia = inertias;
-  std::vector<std::size_t> kept;
-  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
-    if (new_number[specimen.joints.grain_1[j]] != outside && new_number[specimen.joints.grain_2[j]] != outside)
-      kept.push_back(j);
-  disc.joints.keep(kept);
-  for (auto* ends : {&disc.joints.grain_1, &disc.joints.grain_2})
-    for (auto& grain : *ends)
-      grain = new_number[grain];
-  disc.report.n_grains = disc.grains.size();
-  disc.report.n_joints = disc.joints.size();
-  disc.report.mean_radius = disc.grains.mean_radius();
-  disc.report.resolution = diameter / (2.0 * disc.report.mean_radius);
+  Specimen<dim> disc = shifted<dim>(part_of(specimen, kept), -corner, size);
   disc.report.porosity =
     1.0 - disc.grains.volume(disc.thickness) / (0.25 * std::numbers::pi * diameter * diameter * length);
-  disc.report.coordination_number = 2.0 * double(disc.joints.size()) / double(disc.grains.size());
   return disc;
 }
 
@@ -108,7 +57,7 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
                       const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  const Specimen<dim> lying = laid_down(specimen);
+  const Specimen<dim> lying = laid_on_side(specimen);
   const double diameter = dim == 2 ? lying.size.minCoeff() : lying.size[0];
   const double length = dim == 2 ? lying.thickness : std::min(wanted.brazilian_length_ratio * diameter, lying.size[1]);
   const Specimen<dim> disc = cut_disc(lying, diameter, length);

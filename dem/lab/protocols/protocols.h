@@ -19,6 +19,13 @@ extern const LaboratoryProtocol triaxial_compression;
 /// A disc cut out of the specimen, pressed together by pads of its own grains. docs/theory.md §4.4.
 extern const LaboratoryProtocol brazilian;
 
+/// A beam with a notch on two rollers, pressed by a third: K_IC by Srawley's formula. docs/theory.md §4.8.
+extern const LaboratoryProtocol three_point_bending;
+/// A half disc with a notch, bent in the same way: K_IC by the suggested method of the ISRM. docs/theory.md §4.8.
+extern const LaboratoryProtocol semicircular_bending;
+/// Two halves of a box that move past each other under a constant normal stress. docs/theory.md §4.9.
+extern const LaboratoryProtocol direct_shear;
+
 /// All of them.
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
 

@@ -1,0 +1,399 @@
+#include "app/input/flaw_entries.h"
+
+#include "app/input/nearest_name.h"
+#include "app/input/quantity.h"
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "base/quoted.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+constexpr std::string_view none = "none";
+constexpr std::size_t most_shapes = 10000;
+constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
+
+std::vector<std::string_view> words_of(std::string_view text)
+{
+  std::vector<std::string_view> words;
+  while (!(text = trim(text)).empty())
+    {
+      const std::size_t end = std::min(text.find_first_of(" \t\n"), text.size());
+      words.push_back(text.substr(0, end));
+      text.remove_prefix(end);
+    }
+  return words;
+}
+
+std::string joined(const std::vector<std::string_view>& words, const std::size_t begin, const std::size_t end)
+{
+  return fmt::format("{}", fmt::join(words.begin() + std::ptrdiff_t(begin), words.begin() + std::ptrdiff_t(end), " "));
+}
+
+/// The quantities of a shape by their words, e.g. centre and radius.
+class Quantities
+{
+  std::map<std::string_view, std::string> texts;
+
+  template <typename Read>
+  auto read(const std::string_view word, Read&& from_text) const
+  {
+    const auto found = texts.find(word);
+    if (found == texts.end())
+      throw InputError(fmt::format("{} is missing", word));
+    try
+      {
+        return from_text(std::string_view(found->second));
+      }
+    catch (const InputError& error)
+      {
+        throw InputError(fmt::format("{} {}: {}", word, excerpt(found->second), error.what()));
+      }
+  }
+
+public:
+  Quantities(const std::vector<std::string_view>& words, std::size_t first,
+             const std::vector<std::string_view>& known_words)
+  {
+    const auto is_known = [&](const std::string_view word) {
+      return std::find(known_words.begin(), known_words.end(), word) != known_words.end();
+    };
+    while (first < words.size())
+      {
+        const std::string_view word = words[first];
+        if (!is_known(word))
+          throw InputError(
+            fmt::format("{} is not one of its words; they are {}", in_quotes(word), fmt::join(known_words, ", ")));
+        std::size_t next = first + 1;
+        while (next < words.size() && !is_known(words[next]))
+          ++next;
+        if (!texts.emplace(word, joined(words, first + 1, next)).second)
+          throw InputError(fmt::format("{} is given twice", word));
+        first = next;
+      }
+  }
+
+  bool has(const std::string_view word) const { return texts.contains(word); }
+
+  /// Whether it is given in this way: by all of these words and by none of the others.
+  bool is_given_by(const std::vector<std::string_view>& words, const std::vector<std::string_view>& others) const
+  {
+    const auto is_given = [&](const std::string_view word) { return has(word); };
+    return std::all_of(words.begin(), words.end(), is_given) && std::none_of(others.begin(), others.end(), is_given);
+  }
+
+  double positive_length(const std::string_view word) const
+  {
+    return read(word, [](const std::string_view text) {
+      const double value = parse_quantity(text, length);
+      if (!(value > 0.0))
+        throw InputError("must be > 0 mm");
+      return value;
+    });
+  }
+
+  double length_from_zero(const std::string_view word) const
+  {
+    return read(word, [](const std::string_view text) {
+      const double value = parse_quantity(text, length);
+      if (!(value >= 0.0))
+        throw InputError("must be >= 0 mm");
+      return value;
+    });
+  }
+
+  /// 0 where it is not given.
+  double angle_or_zero(const std::string_view word) const
+  {
+    if (!has(word))
+      return 0.0;
+    return read(word, [](const std::string_view text) { return parse_quantity(text, angle); });
+  }
+
+  template <int dim>
+  Vector<dim> point(const std::string_view word) const
+  {
+    return read(word, [](const std::string_view text) {
+      const auto values = parse_quantities(text, length);
+      if (values.size() != dim)
+        throw InputError(fmt::format("has {} coordinate(s); there must be {}, e.g. \"{} mm\"", values.size(),
+                                     dim == 2 ? "2" : "3", dim == 2 ? "25, 50" : "25, 25, 50"));
+      Vector<dim> point;
+      std::copy(values.begin(), values.end(), point.data());
+      return point;
+    });
+  }
+
+  std::vector<Vector<2>> points(const std::string_view word, const std::size_t at_least) const
+  {
+    return read(word, [=](const std::string_view text) {
+      const auto values = parse_quantities(text, length);
+      if (values.size() % 2 != 0 || values.size() < 2 * at_least)
+        throw InputError(fmt::format("has {} numbers; there must be x and y of {} points or more, e.g. "
+                                     "\"10, 20, 30, 25, 35, 40 mm\"",
+                                     values.size(), at_least));
+      std::vector<Vector<2>> points;
+      for (std::size_t k = 0; k < values.size(); k += 2)
+        {
+          points.emplace_back(values[k], values[k + 1]);
+          if (k > 0 && points[k / 2] == points[k / 2 - 1])
+            throw InputError("has the same point twice in a row");
+        }
+      return points;
+    });
+  }
+
+  double share(const std::string_view word) const
+  {
+    return read(word, [](const std::string_view text) {
+      const double value = parse_number(text);
+      if (!(value > 0.0 && value <= 1.0))
+        throw InputError("must lie in (0, 1]");
+      return value;
+    });
+  }
+
+  std::uint64_t count(const std::string_view word) const
+  {
+    return read(word, [](const std::string_view text) {
+      std::uint64_t value = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error != std::errc() || end != text.data() + text.size())
+        throw InputError("must be an integer >= 0");
+      return value;
+    });
+  }
+};
+
+Shape read_hole(const Quantities& given)
+{
+  if (given.is_given_by({"centre", "radius"}, {"semi-axes", "corners", "angle"}))
+    return EllipseHole{given.point<2>("centre"), Vector<2>::Constant(given.positive_length("radius"))};
+  if (given.is_given_by({"centre", "semi-axes"}, {"radius", "corners"}))
+    {
+      const Vector<2> semi_axes = given.point<2>("semi-axes");
+      if (!(semi_axes.minCoeff() > 0.0))
+        throw InputError("semi-axes: must be > 0 mm");
+      return EllipseHole{given.point<2>("centre"), semi_axes, given.angle_or_zero("angle")};
+    }
+  if (given.is_given_by({"corners"}, {"centre", "radius", "semi-axes", "angle"}))
+    return PolygonHole{given.points("corners", 3)};
+  throw InputError("is given by \"centre X, Y mm radius R mm\", \"centre X, Y mm semi-axes A, B mm angle D deg\" or "
+                   "\"corners X1, Y1, X2, Y2, X3, Y3 mm\"");
+}
+
+Shape read_sphere(const Quantities& given)
+{
+  return SphereHole{given.point<3>("centre"), given.positive_length("radius")};
+}
+
+/// The ends of a line given by its ends, or by its centre, length and angle.
+std::pair<Vector<2>, Vector<2>> read_line(const Quantities& given)
+{
+  if (given.has("from"))
+    {
+      const std::pair ends(given.point<2>("from"), given.point<2>("to"));
+      if (ends.first == ends.second)
+        throw InputError("ends where it begins");
+      return ends;
+    }
+  const double turn = given.angle_or_zero("angle");
+  const Vector<2> half = 0.5 * given.positive_length("length") * Vector<2>(std::cos(turn), std::sin(turn));
+  const Vector<2> centre = given.point<2>("centre");
+  return {centre - half, centre + half};
+}
+
+Shape read_slot(const Quantities& given)
+{
+  if (!given.is_given_by({"from", "to", "width"}, {"centre", "length", "angle"}) &&
+      !given.is_given_by({"centre", "length", "width"}, {"from", "to"}))
+    throw InputError(
+      "is given by \"from X, Y mm to X, Y mm width W mm\" or \"centre X, Y mm length L mm angle D deg width W "
+      "mm\"");
+  const auto [from, to] = read_line(given);
+  return Slot{from, to, given.length_from_zero("width")};
+}
+
+Shape read_closed_flaw(const Quantities& given)
+{
+  if (given.is_given_by({"from", "to"}, {"centre", "length", "angle", "points"}) ||
+      given.is_given_by({"centre", "length"}, {"from", "to", "points"}))
+    {
+      const auto [from, to] = read_line(given);
+      return ClosedFlaw{{from, to}};
+    }
+  if (given.is_given_by({"points"}, {"from", "to", "centre", "length", "angle"}))
+    return ClosedFlaw{given.points("points", 2)};
+  throw InputError(
+    "is given by \"from X, Y mm to X, Y mm\", \"centre X, Y mm length L mm angle D deg\" or \"points X1, "
+    "Y1, X2, Y2 mm\"");
+}
+
+Shape read_disc_flaw(const Quantities& given)
+{
+  // The dip direction is that of the steepest way down, from the first axis towards the second.
+  const double dip = given.angle_or_zero("dip");
+  const double direction = given.angle_or_zero("dip-direction");
+  return DiscFlaw{given.point<3>("centre"), given.positive_length("radius"),
+                  Vector<3>(std::sin(dip) * std::cos(direction), std::sin(dip) * std::sin(direction), std::cos(dip))};
+}
+
+Shape read_joint_set(const Quantities& given)
+{
+  JointSet set{given.angle_or_zero("angle"), given.positive_length("spacing")};
+  if (given.has("persistence"))
+    set.persistence = given.share("persistence");
+  if (given.has("trace-length") != (set.persistence < 1.0))
+    throw InputError(set.persistence < 1.0
+                       ? "trace-length is missing; with a persistence below 1 traces have a length"
+                       : "trace-length: with a persistence of 1 traces run through; give a persistence below 1");
+  if (set.persistence < 1.0)
+    set.trace_length = given.positive_length("trace-length");
+  if (given.has("seed"))
+    set.seed = given.count("seed");
+  return set;
+}
+
+/// How shapes are called, the words of their quantities, and how they are read.
+struct Form
+{
+  std::string_view name;
+  std::vector<std::string_view> words;
+  Shape (*read)(const Quantities&);
+};
+
+const std::vector<Form>& forms()
+{
+  static const std::vector<Form> all{
+    {EllipseHole::name, {"centre", "radius", "semi-axes", "angle", "corners"}, read_hole},
+    {SphereHole::name, {"centre", "radius"}, read_sphere},
+    {Slot::name, {"from", "to", "centre", "length", "angle", "width"}, read_slot},
+    {ClosedFlaw::name, {"from", "to", "centre", "length", "angle", "points"}, read_closed_flaw},
+    {DiscFlaw::name, {"centre", "radius", "dip", "dip-direction"}, read_disc_flaw},
+    {JointSet::name, {"angle", "spacing", "persistence", "trace-length", "seed"}, read_joint_set}};
+  return all;
+}
+
+Shape parse_shape(const std::string_view text)
+{
+  const auto words = words_of(text);
+  for (const Form& form : forms())
+    {
+      const std::size_t n = words_of(form.name).size();
+      if (words.size() < n || joined(words, 0, n) != form.name)
+        continue;
+      try
+        {
+          return form.read(Quantities(words, n, form.words));
+        }
+      catch (const InputError& error)
+        {
+          throw InputError(fmt::format("{}: {}", form.name, error.what()));
+        }
+    }
+  std::vector<std::string_view> names;
+  for (const Form& form : forms())
+    names.push_back(form.name);
+  throw InputError(
+    fmt::format("{} is no shape; it begins with one of: {}", in_quotes(trim(text)), fmt::join(names, ", ")));
+}
+
+std::vector<Shape> read_traces(const std::filesystem::path& file)
+{
+  std::vector<Shape> traces;
+  for (const auto& row : read_csv(file, header_of_traces))
+    {
+      if (traces.size() == most_shapes)
+        throw InputError(fmt::format("{}: must be at most {} traces", file.string(), most_shapes));
+      traces.emplace_back(ClosedFlaw{{{row[0], row[1]}, {row[2], row[3]}}});
+      if (row[0] == row[2] && row[1] == row[3])
+        throw InputError(fmt::format("{}:{}: the trace ends where it begins", file.string(), traces.size() + 1));
+    }
+  return traces;
+}
+} // namespace
+
+std::vector<Shape> parse_shapes(std::string_view text)
+{
+  std::vector<Shape> shapes;
+  for (;;)
+    {
+      const std::size_t bar = text.find('|');
+      if (shapes.size() == most_shapes)
+        throw InputError(fmt::format("must be at most {} shapes", most_shapes));
+      try
+        {
+          shapes.push_back(parse_shape(text.substr(0, bar)));
+        }
+      catch (const InputError& error)
+        {
+          throw InputError(fmt::format("shape {}, {}", shapes.size() + 1, error.what()));
+        }
+      if (bar == std::string_view::npos)
+        return shapes;
+      text.remove_prefix(bar + 1);
+    }
+}
+
+std::vector<Entry<Input>> flaw_entries()
+{
+  const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  const EntryFlags of_body{.of_specimen = true};
+  return {
+    {"Shapes",
+     Entry<Input>::Text{
+       "", "none, or shapes separated by upright bars",
+       [](Input& input, const std::string_view text) {
+         input.flaws.shapes = text == none ? std::vector<Shape>() : parse_shapes(text);
+         input.flaws.text = text == none ? "" : joined(words_of(text), 0, words_of(text).size());
+       },
+       [](const Input& input) { return input.flaws.text.empty() ? std::string(none) : input.flaws.text; }},
+     "what is put into the finished specimen; e.g. `hole centre 25, 50 mm radius 5 mm` (or `semi-axes 5, 3 mm "
+     "angle 30 deg`, or `corners 20, 40, 30, 40, 25, 50 mm`), `slot from 25, 0 mm to 25, 12 mm width 2 mm`, "
+     "`closed flaw centre 25, 50 mm length 12 mm angle 45 deg` (or `from`, `to`, or `points`), `joint set angle "
+     "30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`; in three dimensions these run through the "
+     "depth, and there are `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw centre 25, 25, 50 mm radius "
+     "6 mm dip 45 deg dip-direction 0 deg`; angles are from the first axis towards that of the tests",
+     of_rock},
+    {"Traces file",
+     Entry<Input>::Text{"", "none, or a file",
+                        [](Input& input, const std::string_view text) {
+                          input.flaws.traces.clear();
+                          input.flaws.traces_file.clear();
+                          if (text.empty() || text == none)
+                            return;
+                          const std::filesystem::path file = input.folder / text;
+                          std::error_code ignored;
+                          if (!std::filesystem::exists(file, ignored))
+                            throw InputError(fmt::format("there is no file {}", excerpt(file.string(), 300)));
+                          if (std::filesystem::is_directory(file, ignored))
+                            throw InputError(
+                              fmt::format("{} is a folder; a file is needed", excerpt(file.string(), 300)));
+                          input.flaws.traces = read_traces(file);
+                          input.flaws.traces_file = file.string();
+                        },
+                        [](const Input& input) {
+                          return input.flaws.traces_file.empty() ? std::string(none) : input.flaws.traces_file;
+                        }},
+     "closed flaws of a joint map, a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m (y along the axis of the "
+     "tests)",
+     of_body}};
+}
+} // namespace feldspar

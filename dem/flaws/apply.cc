@@ -1,0 +1,310 @@
+#include "dem/flaws/apply.h"
+
+#include "base/disjoint_sets.h"
+#include "base/input_error.h"
+#include "dem/specimen/specimen_part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+/// Grains that fall out of a hole's rim with it: as many hang together at most.
+constexpr std::uint32_t largest_crumb = 3;
+
+/// The coordinates of the plane of the pictures.
+template <int dim>
+Vector<2> in_plane(const Vector<dim>& point)
+{
+  return {point[0], point[dim - 1]};
+}
+
+/// What a shape does to a grain's centre, and to the way between two centres.
+template <int dim>
+struct Effect
+{
+  std::function<bool(const Vector<dim>&)> takes_out;
+  std::function<bool(const Vector<dim>&, const Vector<dim>&)> cuts;
+};
+
+template <int dim>
+Effect<dim> effect_of(const EllipseHole& hole)
+{
+  const Vector<2> first(std::cos(hole.angle), std::sin(hole.angle));
+  const Vector<2> second(-first[1], first[0]);
+  const auto inside = [=](const Vector<dim>& point) {
+    const Vector<2> from_centre = in_plane<dim>(point) - hole.centre;
+    return std::hypot(from_centre.dot(first) / hole.semi_axes[0], from_centre.dot(second) / hole.semi_axes[1]) < 1.0;
+  };
+  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const PolygonHole& hole)
+{
+  const auto inside = [=](const Vector<dim>& point) { return is_inside(hole.corners, in_plane<dim>(point)); };
+  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const SphereHole& hole)
+{
+  const auto inside = [=](const Vector<dim>& point) {
+    if constexpr (dim == 3)
+      return (point - hole.centre).norm() < hole.radius;
+    else
+      return false;
+  };
+  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) { return inside(0.5 * (a + b)); }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const Slot& slot)
+{
+  const Vector<2> way = slot.to - slot.from;
+  const double length = way.norm();
+  const Vector<2> along = way / length;
+  const auto inside = [=](const Vector<dim>& point) {
+    const Vector<2> from_start = in_plane<dim>(point) - slot.from;
+    const double s = from_start.dot(along);
+    return s >= 0.0 && s <= length && (from_start - s * along).norm() < 0.5 * slot.width;
+  };
+  return {inside, [=](const Vector<dim>& a, const Vector<dim>& b) {
+            return cross(in_plane<dim>(a), in_plane<dim>(b), slot.from, slot.to);
+          }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const ClosedFlaw& flaw)
+{
+  return {[](const Vector<dim>&) { return false; },
+          [=](const Vector<dim>& a, const Vector<dim>& b) {
+            for (std::size_t k = 0; k + 1 < flaw.points.size(); ++k)
+              if (cross(in_plane<dim>(a), in_plane<dim>(b), flaw.points[k], flaw.points[k + 1]))
+                return true;
+            return false;
+          }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const DiscFlaw& disc)
+{
+  return {[](const Vector<dim>&) { return false; },
+          [=](const Vector<dim>& a, const Vector<dim>& b) {
+            if constexpr (dim == 3)
+              {
+                const double above_a = (a - disc.centre).dot(disc.normal);
+                const double above_b = (b - disc.centre).dot(disc.normal);
+                if (above_a * above_b > 0.0 || above_a == above_b)
+                  return false;
+                return (a + above_a / (above_a - above_b) * (b - a) - disc.centre).norm() <= disc.radius;
+              }
+            else
+              return false;
+          }};
+}
+
+template <int dim>
+Effect<dim> effect_of(const JointSet&)
+{
+  return {}; // its flaws are closed flaws
+}
+
+/// The joints that a shape meets; of a periodic body also where they lie from their second grain.
+template <int dim>
+std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& effect)
+{
+  const auto& joints = specimen.joints;
+  std::vector<bool> cut(joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      const Vector<dim> branch = (joints.rest_distance[j] + joints.opening[j]) * at<dim>(joints.normal, j);
+      const Vector<dim> one = at<dim>(specimen.grains.position, joints.grain_1[j]);
+      cut[j] = effect.cuts(one, one + branch);
+      if (specimen.periodic && !cut[j])
+        {
+          const Vector<dim> two = at<dim>(specimen.grains.position, joints.grain_2[j]);
+          cut[j] = effect.cuts(two - branch, two);
+        }
+    }
+  return cut;
+}
+
+template <int dim>
+DisjointSets pieces(const Specimen<dim>& specimen)
+{
+  DisjointSets sets(specimen.grains.size());
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    sets.merge(specimen.joints.grain_1[j], specimen.joints.grain_2[j]);
+  return sets;
+}
+
+/// Which of the grains hang in the largest piece, by joints whether bonded or not; [n_grains].
+template <int dim>
+std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
+{
+  DisjointSets sets = pieces(specimen);
+  const auto sizes = sets.sizes();
+  const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<bool> within(specimen.grains.size());
+  for (std::uint32_t i = 0; i < within.size(); ++i)
+    within[i] = sets.root(i) == largest;
+  return within;
+}
+
+/// By joint: whether it stays.
+template <int dim>
+void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
+{
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < dropped.size(); ++j)
+    if (!dropped[j])
+      kept.push_back(j);
+  specimen.joints.keep(kept);
+  specimen.report.n_joints = specimen.joints.size();
+  specimen.report.coordination_number = 2.0 * double(specimen.joints.size()) / double(specimen.grains.size());
+}
+
+/// Takes grains and faces out; what hung together with the body and is left alone goes too where it is a crumb.
+template <int dim>
+void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_take_no_grain, Flaw<dim>& flaw)
+{
+  const std::vector<bool> cut = joints_cut(specimen, effect);
+  const std::vector<bool> of_body = in_largest_piece(specimen);
+  const std::size_t n_grains = specimen.grains.size();
+  std::vector<bool> kept(n_grains);
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    kept[i] = !effect.takes_out(at<dim>(specimen.grains.position, i));
+  const auto n_kept = std::size_t(std::count(kept.begin(), kept.end(), true));
+  const auto n_cut = std::size_t(std::count(cut.begin(), cut.end(), true));
+  if (n_kept == n_grains && (!may_take_no_grain || n_cut == 0))
+    throw InputError("takes out no grain: it is smaller than the grains, or lies between them");
+  if (2 * n_kept < n_grains)
+    throw InputError("takes out more than half of the grains");
+
+  const std::size_t n_joints = specimen.joints.size();
+  drop_joints(specimen, cut);
+  // What is left of the body: pieces of it without a face to the largest hang on nothing.
+  Specimen<dim> rest = part_of(specimen, kept);
+  std::vector<std::uint32_t> old_number;
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    if (kept[i])
+      old_number.push_back(i);
+  DisjointSets sets = pieces(rest);
+  const auto sizes = sets.sizes();
+  const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<bool> stays(rest.grains.size(), true);
+  for (std::uint32_t i = 0; i < rest.grains.size(); ++i)
+    if (const std::uint32_t root = sets.root(i); root != largest && of_body[old_number[i]])
+      {
+        if (sizes[root] > largest_crumb)
+          {
+            const Vector<2> where = 1e3 * in_plane<dim>(at<dim>(rest.grains.position, i));
+            throw InputError(fmt::format("leaves a free piece of {} grains, near ({:.3g}, {:.3g}) mm, which nothing "
+                                         "would hold; shorten the shape or leave a bridge",
+                                         sizes[root], where[0], where[1]));
+          }
+        stays[i] = false;
+      }
+  specimen = part_of(std::move(rest), stays);
+  flaw.n_grains = n_grains - specimen.grains.size();
+  flaw.n_joints = n_joints - specimen.joints.size();
+}
+
+template <int dim>
+void unbond(Specimen<dim>& specimen, const Effect<dim>& effect, Flaw<dim>& flaw)
+{
+  const std::vector<bool> cut = joints_cut(specimen, effect);
+  auto& joints = specimen.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (cut[j])
+      {
+        for (unsigned int i = 0; i < joints.n_segments; ++i)
+          joints.bonded[joints.segment(i, j)] = 0.0;
+        ++flaw.n_joints;
+      }
+}
+
+template <int dim>
+void put_in(Specimen<dim>& specimen, const Shape& shape)
+{
+  Flaw<dim> flaw{std::string(name(shape)), is_open(shape), {}, 0, 0};
+  for (const Vector<2>& point : outline(shape))
+    {
+      Vector<dim> placed = 0.5 * specimen.size;
+      placed[0] = point[0];
+      placed[dim - 1] = point[1];
+      flaw.outline.push_back(placed);
+    }
+  const auto effect = std::visit([](const auto& one) { return effect_of<dim>(one); }, shape);
+  if (flaw.open)
+    open(specimen, effect, std::holds_alternative<Slot>(shape), flaw);
+  else
+    unbond(specimen, effect, flaw);
+  specimen.flaws.push_back(std::move(flaw));
+}
+
+std::string title(const std::vector<Shape>& shapes, const std::size_t k)
+{
+  return fmt::format("shape {}, {}", k + 1, name(shapes[k]));
+}
+} // namespace
+
+template <int dim>
+void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes)
+{
+  if (shapes.empty())
+    return;
+  if (const std::string what = objection<dim>(shapes, specimen.size); !what.empty())
+    throw InputError("Flaws: " + what);
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    try
+      {
+        if (const auto* set = std::get_if<JointSet>(&shapes[k]))
+          {
+            std::uint64_t n_joints = 0;
+            for (const ClosedFlaw& flaw : traces(*set, in_plane<dim>(specimen.size)))
+              {
+                put_in(specimen, Shape(flaw));
+                specimen.flaws.back().name = JointSet::name;
+                n_joints += specimen.flaws.back().n_joints;
+              }
+            if (n_joints == 0)
+              throw InputError("crosses no joint of the specimen");
+          }
+        else
+          {
+            put_in(specimen, shapes[k]);
+            if (const auto& flaw = specimen.flaws.back(); !flaw.open && flaw.n_joints == 0)
+              throw InputError("crosses no joint: it is smaller than the grains, or lies between them");
+          }
+      }
+    catch (const InputError& error)
+      {
+        throw InputError(fmt::format("Flaws: {}: {}", title(shapes, k), error.what()));
+      }
+  // Numbers of joints are places in lists; those of the ones taken out are free.
+  std::iota(specimen.joints.number.begin(), specimen.joints.number.end(), 0u);
+}
+
+template <int dim>
+std::string objection(const std::vector<Shape>& shapes, const Vector<dim>& size)
+{
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (const std::string what = objection<dim>(shapes[k], size); !what.empty())
+      return fmt::format("{}: {}", title(shapes, k), what);
+  return "";
+}
+
+template void put_in_flaws<2>(Specimen<2>&, const std::vector<Shape>&);
+template void put_in_flaws<3>(Specimen<3>&, const std::vector<Shape>&);
+template std::string objection<2>(const std::vector<Shape>&, const Vector<2>&);
+template std::string objection<3>(const std::vector<Shape>&, const Vector<3>&);
+} // namespace feldspar

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "base/vector.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// Shapes of what is in a rock, as the input describes them; docs/theory.md §3.1. A point of the plane has two
+/// coordinates, along the first axis and along that of the tests. In space what is given by such points runs through the
+/// whole depth, as a borehole or a saw cut does.
+namespace feldspar
+{
+/// An ellipse; a disc where both semi-axes are one.
+struct EllipseHole
+{
+  static constexpr std::string_view name = "hole";
+  Vector<2> centre;    ///< [m]
+  Vector<2> semi_axes; ///< [m]
+  double angle = 0.0;  ///< of the first, from the first axis towards that of the tests [rad]
+};
+
+struct PolygonHole
+{
+  static constexpr std::string_view name = "hole";
+  std::vector<Vector<2>> corners; ///< three at least [m]
+};
+
+/// In space only.
+struct SphereHole
+{
+  static constexpr std::string_view name = "sphere";
+  Vector<3> centre; ///< [m]
+  double radius;    ///< [m]
+};
+
+/// A saw cut; of no width, it takes out no grain, only the faces across its line.
+struct Slot
+{
+  static constexpr std::string_view name = "slot";
+  Vector<2> from, to; ///< [m]
+  double width;       ///< [m]
+};
+
+/// A crack without width whose sides touch: the joints across it are unbonded.
+struct ClosedFlaw
+{
+  static constexpr std::string_view name = "closed flaw";
+  std::vector<Vector<2>> points; ///< of a line, two at least [m]
+};
+
+/// The same as a disc; in space only.
+struct DiscFlaw
+{
+  static constexpr std::string_view name = "disc flaw";
+  Vector<3> centre; ///< [m]
+  double radius;    ///< [m]
+  Vector<3> normal; ///< unit
+};
+
+/// Parallel lines through the whole specimen, each of which is a closed flaw over a share of its length.
+struct JointSet
+{
+  static constexpr std::string_view name = "joint set";
+  double angle;              ///< of the lines, from the first axis towards that of the tests [rad]
+  double spacing;            ///< across them [m]
+  double persistence = 1.0;  ///< share of a line that is flaw, (0, 1]
+  double trace_length = 0.0; ///< of each flaw, where persistence < 1 [m]
+  std::uint64_t seed = 1;    ///< of where the lines and their flaws begin
+};
+
+using Shape = std::variant<EllipseHole, PolygonHole, SphereHole, Slot, ClosedFlaw, DiscFlaw, JointSet>;
+
+/// All that is put into a specimen, in this order.
+struct FlawParameters
+{
+  std::vector<Shape> shapes;
+  std::vector<Shape> traces; ///< of a file, after the others
+  std::string text;          ///< of the shapes, as it was written; empty: none
+  std::string traces_file;   ///< empty: none
+
+  std::vector<Shape> all() const
+  {
+    std::vector<Shape> both = shapes;
+    both.insert(both.end(), traces.begin(), traces.end());
+    return both;
+  }
+};
+
+std::string_view name(const Shape& shape);
+
+/// Whether grains are taken out.
+bool is_open(const Shape& shape);
+
+/// The points of the line or, closed, of the outline, for what lies in the plane of the picture; of a sphere its equator
+/// there; of a joint set none.
+std::vector<Vector<2>> outline(const Shape& shape);
+
+/// The flaws of a set in a box of this width and height [m].
+std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size);
+
+/// Why it cannot be put into a body of this size [m], in the words of an error; empty if it can.
+template <int dim>
+std::string objection(const Shape& shape, const Vector<dim>& size);
+
+/// Whether a point of the plane lies in a polygon.
+bool is_inside(const std::vector<Vector<2>>& corners, const Vector<2>& point);
+
+/// Whether the way from a to b meets the line from c to d.
+bool cross(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c, const Vector<2>& d);
+} // namespace feldspar

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "dem/lab/laboratory_test.h"
+
+namespace feldspar
+{
+/// A body that stands on two rollers and is pressed down by a third, with a saw cut of no width from below.
+struct Bending
+{
+  double depth;             ///< from the plane of the lower rollers to the upper one [m]
+  double span;              ///< between the lower rollers [m]
+  double notch_depth;       ///< of the cut [m]
+  double stress_over_force; ///< measured stress over the load [1/m²]
+  NotchGeometry notch;
+};
+
+/// Stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth plates, one mean
+/// grain diameter to either side, against the grains that stand out most there. Throws InputError where there are none.
+template <int dim>
+SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParameters& wanted,
+                    const DynamicsParameters& dynamics);
+} // namespace feldspar

@@ -1,0 +1,114 @@
+#include "base/input_error.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/lab/servo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace feldspar
+{
+namespace
+{
+/// The two ends of one half of the box.
+struct HalfBox
+{
+  std::size_t low;
+  std::size_t high;
+};
+
+template <int dim>
+HalfBox add_half_box(Dynamics<dim>& dynamics, const double from, const double to)
+{
+  Wall low{.axis = 0, .side = 1.0, .position = 0.0};
+  Wall high{.axis = 0, .side = -1.0, .position = dynamics.specimen().size[0]};
+  low.extent = high.extent = {from, to};
+  const std::size_t first = dynamics.add_wall(low);
+  return {first, dynamics.add_wall(high)};
+}
+
+/// What a half pushes its grains with along the first axis [N].
+template <int dim>
+double push(const Dynamics<dim>& dynamics, const HalfBox& half)
+{
+  return dynamics.wall_force(half.low) - dynamics.wall_force(half.high);
+}
+
+template <int dim>
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double normal_stress, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  if (specimen.round)
+    throw InputError("Tests/List: direct_shear: the shear box takes a box of grains, not a cylinder");
+  const double height = specimen.size[axis];
+  const double area = specimen.size[0] * (dim == 2 ? specimen.thickness : specimen.size[1]);
+  const double speed = wanted.shear_strain_rate * specimen.size[0];
+  // The halves leave one mean grain diameter free, so that the plane may run between them as it will.
+  const double half_gap = specimen.report.mean_radius;
+  constexpr double endless = std::numeric_limits<double>::infinity();
+
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const Platens platens = add_platens(test.dynamics, 0.0, height, 0.0);
+  const HalfBox lower = add_half_box(test.dynamics, -endless, 0.5 * height - half_gap);
+  const HalfBox upper = add_half_box(test.dynamics, 0.5 * height + half_gap, endless);
+
+  const double largest_servo_speed = 10.0 * speed;
+  const auto hold = [=](Dynamics<dim>& state, const double share) {
+    hold_pressure(state, platens.upper, area, share * normal_stress, largest_servo_speed);
+  };
+  test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
+    const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
+    const double ramp = wanted.seating_transits * height / wave_speed;
+    constexpr double tolerance = 0.005;
+    constexpr double most_ramps = 20.0;
+    for (;;)
+      {
+        check();
+        hold(state, std::min(1.0, state.time() / ramp));
+        state.step();
+        if (state.time() > most_ramps * ramp)
+          throw InputError(
+            fmt::format("Tests/Confinements: the platen cannot hold {:g} MPa on this specimen", normal_stress / 1e6));
+        if (state.time() < 1.5 * ramp)
+          continue;
+        double worst = 0.0;
+        for (const std::size_t platen : {platens.lower, platens.upper})
+          worst = std::max(worst, std::abs(state.wall_force(platen) / area / normal_stress - 1.0));
+        if (worst < tolerance)
+          break;
+      }
+    for (const std::size_t end : {upper.low, upper.high})
+      state.wall(end).velocity = 0.5 * speed;
+    for (const std::size_t end : {lower.low, lower.high})
+      state.wall(end).velocity = -0.5 * speed;
+  };
+  test.loading.drive = [=](Dynamics<dim>& state) { hold(state, 1.0); };
+
+  test.loading.strain_rate = -wanted.shear_strain_rate;
+  test.loading.sampling_strain = wanted.shear_sampling_strain;
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
+    return EndStress{push(state, lower) / area, -push(state, upper) / area};
+  };
+  test.loading.servo_stress = [=](const Dynamics<dim>& state) { return -state.wall_force(platens.upper) / area; };
+  return test;
+}
+} // namespace
+
+constinit const LaboratoryProtocol direct_shear = complete({
+  .kind = {.name = "direct_shear",
+           .title = "Direct shear",
+           .strength = "shear strength",
+           .sign = -1.0,
+           .channel = {&CurveSample::axial_stress, "shear stress"},
+           .takes_confining_pressure = true,
+           .pressure_acts_across = true,
+           .strength_decimals = 2},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
+} // namespace feldspar

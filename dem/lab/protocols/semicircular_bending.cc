@@ -1,0 +1,81 @@
+#include "dem/lab/bending.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double span_over_diameter = 0.6; // the suggested method allows 0.5 to 0.8
+
+/// Y' of a half disc: K_I = Y' P √(πa) / (2 R B); notch_ratio: a/R (Kuruppu, Obara, Ayatollahi, Chong, Funatsu 2014, the
+/// suggested method of the ISRM; plane strain).
+double shape_factor(const double notch_ratio)
+{
+  const double s = span_over_diameter;
+  return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * notch_ratio + (1.071 + 34.401 * s) * notch_ratio * notch_ratio;
+}
+
+template <int dim>
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  // A core lies on its side, so that the half disc is cut across it.
+  Specimen<dim> whole = specimen.round ? laid_on_side(specimen) : specimen;
+  const double radius = specimen.round ? 0.5 * whole.size[0] : std::min(0.5 * whole.size[0], whole.size[axis]);
+  const double breadth = dim == 2      ? whole.thickness
+                         : whole.round ? std::min(wanted.brazilian_length_ratio * 2.0 * radius, whole.size[1])
+                                       : whole.size[1];
+  Vector<dim> base = 0.5 * whole.size; // the middle of the flat side
+  base[axis] -= whole.round ? 0.0 : 0.5 * radius;
+  std::vector<bool> kept(whole.grains.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    {
+      Vector<dim> from_base = at<dim>(whole.grains.position, i) - base;
+      bool within = from_base[axis] >= 0.0;
+      if constexpr (dim == 3)
+        {
+          within = within && std::abs(from_base[1]) <= 0.5 * breadth;
+          from_base[1] = 0.0;
+        }
+      kept[i] = within && from_base.norm() <= radius;
+    }
+  Vector<dim> size = Vector<dim>::Constant(2.0 * radius);
+  size[axis] = radius;
+  if constexpr (dim == 3)
+    size[1] = breadth;
+  Vector<dim> corner = base - 0.5 * size;
+  corner[axis] = base[axis];
+  Specimen<dim> half_disc = shifted<dim>(part_of(std::move(whole), kept), -corner, size);
+  half_disc.round = false;
+
+  const double a = wanted.notch_ratio;
+  const double stress_over_force = 1.0 / (2.0 * radius * breadth);
+  const Bending bending{.depth = radius,
+                        .span = 2.0 * radius * span_over_diameter,
+                        .notch_depth = a * radius,
+                        .stress_over_force = stress_over_force,
+                        .notch = {.intensity_over_stress = shape_factor(a) * std::sqrt(std::numbers::pi * a * radius),
+                                  .work_over_stress = radius / stress_over_force,
+                                  .ligament_area = breadth * radius * (1.0 - a),
+                                  .is_valid = a >= 0.4 && a <= 0.6}};
+  return bend(std::move(half_disc), bending, wanted, dynamics);
+}
+} // namespace
+
+constinit const LaboratoryProtocol semicircular_bending = complete({
+  .kind = {.name = "semicircular_bending",
+           .title = "Bending of a notched half disc",
+           .strength = "load over section, notched",
+           .sign = -1.0,
+           .strength_decimals = 2},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
+} // namespace feldspar

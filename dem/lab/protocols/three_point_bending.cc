@@ -1,0 +1,73 @@
+#include "base/input_error.h"
+#include "dem/lab/bending.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+constexpr double span_over_depth = 4.0;   // for which the formula holds
+constexpr double length_over_depth = 4.4; // a tenth of the depth or more beyond each roller
+
+/// K_I √W / (P S / (B W)) of a single edge notch in three-point bending, S = 4 W, within 0.5 % for every depth of the
+/// notch (Srawley 1976, in ASTM E399).
+double intensity(const double a)
+{
+  return 3.0 * std::sqrt(a) * (1.99 - a * (1.0 - a) * (2.15 - 3.93 * a + 2.7 * a * a)) /
+         (2.0 * (1.0 + 2.0 * a) * std::pow(1.0 - a, 1.5));
+}
+
+template <int dim>
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  if (specimen.round)
+    throw InputError(
+      "Tests/List: three_point_bending: a beam is cut from a box of grains; a core is bent as a half disc "
+      "(semicircular_bending)");
+  // Its longer side is the beam's length.
+  Specimen<dim> beam = specimen.size[0] >= specimen.size[axis] ? specimen : quarter_turned(specimen);
+  const double length = beam.size[0];
+  const double depth = std::min(beam.size[axis], length / length_over_depth);
+  const double base = 0.5 * (beam.size[axis] - depth);
+  std::vector<bool> kept(beam.grains.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    kept[i] = beam.grains.position[axis][i] >= base && beam.grains.position[axis][i] <= base + depth;
+  beam = part_of(std::move(beam), kept);
+  Vector<dim> size = beam.size;
+  size[axis] = depth;
+  beam = shifted<dim>(std::move(beam), -base * Vector<dim>::Unit(axis), size);
+
+  const double breadth = dim == 2 ? beam.thickness : beam.size[1];
+  const double span = span_over_depth * depth;
+  const double a = wanted.notch_ratio;
+  // σ = 3 P S / (2 B W²), at the lower side of a beam without a notch.
+  const double stress_over_force = 3.0 * span / (2.0 * breadth * depth * depth);
+  const Bending bending{.depth = depth,
+                        .span = span,
+                        .notch_depth = a * depth,
+                        .stress_over_force = stress_over_force,
+                        .notch = {.intensity_over_stress = 2.0 / 3.0 * std::sqrt(depth) * intensity(a),
+                                  .work_over_stress = depth / stress_over_force,
+                                  .ligament_area = breadth * depth * (1.0 - a),
+                                  .is_valid = true}};
+  return bend(std::move(beam), bending, wanted, dynamics);
+}
+} // namespace
+
+constinit const LaboratoryProtocol three_point_bending = complete({
+  .kind = {.name = "three_point_bending",
+           .title = "Three-point bending of a notched beam",
+           .strength = "bending strength, notched",
+           .sign = -1.0,
+           .strength_decimals = 2},
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
+} // namespace feldspar

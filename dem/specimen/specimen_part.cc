@@ -1,0 +1,123 @@
+#include "dem/specimen/specimen_part.h"
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace feldspar
+{
+template <int dim>
+Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept)
+{
+  const Grains<dim> whole = std::move(specimen.grains);
+  constexpr auto outside = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> new_number(whole.size(), outside);
+  std::vector<double> radii, masses, inertias;
+  Components<dim> positions;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    {
+      if (!kept[i])
+        continue;
+      new_number[i] = std::uint32_t(radii.size());
+      radii.push_back(whole.radius[i]);
+      masses.push_back(whole.mass[i]);
+      inertias.push_back(whole.moment_of_inertia[i]);
+      for (int c = 0; c < dim; ++c)
+        positions[c].push_back(whole.position[c][i]);
+    }
+  specimen.grains = {};
+  specimen.grains.place(radii, positions);
+  specimen.grains.mass = masses;
+  specimen.grains.moment_of_inertia = inertias;
+
+  auto& joints = specimen.joints;
+  std::vector<std::size_t> kept_joints;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (kept[joints.grain_1[j]] && kept[joints.grain_2[j]])
+      kept_joints.push_back(j);
+  joints.keep(kept_joints);
+  for (auto* ends : {&joints.grain_1, &joints.grain_2})
+    for (auto& grain : *ends)
+      grain = new_number[grain];
+
+  auto& report = specimen.report;
+  report.n_grains = specimen.grains.size();
+  report.n_joints = joints.size();
+  if (report.n_grains == 0)
+    return specimen;
+  report.mean_radius = specimen.grains.mean_radius();
+  report.resolution = specimen.size[0] / (2.0 * report.mean_radius);
+  report.coordination_number = 2.0 * double(report.n_joints) / double(report.n_grains);
+  return specimen;
+}
+
+template <int dim>
+Specimen<dim> shifted(Specimen<dim> specimen, const Vector<dim>& way, const Vector<dim>& size)
+{
+  for (int c = 0; c < dim; ++c)
+    for (double& x : specimen.grains.position[c])
+      x += way[c];
+  for (auto& flaw : specimen.flaws)
+    for (auto& point : flaw.outline)
+      point += way;
+  specimen.size = size;
+  specimen.report.resolution = size[0] / (2.0 * specimen.report.mean_radius);
+  return specimen;
+}
+
+template <int dim>
+Specimen<dim> laid_on_side(Specimen<dim> specimen)
+{
+  if constexpr (dim == 3)
+    {
+      // (x, y, z) -> (x, z, W - y).
+      const double width = specimen.size[1];
+      const auto turn = [](auto& components) {
+        for (std::size_t i = 0; i < components[1].size(); ++i)
+          components[2][i] = -std::exchange(components[1][i], components[2][i]);
+      };
+      turn(specimen.grains.position);
+      for (double& z : specimen.grains.position[2])
+        z += width;
+      turn(specimen.joints.normal);
+      turn(specimen.joints.tangent);
+      for (auto& flaw : specimen.flaws)
+        for (auto& point : flaw.outline)
+          point[2] = width - std::exchange(point[1], point[2]);
+      std::swap(specimen.size[1], specimen.size[2]);
+    }
+  return specimen;
+}
+
+template <int dim>
+Specimen<dim> quarter_turned(Specimen<dim> specimen)
+{
+  constexpr int last = dim - 1;
+  // (x, z) -> (z, W - x).
+  const double width = specimen.size[0];
+  const auto turn = [](auto& components) {
+    for (std::size_t i = 0; i < components[0].size(); ++i)
+      components[last][i] = -std::exchange(components[0][i], components[last][i]);
+  };
+  turn(specimen.grains.position);
+  for (double& x : specimen.grains.position[last])
+    x += width;
+  turn(specimen.joints.normal);
+  if constexpr (dim == 3)
+    turn(specimen.joints.tangent);
+  for (auto& flaw : specimen.flaws)
+    for (auto& point : flaw.outline)
+      point[last] = width - std::exchange(point[0], point[last]);
+  std::swap(specimen.size[0], specimen.size[last]);
+  return specimen;
+}
+
+template Specimen<2> shifted<2>(Specimen<2>, const Vector<2>&, const Vector<2>&);
+template Specimen<3> shifted<3>(Specimen<3>, const Vector<3>&, const Vector<3>&);
+template Specimen<2> laid_on_side<2>(Specimen<2>);
+template Specimen<3> laid_on_side<3>(Specimen<3>);
+template Specimen<2> quarter_turned<2>(Specimen<2>);
+template Specimen<3> quarter_turned<3>(Specimen<3>);
+template Specimen<2> part_of<2>(Specimen<2>, const std::vector<bool>&);
+template Specimen<3> part_of<3>(Specimen<3>, const std::vector<bool>&);
+} // namespace feldspar

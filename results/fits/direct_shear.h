@@ -1,0 +1,31 @@
+#pragma once
+
+#include "results/run.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// τ = c + σ_n tan φ through the peaks of shear tests.
+struct ShearLine
+{
+  double cohesion;       ///< c [Pa]
+  double friction_angle; ///< φ [rad]
+  double r_squared;
+  std::uint64_t n; ///< tests
+};
+
+/// The line by least squares, or the reason why there is none.
+struct ShearLineResult
+{
+  std::optional<ShearLine> line;
+  std::string reason;
+};
+
+/// Of the tests whose pressure acts across the stress that they measure; all others are passed over. Every test counts
+/// once; normal stresses of two sizes or more are needed.
+ShearLineResult fit_shear_line(const std::vector<const FinishedTest*>& tests);
+} // namespace feldspar

@@ -1,0 +1,412 @@
+// Holes, slots, closed flaws and joint sets: what they take out of a specimen, what they leave, and what they are refused for.
+
+#include "base/input_error.h"
+#include "dem/flaws/apply.h"
+#include "dem/lab/laboratory_test.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/fragments.h"
+#include "dem/specimen/specimen_file.h"
+#include "dem/specimen/specimen_part.h"
+#include "results/evaluation.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+/// 12 × 20 mm, grains of 0.8 mm in the mean radius.
+const Specimen<2>& rock()
+{
+  static const Specimen<2> specimen = small_specimen();
+  return specimen;
+}
+
+Specimen<2> with(const std::vector<Shape>& shapes)
+{
+  Specimen<2> specimen = rock();
+  put_in_flaws(specimen, shapes);
+  return specimen;
+}
+
+std::string refusal(const std::vector<Shape>& shapes)
+{
+  try
+    {
+      with(shapes);
+    }
+  catch (const InputError& error)
+    {
+      return error.what();
+    }
+  return "";
+}
+
+ClosedFlaw line(const double x_1, const double y_1, const double x_2, const double y_2)
+{
+  return {{{x_1, y_1}, {x_2, y_2}}};
+}
+
+/// The centres of a joint's grains.
+std::pair<Vector<2>, Vector<2>> ends(const Specimen<2>& specimen, const std::size_t joint)
+{
+  return {at<2>(specimen.grains.position, specimen.joints.grain_1[joint]),
+          at<2>(specimen.grains.position, specimen.joints.grain_2[joint])};
+}
+
+TEST(Flaws, AHoleTakesOutTheGrainsInItAndLeavesTheOthersAsTheyWere)
+{
+  const Vector<2> centre(0.006, 0.010);
+  const double radius = 0.0025;
+  const Specimen<2> holed = with({EllipseHole{centre, {radius, radius}}});
+  std::size_t n_outside = 0;
+  std::set<std::pair<double, double>> places;
+  for (std::size_t i = 0; i < rock().grains.size(); ++i)
+    {
+      const Vector<2> x = at<2>(rock().grains.position, i);
+      n_outside += (x - centre).norm() >= radius;
+      places.emplace(x[0], x[1]);
+    }
+  ASSERT_EQ(holed.flaws.size(), 1u);
+  EXPECT_EQ(holed.flaws[0].n_grains, rock().grains.size() - holed.grains.size());
+  // Crumbs may fall out with it: a grain or two in a specimen as small as this.
+  EXPECT_LE(holed.grains.size(), n_outside);
+  EXPECT_GE(holed.grains.size() + 2, n_outside);
+  EXPECT_LT(n_outside, rock().grains.size());
+  for (std::size_t i = 0; i < holed.grains.size(); ++i)
+    {
+      const Vector<2> x = at<2>(holed.grains.position, i);
+      EXPECT_GE((x - centre).norm(), radius);
+      EXPECT_TRUE(places.contains({x[0], x[1]}));
+    }
+  // Strengths are those of the same joints as before: in the same order, some left out.
+  std::size_t k = 0;
+  for (std::size_t j = 0; j < holed.joints.size(); ++j)
+    {
+      while (k < rock().joints.size() && ends(rock(), k) != ends(holed, j))
+        ++k;
+      ASSERT_LT(k, rock().joints.size());
+      EXPECT_EQ(holed.joints.tensile_strength[holed.joints.segment(1, j)],
+                rock().joints.tensile_strength[rock().joints.segment(1, k)]);
+      EXPECT_EQ(holed.joints.number[j], j);
+    }
+  EXPECT_EQ(holed.report.n_grains, holed.grains.size());
+  EXPECT_EQ(holed.report.n_joints, holed.joints.size());
+}
+
+TEST(Flaws, AnEllipseTurnsWithItsAngle)
+{
+  // Long across and thin along the axis; turned by 90° the other way round.
+  const EllipseHole lying{{0.006, 0.010}, {0.004, 0.0015}, 0.0};
+  EllipseHole standing = lying;
+  standing.angle = 0.5 * std::numbers::pi;
+  const auto reach = [](const EllipseHole& hole) {
+    Vector<2> most(0.0, 0.0);
+    for (const auto& point : outline(Shape(hole)))
+      most = most.cwiseMax((point - hole.centre).cwiseAbs());
+    return most;
+  };
+  EXPECT_NEAR(reach(lying)[0], 0.004, 1e-15);
+  EXPECT_NEAR(reach(lying)[1], 0.0015, 1e-15);
+  EXPECT_NEAR(reach(standing)[0], 0.0015, 1e-15);
+  EXPECT_NEAR(reach(standing)[1], 0.004, 1e-15);
+  const Specimen<2> one = with({standing});
+  for (std::size_t i = 0; i < one.grains.size(); ++i)
+    {
+      const Vector<2> x = at<2>(one.grains.position, i) - standing.centre;
+      EXPECT_GE(std::hypot(x[0] / 0.0015, x[1] / 0.004), 1.0);
+    }
+}
+
+TEST(Flaws, APolygonTakesOutWhatTheSameDiscWould)
+{
+  // Of 200 corners: the area of such a polygon is that of the disc within 2e-4.
+  PolygonHole polygon;
+  for (int k = 0; k < 200; ++k)
+    polygon.corners.emplace_back(0.006 + 0.003 * std::cos(std::numbers::pi * k / 100.0),
+                                 0.010 + 0.003 * std::sin(std::numbers::pi * k / 100.0));
+  EXPECT_EQ(with({polygon}).grains.position, with({EllipseHole{{0.006, 0.010}, {0.003, 0.003}}}).grains.position);
+}
+
+TEST(Flaws, AClosedFlawUnbondsTheJointsThatItCrossesAndNoOthers)
+{
+  // Upright: a joint crosses it if its grains lie on both sides and the crossing lies between its ends.
+  const double x = 0.006;
+  const Specimen<2> flawed = with({line(x, 0.004, x, 0.016)});
+  ASSERT_EQ(flawed.joints.size(), rock().joints.size());
+  EXPECT_EQ(flawed.grains.size(), rock().grains.size());
+  std::uint64_t n = 0;
+  for (std::size_t j = 0; j < flawed.joints.size(); ++j)
+    {
+      const auto [a, b] = ends(flawed, j);
+      const double y = a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+      const bool crosses = (a[0] - x) * (b[0] - x) < 0.0 && y > 0.004 && y < 0.016;
+      EXPECT_EQ(flawed.joints.holds(j), !crosses) << j;
+      n += crosses;
+    }
+  EXPECT_GT(n, 5u);
+  EXPECT_EQ(flawed.flaws.at(0).n_joints, n);
+  EXPECT_FALSE(flawed.flaws[0].open);
+}
+
+TEST(Flaws, ASlotOfNoWidthCutsTheFacesAndTakesOutNoGrain)
+{
+  const Specimen<2> cut = with({Slot{{0.006, 0.0}, {0.006, 0.008}, 0.0}});
+  EXPECT_EQ(cut.grains.size(), rock().grains.size());
+  const Specimen<2> unbonded = with({line(0.006, 0.0, 0.006, 0.008)});
+  EXPECT_EQ(rock().joints.size() - cut.joints.size(), unbonded.flaws.at(0).n_joints);
+  for (std::size_t j = 0; j < cut.joints.size(); ++j)
+    {
+      const auto [a, b] = ends(cut, j);
+      EXPECT_FALSE(cross(a, b, {0.006, 0.0}, {0.006, 0.008}));
+    }
+}
+
+TEST(Flaws, ASlotOfAWidthTakesOutTheGrainsAlongIt)
+{
+  const Specimen<2> cut = with({Slot{{0.006, 0.0}, {0.006, 0.008}, 0.002}});
+  EXPECT_LT(cut.grains.size(), rock().grains.size());
+  for (std::size_t i = 0; i < cut.grains.size(); ++i)
+    EXPECT_FALSE(std::abs(cut.grains.position[0][i] - 0.006) < 0.001 && cut.grains.position[1][i] < 0.008);
+}
+
+TEST(Flaws, AThroughGoingOneLeavesTwoPiecesThatOnlyTouch)
+{
+  const Specimen<2> flawed = with({line(0.0, 0.008, 0.012, 0.012)});
+  const auto piece = fragments(flawed.joints, flawed.grains.size());
+  for (std::size_t i = 0; i < flawed.grains.size(); ++i)
+    if (piece[i] < 2) // others never had a joint
+      {
+        const double above = flawed.grains.position[1][i] - 0.008 - flawed.grains.position[0][i] / 3.0;
+        const double of_first = flawed.grains.position[1][0] - 0.008 - flawed.grains.position[0][0] / 3.0;
+        EXPECT_EQ(piece[i] == piece[0], (above > 0.0) == (of_first > 0.0));
+      }
+}
+
+TEST(Flaws, AreRefusedByNumberKindAndReason)
+{
+  const EllipseHole fits{{0.006, 0.010}, {0.0025, 0.0025}};
+  EXPECT_EQ(refusal({fits, EllipseHole{{0.011, 0.010}, {0.0025, 0.0025}}}).substr(0, 70),
+            "Flaws: shape 2, hole: (13.5, 10) mm lies outside of the specimen, whic");
+  EXPECT_NE(refusal({line(0.0, 0.0, 0.0, 0.03)}).find("shape 1, closed flaw: (0, 30) mm lies outside"),
+            std::string::npos);
+  EXPECT_NE(refusal({EllipseHole{{0.006, 0.010}, {1e-6, 1e-6}}}).find("hole: takes out no grain"), std::string::npos);
+  EXPECT_NE(refusal({line(0.006, 0.01, 0.006 + 1e-7, 0.01)}).find("closed flaw: crosses no joint"), std::string::npos);
+  EXPECT_NE(refusal({EllipseHole{{0.006, 0.010}, {0.006, 0.010}}}).find("hole: takes out more than half"),
+            std::string::npos);
+  EXPECT_NE(refusal({PolygonHole{{{0.002, 0.002}, {0.01, 0.01}, {0.01, 0.002}, {0.002, 0.01}}}}).find("cuts itself"),
+            std::string::npos);
+  EXPECT_NE(refusal({SphereHole{{0.006, 0.006, 0.010}, 0.002}}).find("sphere: lies in space"), std::string::npos);
+}
+
+TEST(Flaws, ThatLeaveAFreePieceAreRefused)
+{
+  // Two saw cuts that meet cut a corner off; either alone does not.
+  const Slot down{{0.006, 0.011}, {0.006, 0.0}, 0.0};
+  const Slot across{{0.0, 0.010}, {0.0065, 0.010}, 0.0};
+  EXPECT_EQ(refusal({down}), "");
+  EXPECT_EQ(refusal({across}), "");
+  EXPECT_NE(refusal({down, across}).find("Flaws: shape 2, slot: leaves a free piece of "), std::string::npos);
+}
+
+TEST(JointSets, HaveTheSpacingThePersistenceAndTheSeedOfTheirEntry)
+{
+  // Trace length per area is persistence over spacing: of some 170 traces whose rows begin anywhere, within 5 %.
+  const Vector<2> size(1.0, 1.0);
+  JointSet set{.angle = 0.5, .spacing = 0.02, .persistence = 0.6, .trace_length = 0.15, .seed = 3};
+  double length = 0.0;
+  for (const ClosedFlaw& flaw : traces(set, size))
+    {
+      const Vector<2> way = flaw.points[1] - flaw.points[0];
+      length += way.norm();
+      EXPECT_NEAR(std::atan2(way[1], way[0]), 0.5, 1e-9);
+      EXPECT_LE(way.norm(), 0.15 * (1.0 + 1e-12));
+      for (const auto& point : flaw.points)
+        EXPECT_TRUE((point.array() > -1e-12).all() && (point.array() < 1.0 + 1e-12).all());
+    }
+  EXPECT_NEAR(length, 0.6 / 0.02, 0.05 * 0.6 / 0.02);
+  const Vector<2> first = traces(set, size)[0].points[0];
+  set.seed = 4;
+  EXPECT_NE(traces(set, size)[0].points[0], first);
+
+  // Through-going ones: lines at the spacing, as many as fit across.
+  set.persistence = 1.0;
+  const double breadth = std::sin(0.5) + std::cos(0.5);
+  EXPECT_NEAR(double(traces(set, size).size()), breadth / 0.02, 1.0);
+}
+
+TEST(Flaws, ComeBackFromASpecimenFile)
+{
+  const auto file = std::filesystem::temp_directory_path() / "flaws_test.h5";
+  const Specimen<2> specimen = with({EllipseHole{{0.004, 0.012}, {0.002, 0.002}}, line(0.006, 0.004, 0.010, 0.008)});
+  write_specimen(specimen, file);
+  const Specimen<2> back = read_specimen<2>(file);
+  ASSERT_EQ(back.flaws.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k)
+    {
+      EXPECT_EQ(back.flaws[k].name, specimen.flaws[k].name);
+      EXPECT_EQ(back.flaws[k].open, specimen.flaws[k].open);
+      EXPECT_EQ(back.flaws[k].outline, specimen.flaws[k].outline);
+      EXPECT_EQ(back.flaws[k].n_joints, specimen.flaws[k].n_joints);
+    }
+  EXPECT_EQ(back.joints.bonded, specimen.joints.bonded);
+  EXPECT_EQ(back.grains.position, specimen.grains.position);
+  write_specimen(rock(), file);
+  EXPECT_TRUE(read_specimen<2>(file).flaws.empty());
+  std::filesystem::remove(file);
+}
+
+TEST(Flaws, InSpaceRunThroughTheDepth)
+{
+  // A borehole along y through a cube of 8 × 8 × 12 mm.
+  Specimen<3> specimen = small_cylinder(1, 1.0, "box");
+  const std::size_t before = specimen.grains.size();
+  put_in_flaws(specimen, {EllipseHole{{0.004, 0.006}, {0.0015, 0.0015}}});
+  EXPECT_LT(specimen.grains.size(), before);
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    EXPECT_GE(std::hypot(specimen.grains.position[0][i] - 0.004, specimen.grains.position[2][i] - 0.006), 0.0015);
+
+  // A level disc: what crosses its plane beyond its rim stays bonded.
+  specimen = small_cylinder(1, 1.0, "box");
+  put_in_flaws(specimen, {DiscFlaw{{0.004, 0.004, 0.006}, 0.003, {0.0, 0.0, 1.0}}});
+  std::size_t n = 0;
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    {
+      const Vector<3> a = at<3>(specimen.grains.position, specimen.joints.grain_1[j]);
+      const Vector<3> b = at<3>(specimen.grains.position, specimen.joints.grain_2[j]);
+      const double share = (0.006 - a[2]) / (b[2] - a[2]);
+      const Vector<3> there = a + share * (b - a);
+      const bool crosses = share > 0.0 && share < 1.0 && std::hypot(there[0] - 0.004, there[1] - 0.004) < 0.003;
+      EXPECT_EQ(specimen.joints.holds(j), !crosses);
+      n += crosses;
+    }
+  EXPECT_GT(n, 3u);
+}
+
+TEST(Plates, PressOnGrainsWithinTheirExtentOnly)
+{
+  // Two grains on a plate that ends between them, pushed into it by 1 µm.
+  Specimen<2> specimen = placed_specimen({0.1, 0.1}, {{{0.2, 0.8}, {0.1, 0.1}}});
+  Dynamics<2> dynamics(specimen, {}, ZeroForce::at_touch);
+  Wall plate{.axis = 1, .side = 1.0, .position = 1e-6};
+  plate.extent = {0.0, 0.5};
+  dynamics.add_wall(plate);
+  dynamics.step();
+  EXPECT_GT(dynamics.specimen().grains.force[1][0], 0.0);
+  EXPECT_EQ(dynamics.specimen().grains.force[1][1], 0.0);
+}
+
+TEST(GrainStress, HasTheMeanStressOfTheBodyAsItsMean)
+{
+  // Each contact's f ⊗ l is shared out between its two grains, so that both sums are the same but for round-off.
+  Dynamics<2> dynamics(rock(), {}, ZeroForce::as_placed);
+  for (const int axis : {0, 1})
+    {
+      dynamics.add_wall({axis, 1.0, 0.0, 0.0});
+      const std::size_t far = dynamics.add_wall({axis, -1.0, rock().size[axis], 0.0});
+      dynamics.wall(far).velocity = -0.02;
+    }
+  for (int k = 0; k < 800; ++k)
+    dynamics.step();
+  const auto stresses = dynamics.grain_stresses();
+  Tensor<2> sum = Tensor<2>::Zero();
+  for (std::size_t i = 0; i < stresses.size(); ++i)
+    sum += stresses[i] * grain_volume<2>(dynamics.specimen().grains.radius[i], 1.0) / (1.0 - rock().report.porosity) /
+           rock().volume();
+  const Tensor<2> mean = dynamics.mean_stress();
+  EXPECT_LT(mean(0, 0), -1e6);
+  EXPECT_LT((sum - mean).norm(), 1e-9 * mean.norm());
+}
+
+TEST(NotchedBodies, HaveTheShapeFactorsOfTheirSources)
+{
+  // ASTM E399 tabulates K B W^1.5 / (P S) of the beam: 2.29, 2.66 and 3.14 at a/W = 0.45, 0.50 and 0.55. The measured
+  // stress is 3 P S / (2 B W²), so that K over stress and √W is 2/3 of it.
+  const Specimen<2> specimen = small_specimen();
+  TestParameters wanted;
+  const double depth = 0.020 / 4.4;
+  for (const auto& [ratio, factor] : {std::pair(0.45, 2.29), std::pair(0.50, 2.66), std::pair(0.55, 3.14)})
+    {
+      wanted.notch_ratio = ratio;
+      const auto notch = (*three_point_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch;
+      ASSERT_TRUE(notch);
+      EXPECT_NEAR(notch->intensity_over_stress * 1.5 / std::sqrt(depth), factor, 0.005); // as tabulated
+      EXPECT_NEAR(notch->ligament_area, depth * (1.0 - ratio), 1e-12);
+    }
+  // A half disc outside of 0.4 to 0.6 has a curve and no toughness.
+  wanted.notch_ratio = 0.3;
+  EXPECT_FALSE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
+  wanted.notch_ratio = 0.5;
+  EXPECT_TRUE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
+}
+
+TEST(NotchedBodies, BreakFromTheNotchInTension)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.060;
+  wanted.height = 0.014;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  const auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  TestParameters test_parameters;
+  test_parameters.bending_strain_rate = 0.5;
+  test_parameters.bending_sampling_strain = 1e-5;
+  test_parameters.stop_stress_over_peak = 0.09;
+  LabTest<2> test({three_point_bending}, specimen, test_parameters, {});
+  while (test.advance())
+    ;
+  const TestOutcome outcome = test.finish(false);
+  EXPECT_EQ(outcome.record.failure, "");
+  const TestResults results = evaluate(outcome.record);
+  ASSERT_TRUE(results.fracture_toughness.value) << results.fracture_toughness.reason;
+  EXPECT_DOUBLE_EQ(*results.fracture_toughness.value,
+                   outcome.record.notch->intensity_over_stress * *results.peak_stress.value);
+  ASSERT_TRUE(results.fracture_energy.value) << results.fracture_energy.reason;
+  EXPECT_GT(*results.fracture_energy.value, 0.0);
+  // The first crack opens within two mean diameters of the notch's tip at mid-length.
+  ASSERT_FALSE(outcome.record.cracks.empty());
+  const Crack& first = outcome.record.cracks.front();
+  EXPECT_EQ(first.kind, CrackKind::tension);
+  const double diameter = 2.0 * specimen.report.mean_radius;
+  EXPECT_LT(std::hypot(first.centroid[0] - 0.030, first.centroid[1] - 0.4 * 0.060 / 4.4), 2.0 * diameter);
+}
+
+TEST(DirectShear, OfARoughFlawCarriesMoreUnderMoreNormalStress)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.020;
+  wanted.height = 0.012;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  put_in_flaws(specimen, {line(0.0, 0.006, 0.020, 0.006)});
+  TestParameters test_parameters;
+  test_parameters.shear_strain_rate = 0.5;
+  test_parameters.stop_strain = 0.002;
+  double before = 0.0;
+  for (const double normal_stress : {2e6, 8e6})
+    {
+      LabTest<2> test({direct_shear, normal_stress}, specimen, test_parameters, {});
+      while (test.advance())
+        ;
+      const TestOutcome outcome = test.finish(false);
+      EXPECT_EQ(outcome.record.failure, "");
+      double highest = 0.0;
+      for (const CurveSample& row : outcome.record.curve)
+        highest = std::max(highest, direct_shear.kind.stress(row));
+      // No plane of μ = 0.5 carries less than 0.5 σ_n; roughness adds to it.
+      EXPECT_GT(highest, 0.45 * normal_stress);
+      EXPECT_GT(highest, before);
+      before = highest;
+    }
+}
+} // namespace
+} // namespace feldspar
