@@ -128,13 +128,17 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   folder.write("rock.prm", replaced(small_calibration, "Height = 24 mm", "Height = 20 mm"));
   ASSERT_NE(run_feldspar(folder.path(), "calibrate rock.prm --output whole --quiet --threads 1").exit_code, 130);
   // Killed without warning in the middle of the design, then interrupted in what follows, then left to end.
-  const std::string command = "'" FELDSPAR_COMMAND "' calibrate";
-  const auto in_folder = [&](const std::string& text) {
-    return std::system(("cd '" + folder.path().string() + "' && " + text + " >/dev/null 2>&1").c_str());
+  const auto stop_when = [&](const std::string& arguments, const std::string& file, const std::string& signal) {
+    const std::string script = "cd '" + folder.path().string() + "' || exit\n'" FELDSPAR_COMMAND "' calibrate " +
+                               arguments + " >/dev/null 2>&1 &\n" +
+                               "while kill -0 $! 2>/dev/null && [ ! -e cut/calibration/" + file +
+                               " ]; do sleep 0.05; done\nkill -" + signal + " $! 2>/dev/null\nwait $!\n";
+    return std::system(script.c_str());
   };
-  in_folder("timeout --signal=KILL 2 " + command + " rock.prm --output cut --threads 2");
-  ASSERT_TRUE(fs::exists(folder.path() / "cut" / "run.json")) << "it had not begun";
-  in_folder("timeout --signal=INT 2 " + command + " --resume cut --threads 1");
+  stop_when("rock.prm --output cut --threads 2", "design_1_seed_5.json", "KILL");
+  ASSERT_TRUE(fs::exists(folder.path() / "cut/calibration/design_1_seed_5.json")) << "it had not begun";
+  EXPECT_FALSE(fs::exists(folder.path() / "cut/calibration.json")) << "it had ended";
+  stop_when("--resume cut --threads 1", "step_1_0_seed_7.json", "INT");
   const auto end = run_feldspar(folder.path(), "calibrate --resume cut --quiet --threads 2");
   ASSERT_TRUE(end.exit_code == 0 || end.exit_code == 2) << end.error;
   for (const char* const file : {"design.csv", "posterior.csv"})

@@ -167,6 +167,23 @@ subsection Continuum
   set Friction angle = 45 deg
   set Dilation angle = 30 deg
 end
+subsection Calibration
+  set Targets = tensile_strength, youngs_modulus
+  set Stiffness ratio = 1.5, 3
+  set Cohesion ratio = fixed
+  set Bond friction angle = 5, 30 deg
+  set Friction = 0.3, 0.9
+  set Installation gap ratio = 0.02, 0.1
+  set Youngs modulus = secant
+  set Poissons ratio = initial
+  set Tolerance = 0.04
+  set Design points = 30
+  set Design packings = 3
+  set Step packings = 5
+  set Most steps = 6
+  set Most packings = 7
+  set Samples = 800
+end
 subsection Report
   set Reference file = rock.json
   set Reference results = summary.json
@@ -225,6 +242,22 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size(),
             parameter_table().size());
 
+  EXPECT_EQ(input.calibration.targets, (std::vector<std::string>{"tensile_strength", "youngs_modulus"}));
+  EXPECT_EQ(input.calibration.stiffness_ratio->lower, 1.5);
+  EXPECT_EQ(input.calibration.stiffness_ratio->upper, 3.0);
+  EXPECT_FALSE(input.calibration.cohesion_ratio);
+  EXPECT_DOUBLE_EQ(input.calibration.bond_friction_angle->upper, std::numbers::pi / 6.0);
+  EXPECT_EQ(input.calibration.friction->lower, 0.3);
+  EXPECT_EQ(input.calibration.installation_gap_ratio->upper, 0.1);
+  EXPECT_EQ(input.calibration.youngs_modulus, ElasticFigure::secant);
+  EXPECT_EQ(input.calibration.poissons_ratio, ElasticFigure::initial);
+  EXPECT_EQ(input.calibration.tolerance, 0.04);
+  EXPECT_EQ(input.calibration.n_points, 30u);
+  EXPECT_EQ(input.calibration.n_packings, 3u);
+  EXPECT_EQ(input.calibration.n_step_packings, 5u);
+  EXPECT_EQ(input.calibration.most_steps, 6u);
+  EXPECT_EQ(input.calibration.most_packings, 7u);
+  EXPECT_EQ(input.calibration.n_samples, 800u);
   EXPECT_EQ(input.specimen.dimension, 2u);
   EXPECT_EQ(input.specimen.shape, "box");
   EXPECT_DOUBLE_EQ(input.specimen.width, 0.054);
