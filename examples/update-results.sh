@@ -16,6 +16,8 @@ studies=("$@")
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
   contact-models/parallel-bond
+  flawed-granite/flaw
+  toughness/toughness
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}
   multiscale-beishan-cylinder/{tension,cylinder,compression}

@@ -299,7 +299,8 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
           return;
         }
     }
-  results.fracture_energy = unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
+  results.fracture_energy =
+    unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
 }
 
 void evaluate_fragments(const TestRecord& record, TestResults& results)
