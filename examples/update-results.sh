@@ -17,6 +17,8 @@ studies=("$@")
   beishan-cylinder/beishan-cylinder
   contact-models/parallel-bond
   calibrate-beishan/calibrate
+  flawed-granite/flaw
+  toughness/toughness
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}
   multiscale-beishan-cylinder/{tension,cylinder,compression}

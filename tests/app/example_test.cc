@@ -309,6 +309,45 @@ TEST(Example, TheContactModelsReadmeShowsTheCommittedResults)
     EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
 }
 
+TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/toughness/";
+  const std::string readme = content(folder + "README.md");
+  const auto study = nlohmann::json::parse(content(folder + "results/toughness.json"));
+  for (const auto& [radius, variant] : {std::pair("0.62", 1), {"0.88", 2}, {"1.24", 3}})
+    {
+      const auto cell = [&](const char* kind, const char* key, const double scale, const int decimals) {
+        return mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals);
+      };
+      const std::string row = fmt::format("| {} | {} | {} | {} | {} |", radius,
+                                          cell("three_point_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
+                                          cell("semicircular_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
+                                          cell("three_point_bending", "fracture_energy_J_per_m2", 1.0, 1),
+                                          cell("semicircular_bending", "fracture_energy_J_per_m2", 1.0, 1));
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+    }
+}
+
+TEST(Example, TheFlawedGraniteReadmeShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/flawed-granite/";
+  const std::string readme = content(folder + "README.md");
+  const auto study = nlohmann::json::parse(content(folder + "results/flaw.json"));
+  const auto row = [&](const std::string& name, const int variant) {
+    std::string text = fmt::format("| {} |", name);
+    for (const char* const key : {"peak_stress_Pa", "crack_initiation_stress_Pa"})
+      for (const int seed : {1, 2})
+        text += fmt::format(
+          " {} |",
+          number(test_of(study, fmt::format("uniaxial_compression_variant_{}_seed_{}", variant, seed))[key], 1e6, 1));
+    EXPECT_NE(readme.find("\n" + text), std::string::npos) << "missing: " << text;
+  };
+  row("intact", 1);
+  for (int k = 0; k <= 6; ++k)
+    row(fmt::format("slot, {}°", 15 * k), 2 + k);
+  row("closed flaw, 45°", 9);
+}
+
 TEST(Study, NetworksInSpaceAreThoseOfIndependentPrograms)
 {
   // Mean of three packings of more than 800 spheres, gap by gap; benchmarks/networks_in_space.cc.

@@ -293,15 +293,34 @@ TEST(Flaws, InSpaceRunThroughTheDepth)
 
 TEST(Plates, PressOnGrainsWithinTheirExtentOnly)
 {
-  // Two grains on a plate that ends between them, pushed into it by 1 µm.
+  // Two grains on a plate that ends between them and rises.
   Specimen<2> specimen = placed_specimen({0.1, 0.1}, {{{0.2, 0.8}, {0.1, 0.1}}});
   Dynamics<2> dynamics(specimen, {}, ZeroForce::at_touch);
-  Wall plate{.axis = 1, .side = 1.0, .position = 1e-6};
+  Wall plate{.axis = 1, .side = 1.0, .position = 0.0, .velocity = 1e-3};
   plate.extent = {0.0, 0.5};
-  dynamics.add_wall(plate);
-  dynamics.step();
+  const std::size_t wall = dynamics.add_wall(plate);
+  for (int k = 0; k < 3; ++k)
+    dynamics.step();
   EXPECT_GT(dynamics.specimen().grains.force[1][0], 0.0);
   EXPECT_EQ(dynamics.specimen().grains.force[1][1], 0.0);
+  EXPECT_DOUBLE_EQ(dynamics.wall_force(wall), dynamics.specimen().grains.force[1][0]);
+}
+
+TEST(Plates, ThrowOutNoGrainThatComesFromBeside)
+{
+  // A grain stands beside a plate, 1 mm deeper than its face, and slides over it: no force where it arrives, though the wall
+  // would have one of 1e-3 times 2 E.
+  Specimen<2> specimen = placed_specimen({0.1}, {{{0.55}, {0.099}}});
+  Dynamics<2> dynamics(specimen, {.damping = 0.0}, ZeroForce::at_touch);
+  Wall plate{.axis = 1, .side = 1.0, .position = 0.0};
+  plate.extent = {0.0, 0.5};
+  const std::size_t wall = dynamics.add_wall(plate);
+  dynamics.push(0, {-10.0, 0.0});
+  while (dynamics.specimen().grains.position[0][0] > 0.2)
+    {
+      dynamics.step();
+      ASSERT_LT(dynamics.wall_force(wall), 1e-6 * 1e-3 * 2.0 * specimen.particle_contact.modulus);
+    }
 }
 
 TEST(GrainStress, HasTheMeanStressOfTheBodyAsItsMean)

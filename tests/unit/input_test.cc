@@ -625,6 +625,7 @@ TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
   folder.write("rock.json", "{}");
   folder.write("summary.json", "{}");
   folder.write("sample.msh", "");
+  folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const std::filesystem::path prm = folder.write("everything.prm", everything);
   const std::filesystem::path json = folder.write("a.json", R"({"Flat joint": {"Friction": 0.35}})");
   const Input in_c = read_input(prm);
