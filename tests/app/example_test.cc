@@ -543,7 +543,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     {
       std::map<std::string, std::vector<double>> figures;
       std::vector<double> pulled;
-      for (const auto& test : committed(name)["tests"])
+      const auto summary = committed(name);
+      for (const auto& test : summary["tests"])
         {
           if (!test.value("variant", std::string()).ends_with(variant) || test["peak_stress_Pa"].is_null())
             continue;
