@@ -175,17 +175,9 @@ Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
   core.periodic = false;
   core.round = round;
   const std::size_t n = cell.grains.size();
-  // A grain cut through its middle would have its centre pressed through a platen.
-  constexpr double least_depth_ratio = 0.25; // of its centre below a face, over its radius
   std::vector<bool> lies_inside(n);
   for (std::size_t i = 0; i < n; ++i)
-    {
-      const Vector<dim> x = at<dim>(cell.grains.position, i);
-      double depth = round ? 0.5 * cell.size[0] - cell.distance_from_axis(x) : cell.size[0];
-      for (int c = round ? dim - 1 : 0; c < dim; ++c)
-        depth = std::min({depth, x[c], cell.size[c] - x[c]});
-      lies_inside[i] = depth >= least_depth_ratio * cell.grains.radius[i];
-    }
+    lies_inside[i] = !round || cell.distance_from_axis(at<dim>(cell.grains.position, i)) < 0.5 * cell.size[0];
 
   DisjointSets groups(n);
   std::vector<bool> is_cut(n, false); // lost a joint
@@ -217,7 +209,7 @@ Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
   const auto body = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   std::vector<std::size_t> kept;
   std::vector<std::uint32_t> new_number(n, 0);
-  std::size_t n_removed = round ? 0 : std::size_t(std::count(lies_inside.begin(), lies_inside.end(), false));
+  std::size_t n_removed = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (lies_inside[i])
       {

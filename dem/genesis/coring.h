@@ -14,7 +14,7 @@ template <int dim>
 Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int, dim>& n_cells);
 
 /// Cuts a periodic cell at the faces of its box, and in space at the largest upright cylinder in it if `round`: grains
-/// stay whole and belong to the body where their centres lie a quarter of their radius deep in it; joints that lead out of it are cut. Groups of grains that
+/// stay whole and belong to the body where their centres do; joints that lead out of it are cut. Groups of grains that
 /// lose their last joint to the body are removed. Its report has the coordination number, porosity and overlaps of what
 /// is left, and the installation gap of the cell.
 template <int dim>

@@ -12,6 +12,7 @@ import csv
 import json
 import math
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -23,14 +24,11 @@ FIGURE = os.path.join(HERE, "../../docs/figures/multiscale-and-grains.png")
 COMMANDS = {
     "laboratory": "lab",
     "sample": "multiscale",
-    "rate": "lab",
     "cored": "lab",
     "same-cells-grains": "lab",
     "same-cells-sample": "multiscale",
     "angles-tension": "rve",
     "angles-compression": "rve",
-    "dealing-to-elements": "multiscale",
-    "dealing-own-unturned": "multiscale",
 }
 
 
@@ -53,27 +51,47 @@ def after_peak(volume, curve):
     }
 
 
+def seeds_of(name):
+    """Of samples, which take minutes each: so that they can be run and kept one by one."""
+    with open(os.path.join(HERE, name + ".prm"), encoding="utf-8") as file:
+        first, last = re.search(r"set Seeds *= *(\d+)\.\.(\d+)", file.read()).groups()
+    return range(int(first), int(last) + 1)
+
+
 def run(feldspar, name):
     command = COMMANDS[name]
     with tempfile.TemporaryDirectory() as folder:
-        out = os.path.join(folder, "out")
-        outcome = subprocess.run(
-            [feldspar, command, os.path.join(HERE, name + ".prm"), "--output", out, "--quiet"], check=False
-        )
-        if outcome.returncode not in (0, 2):  # a path or test that ended early is a result too
-            sys.exit(f"{name}: exit code {outcome.returncode}")
-        keep(name, out)
+        outs = []
+        for settings in [["--set", f"Seeds/Seeds = {k}"] for k in seeds_of(name)] if command == "multiscale" else [[]]:
+            outs.append(os.path.join(folder, f"out-{len(outs)}"))
+            outcome = subprocess.run(
+                [feldspar, command, os.path.join(HERE, name + ".prm"), "--output", outs[-1], "--quiet", *settings],
+                check=False,
+            )
+            if outcome.returncode not in (0, 2):  # a path or test that ended early is a result too
+                sys.exit(f"{name}: exit code {outcome.returncode}")
+        keep(name, outs)
 
 
-def keep(name, out):
-    """The summary of a result folder as results/NAME.json."""
-    with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
-        summary = json.load(file)
+def keep(name, outs):
+    """The summaries of result folders as results/NAME.json: that of the first, with the tests of all."""
+    summaries = []
+    for out in outs:
+        with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+            summaries.append(json.load(file))
+    summary = summaries[0]
+    if COMMANDS[name] == "multiscale":
+        tests = [test for one in summaries for test in one["tests"] if not test["interrupted"]]
+        summary["tests"] = sorted(tests, key=lambda test: (test["seed"], test["kind"]))
+        for of_first in ("ensemble", "fits", "verdict"):
+            summary.pop(of_first, None)
     if COMMANDS[name] == "rve":
         summary["after_peak"] = []
         for volume in summary["volumes"]:
-            with open(os.path.join(out, "curves", volume["name"] + ".csv"), encoding="utf-8") as file:
-                summary["after_peak"].append(after_peak(volume, list(csv.DictReader(file))))
+            with open(os.path.join(outs[0], "curves", volume["name"] + ".csv"), encoding="utf-8") as file:
+                curve = list(csv.DictReader(file))
+            if volume["at_end"]["strain_yy"] != 0.0:  # else it found no equilibrium at its first increment
+                summary["after_peak"].append(after_peak(volume, curve))
     with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
         file.write(json.dumps(summary, indent=2) + "\n")
 
@@ -129,8 +147,6 @@ BODIES = (
     ("walled, gap 0.0457", "laboratory", "0.0457"),
     ("cored, gap 0.0457", "cored", None),
     ("sample, gap 0.0457", "sample", None),
-    ("the same, one packing an element", "dealing-to-elements", None),
-    ("the same, every point its own, none turned", "dealing-own-unturned", None),
 )
 
 
@@ -154,19 +170,6 @@ def print_bodies():
             shown(column("crack_initiation_stress_Pa", 1e6), 1),
         ]
         print(f"| {' | '.join(cells)} |")
-    print()
-
-
-def print_rates(name):
-    if not results(name):
-        return
-    print(f"{name}\n\n| strain rate [1/s] | UCS [MPa] | over that at 1/s, seed by seed |\n|---|---|---|")
-    fastest = peaks(name, "uniaxial_compression", "= 1 1/s")
-    for rate in ("1", "0.5", "0.25", "0.1"):
-        values = peaks(name, "uniaxial_compression", f"= {rate} 1/s")
-        if values:
-            ratios = [value / at_one for value, at_one in zip(values, fastest)]
-            print(f"| {rate} | {shown(values, 1)} | {shown(ratios, 2)} |")
     print()
 
 
@@ -195,7 +198,7 @@ def print_angles():
 
 
 def draw():
-    """UCS of the bodies, of grains over the rate, and a cell over its angle."""
+    """UCS of the bodies; strength and work of a cell over its angle."""
     script = [
         'set terminal pngcairo size 1320,440 font "sans,11"',
         f'set output "{FIGURE}"',
@@ -203,9 +206,9 @@ def draw():
         "set style data yerrorbars",
         "set bars 0.6",
         "unset key",
+        "set bmargin 5",
     ]
-    short = ("walled\\n0.0237", "walled\\n0.0457", "cored\\n0.0457", "sample\\n0.0457", "sample, one\\nan element",
-             "sample,\\nunturned")
+    short = ("walled\\n0.0237", "walled\\n0.0457", "cored\\n0.0457", "sample\\n0.0457")
     bars = []
     for label, (_, name, variant) in zip(short, BODIES):
         values = peaks(name, "uniaxial_compression", variant)
@@ -219,31 +222,17 @@ def draw():
     script.append(
         'plot $single with points pt 7 ps 0.6 lc rgb "#a0a0a0", $mean with yerrorbars pt 5 ps 1.2 lw 2 lc rgb "#0050c8"'
     )
-    sample = peaks("sample", "uniaxial_compression")
-    script += ["set xtics auto font \"sans,11\"", "set logscale x", "set xrange [0.07:1.4]"]
-    script += ["set xtics (0.1, 0.25, 0.5, 1)", 'set xlabel "strain rate of the grains [1/s]"']
-    script += ['set title "Rate: walled grains against the sample, which has none"', "set key top left"]
-    script.append("$rate << EOD")
-    for rate in ("1", "0.5", "0.25", "0.1"):
-        values = peaks("rate", "uniaxial_compression", f"= {rate} 1/s")
-        if len(values) > 1:
-            script.append(f"{rate} {statistics.mean(values)} {statistics.stdev(values)}")
-    script.append("EOD")
-    script.append(
-        'plot $rate with yerrorbars pt 5 ps 1.2 lw 2 lc rgb "#0050c8" title "grains, walled", '
-        + f'{statistics.mean(sample)} lw 2 lc rgb "#c85000" title "sample of finite elements"'
-    )
-    script += ["unset logscale x", "set xrange [-8:98]", "set xtics 0,15,90", 'set xlabel "angle of the cell [deg]"']
-    script += ['set title "One cell turned: five packings"', 'set ylabel "strength over the mean of its packing"']
-    script += ["set yrange [0.4:1.6]"]
+    script += ["set xtics auto font \"sans,11\"", "set xrange [-8:98]", "set xtics 0,15,90", "set key bottom right"]
+    script += ['set xlabel "angle of the cell [deg]"']
+    script += ['set title "One cell turned: five packings"', 'set ylabel "strength over its mean"']
+    script += ["set yrange [0:1.6]"]
     for block, name in (("tension", "angles-tension"), ("compression", "angles-compression")):
         table = of_angle(name, "peak_stress_Pa")
         script.append(f"${block} << EOD")
         if table:
-            n = len(next(iter(table.values())))
-            of_packing = [statistics.mean(table[angle][k] for angle in table) for k in range(n)]
+            mean = statistics.mean(value for values in table.values() for value in values)
             for angle in sorted(table):
-                over = [table[angle][k] / of_packing[k] for k in range(n)]
+                over = [value / mean for value in table[angle]]
                 shift = -1.5 if block == "tension" else 1.5
                 script.append(f"{angle + shift} {statistics.mean(over)} {statistics.stdev(over)}")
         script.append("EOD")
@@ -251,6 +240,11 @@ def draw():
         'plot $tension with yerrorbars pt 7 lw 2 lc rgb "#008060" title "tension", '
         '$compression with yerrorbars pt 5 lw 2 lc rgb "#0050c8" title "uniaxial compression"'
     )
+    script += ['set title "Work after the tensile peak"', 'set ylabel "work over area [J/m²]"', "set yrange [0:20]"]
+    script += ["unset key", "$work << EOD"]
+    for angle, values in sorted(of_angle("angles-tension", "work_after_peak_J_per_m2").items()):
+        script.append(f"{angle} {statistics.mean(values)} {statistics.stdev(values)}")
+    script += ["EOD", 'plot $work with yerrorbars pt 7 lw 2 lc rgb "#008060"']
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, cwd=RESULTS, check=True)
 
 
@@ -272,11 +266,9 @@ def main():
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
-    print_rates("rate")
-    print_rates("same-cells-grains")
-    for kind in ("direct_tension", "uniaxial_compression"):
-        values = ", ".join(f"{value:.1f}" for value in peaks("same-cells-sample", kind))
-        print(f"same cells, sample, {kind}: {values}")
+    for name in ("same-cells-grains", "same-cells-sample"):
+        for kind in ("direct_tension", "uniaxial_compression"):
+            print(f"{name}, {kind}: " + ", ".join(f"{value:.1f}" for value in peaks(name, kind)))
     print_angles()
     draw()
 

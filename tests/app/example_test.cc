@@ -14,6 +14,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -606,6 +607,69 @@ TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
       EXPECT_NE(readme.find(fmt::format("| {} | {:.1f}, ", name, test["peak_stress_Pa"].get<double>() / 1e6)),
                 std::string::npos)
         << "another peak than that of three samples";
+    }
+}
+
+// Each row of the table of bodies, and each angle of a turned cell, from the results of its run.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/";
+  const std::string readme = content(folder + "README.md");
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+  };
+  const auto committed = [&](const std::string& name) {
+    return nlohmann::json::parse(content(folder + "results/" + name + ".json"));
+  };
+  for (const auto& [label, name, variant] : {std::tuple("walled, gap 0.0237", "laboratory", "= 0.0237"),
+                                             {"walled, gap 0.0457", "laboratory", "= 0.0457"},
+                                             {"cored, gap 0.0457", "cored", ""},
+                                             {"sample, gap 0.0457", "sample", ""}})
+    {
+      std::map<std::string, std::vector<double>> figures;
+      std::vector<double> pulled;
+      const auto summary = committed(name);
+      for (const auto& test : summary["tests"])
+        {
+          if (!test.value("variant", std::string()).ends_with(variant) || test["peak_stress_Pa"].is_null())
+            continue;
+          if (test["kind"] == "direct_tension")
+            pulled.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
+          else
+            for (const char* const key : {"installation_gap_ratio", "coordination_number_core", "porosity",
+                                          "peak_stress_Pa", "youngs_modulus_initial_Pa", "crack_initiation_stress_Pa"})
+              figures[key].push_back(test[key].get<double>());
+        }
+      const auto mean = [&](const char* const key) {
+        return std::accumulate(figures[key].begin(), figures[key].end(), 0.0) / double(figures[key].size());
+      };
+      const auto scaled = [&](const char* const key, const double scale) {
+        std::vector<double> values = figures[key];
+        for (double& value : values)
+          value /= scale;
+        return mean_and_deviation(values, 1);
+      };
+      ASSERT_GT(pulled.size(), 1u) << label;
+      shown(fmt::format("| {} | {} | {:.4f} | {:.2f} | {:.3f} | {} | {} | {} | {} |", label, figures["porosity"].size(),
+                        mean("installation_gap_ratio"), mean("coordination_number_core"), mean("porosity"),
+                        mean_and_deviation(pulled, 2), scaled("peak_stress_Pa", 1e6),
+                        scaled("youngs_modulus_initial_Pa", 1e9), scaled("crack_initiation_stress_Pa", 1e6)));
+    }
+
+  const auto tension = committed("angles-tension");
+  for (const int angle : {0, 15, 30, 45, 60, 75, 90})
+    {
+      std::vector<double> strengths, works, left;
+      for (const auto& path : tension["after_peak"])
+        if (path["variant"] == fmt::format("Strain path/Cell angle = {} deg", angle))
+          {
+            strengths.push_back(path["peak_stress_Pa"].get<double>() / 1e6);
+            works.push_back(path["work_after_peak_J_per_m2"].get<double>());
+            left.push_back(path["stress_at_end_over_peak"].get<double>());
+          }
+      ASSERT_EQ(strengths.size(), 5u);
+      shown(fmt::format("| {} | {} | {} | {} |", angle, mean_and_deviation(strengths, 2), mean_and_deviation(works, 2),
+                        mean_and_deviation(left, 2)));
     }
 }
 
