@@ -1,6 +1,7 @@
 #include "calibration/answer.h"
 
 #include "calibration/posterior.h"
+#include "results/paired_moments.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -155,24 +156,8 @@ std::vector<Quantity> quantities(const ResponseModel& model, const FitFreedom& f
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b)
 {
-  const double n = double(a.size());
-  double mean_a = 0.0;
-  double mean_b = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      mean_a += a[i] / n;
-      mean_b += b[i] / n;
-    }
-  double aa = 0.0;
-  double bb = 0.0;
-  double ab = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      aa += (a[i] - mean_a) * (a[i] - mean_a);
-      bb += (b[i] - mean_b) * (b[i] - mean_b);
-      ab += (a[i] - mean_a) * (b[i] - mean_b);
-    }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+  const PairedMoments of = paired_moments(a, b);
+  return of.xx > 0.0 && of.yy > 0.0 ? of.xy / std::sqrt(of.xx * of.yy) : 0.0;
 }
 
 /// The share of what the bounds allow. A scale has no bounds: its own range is taken as a factor of two to each side.

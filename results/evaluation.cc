@@ -1,5 +1,7 @@
 #include "results/evaluation.h"
 
+#include "results/paired_moments.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,27 +13,6 @@ namespace feldspar
 {
 namespace
 {
-/// Slope of y over x by least squares.
-double slope(const std::vector<double>& x, const std::vector<double>& y)
-{
-  const auto n = double(x.size());
-  double mean_x = 0.0;
-  double mean_y = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    {
-      mean_x += x[k] / n;
-      mean_y += y[k] / n;
-    }
-  double xx = 0.0;
-  double xy = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    {
-      xx += (x[k] - mean_x) * (x[k] - mean_x);
-      xy += (x[k] - mean_x) * (y[k] - mean_y);
-    }
-  return xy / xx;
-}
-
 Figure known(const double value)
 {
   if (std::isfinite(value))
@@ -104,7 +85,7 @@ public:
         x.push_back(x_of(rows[k]));
         y.push_back(y_of(rows[k]));
       }
-    return known(slope(x, y));
+    return known(paired_moments(x, y).slope());
   }
 
   /// A value at a share of the peak, linear between the rows.

@@ -74,7 +74,7 @@ std::string write_confinements(const std::vector<double>& pressures)
 }
 
 /// The pieces between separators, trimmed.
-std::vector<std::string_view> split_at(const char separator, std::string_view text)
+std::vector<std::string_view> split_at(const std::string_view separator, std::string_view text)
 {
   std::vector<std::string_view> pieces;
   for (;;)
@@ -83,7 +83,7 @@ std::vector<std::string_view> split_at(const char separator, std::string_view te
       pieces.push_back(trim(text.substr(0, end)));
       if (end == std::string_view::npos)
         return pieces;
-      text.remove_prefix(end + 1);
+      text.remove_prefix(end + separator.size());
     }
 }
 
@@ -91,7 +91,7 @@ std::vector<std::string> read_variant_entries(const std::string_view text)
 {
   std::vector<std::string> entries;
   if (text != none)
-    for (const std::string_view piece : split_at(';', text))
+    for (const std::string_view piece : split_at(";", text))
       entries.push_back(varied_entry(piece));
   return entries;
 }
@@ -100,9 +100,9 @@ std::vector<std::vector<std::string>> read_variant_values(const std::string_view
 {
   std::vector<std::vector<std::string>> values;
   if (text != none)
-    for (const std::string_view list : split_at('|', text))
+    for (const std::string_view list : split_at("||", text))
       {
-        const auto pieces = split_at(';', list);
+        const auto pieces = split_at(";", list);
         values.emplace_back(pieces.begin(), pieces.end());
       }
   return values;
@@ -112,7 +112,7 @@ std::string write_variant_values(const std::vector<std::vector<std::string>>& va
 {
   std::string text;
   for (const auto& list : values)
-    text += fmt::format("{}{}", text.empty() ? "" : " | ", fmt::join(list, "; "));
+    text += fmt::format("{}{}", text.empty() ? "" : " || ", fmt::join(list, "; "));
   return values.empty() ? std::string(none) : text;
 }
 
@@ -298,7 +298,7 @@ std::vector<Entry<VariantParameters>> variant_entries()
      Entry<P>::Text{"", "none, or values of each entry",
                     [](P& wanted, const std::string_view text) { wanted.values = read_variant_values(text); },
                     [](const P& wanted) { return write_variant_values(wanted.values); }},
-     "values separated by semicolons; the lists of several entries by |",
+     "values separated by semicolons; the lists of several entries by two upright bars, ||",
      {}},
     entry::choice("Combine", &P::in_step, {{"grid", false}, {"in step", true}},
                   "grid: each value of an entry with each of the others; in step: the first values of all entries, "

@@ -65,7 +65,7 @@ void check_fit(const VariantParameters& wanted)
   if (wanted.entries.size() != wanted.values.size())
     throw InputError(wanted.values.empty() || wanted.entries.empty()
                        ? "Entry and Values go together: name both, or neither"
-                       : fmt::format("there are {} entries and {} lists of values; lists are separated by |",
+                       : fmt::format("there are {} entries and {} lists of values; lists are separated by ||",
                                      wanted.entries.size(), wanted.values.size()));
   if (wanted.entries.empty())
     return;

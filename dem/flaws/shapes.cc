@@ -169,11 +169,17 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
   std::vector<ClosedFlaw> flaws;
   const bool through = set.persistence >= 1.0;
   const double period = through ? 2.0 * half_length : set.trace_length / set.persistence;
-  for (double offset = -half_breadth + set.spacing * random.uniform(); offset < half_breadth; offset += set.spacing)
+  const auto places = [](const double first, const double step, const double end) {
+    std::vector<double> all(std::size_t(std::max(0.0, std::ceil((end - first) / step))));
+    for (std::size_t k = 0; k < all.size(); ++k)
+      all[k] = first + double(k) * step;
+    return all;
+  };
+  for (const double offset : places(-half_breadth + set.spacing * random.uniform(), set.spacing, half_breadth))
     {
       const Vector<2> start = middle + offset * across;
       const double first = through ? -half_length : -half_length - period * random.uniform();
-      for (double s = first; s < half_length; s += period)
+      for (const double s : places(first, period, half_length))
         {
           const auto [low, high] = clipped(start, s, s + (through ? period : set.trace_length));
           if (high > low)

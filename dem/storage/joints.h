@@ -114,7 +114,7 @@ struct JointTables
 /// The joints of a specimen and their law, ordered in space. Per segment (in space: element of the disk): [segment * size()
 /// + joint].
 template <int dim>
-struct Joints : JointTables<dim>
+struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning takes its base, too
 {
   using JointTables<dim>::n_shear;
 

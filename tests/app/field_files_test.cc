@@ -81,7 +81,8 @@ void expect_grains(const std::vector<Points>& series, const TestAppearance& appe
     {
       const Points& at_time = series[k];
       ASSERT_EQ(at_time.n_points, grains.size());
-      EXPECT_EQ(at_time.names(), (std::set<std::string>{"broken elements", "displacement", "fragment", "radius"}));
+      EXPECT_EQ(at_time.names(),
+                (std::set<std::string>{"broken elements", "displacement", "fragment", "radius", "stress"}));
       EXPECT_TRUE(k == 0 || at_time.time > series[k - 1].time);
       for (std::size_t i = 0; i < at_time.n_points; ++i)
         {

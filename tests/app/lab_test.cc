@@ -270,7 +270,7 @@ TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
   const TemporaryFolder folder;
   folder.write("rock.prm", tiny_rock);
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
-  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output full --quiet", "prlimit --fsize=260000");
+  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output full --quiet", "prlimit --fsize=350000");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
   EXPECT_NE(outcome.error.find(".h5: cannot be written: File too large"), std::string::npos) << outcome.error;
@@ -706,7 +706,7 @@ tell feldspar help multi
 tell feldspar lab --res
 tell feldspar rve --ext
 tell feldspar multiscale --ext
-tell feldspar parameters Fl
+tell feldspar parameters Flat
 )bash");
   EXPECT_EQ(run_feldspar(folder.path(), "completion", "bash ./complete").output,
             "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\n");

@@ -48,7 +48,7 @@ std::string with_entry(std::string input, const std::string& section, const std:
   const std::size_t body = begin + heading.size();
   const std::size_t end = input.find("\nend", begin);
   const std::string inside = input.substr(body, end + 1 - body);
-  const std::regex found("  set " + entry + " *=[^\n]*\n");
+  const std::regex found("  set " + entry + R"( *=(?:[^\n]*\\\n)*[^\n]*\n)"); // a backslash continues a line
   return input.replace(body, inside.size(),
                        std::regex_search(inside, found) ? std::regex_replace(inside, found, line) : inside + line);
 }

@@ -487,9 +487,9 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
     return fmt::format("Flat joint/Friction = {}, Flat joint/Bond cohesion = {}", friction, cohesion);
   };
   EXPECT_EQ(
-    labels(entries + "set Values = 0.2; 0.6 | 80 MPa; 0.12 GPa\n"),
+    labels(entries + "set Values = 0.2; 0.6 || 80 MPa; 0.12 GPa\n"),
     (std::vector{named("0.2", "80 MPa"), named("0.2", "0.12 GPa"), named("0.6", "80 MPa"), named("0.6", "0.12 GPa")}));
-  EXPECT_EQ(labels(entries + "set Values = 0.2; 0.6 | 80 MPa; 0.12 GPa\nset Combine = in step\n"),
+  EXPECT_EQ(labels(entries + "set Values = 0.2; 0.6 || 80 MPa; 0.12 GPa\nset Combine = in step\n"),
             (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
   folder.write("plan.csv", "Flat joint/Friction, Flat joint/Bond cohesion\n0.2, 80 MPa\n0.6, 0.12 GPa\n");
   EXPECT_EQ(labels("set Table = plan.csv\n"), (std::vector{named("0.2", "80 MPa"), named("0.6", "0.12 GPa")}));
@@ -509,11 +509,11 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
     EXPECT_NE(error_of("a.prm", "subsection Variants\n" + section + "end\n").find(with), std::string::npos) << with;
   };
   refused(entries + "set Values = 0.2; 0.6\n", "there are 2 entries and 1 lists of values");
-  refused(entries + "set Values = 0.2; 0.6 | 80 MPa\nset Combine = in step\n", "in step they need as many");
-  refused("set Entry = Flat joint/Friction; Flat joint/Friction\nset Values = 0.2 | 0.6\n", "is named twice");
+  refused(entries + "set Values = 0.2; 0.6 || 80 MPa\nset Combine = in step\n", "in step they need as many");
+  refused("set Entry = Flat joint/Friction; Flat joint/Friction\nset Values = 0.2 || 0.6\n", "is named twice");
   try
     {
-      labels(entries + "set Values = 0.2 | 80 MPa\nset Table = plan.csv\n");
+      labels(entries + "set Values = 0.2 || 80 MPa\nset Table = plan.csv\n");
       ADD_FAILURE() << "a table beside entries and values";
     }
   catch (const InputError& error)
