@@ -98,7 +98,8 @@ void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
             if (const auto& value = test.results.fracture_energy.value)
               energy[test.record.seed] = *value;
           }
-      const std::string by = std::string(kind.name);
+      std::string by(kind.name);
+      std::replace(by.begin(), by.end(), '_', ' ');
       add(fmt::format("fracture toughness, {}", by), "MPa √m", 3, 1e6, toughness, "fracture_toughness_MPa_sqrt_m");
       add(fmt::format("work of fracture, {}", by), "J/m²", 1, 1.0, energy, "fracture_energy_J_per_m2");
     }

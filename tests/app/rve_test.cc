@@ -373,10 +373,23 @@ TEST(Rve, InterruptedAndResumedGivesTheBitsOfTheUnbrokenRun)
       const auto is_complete = [&] {
         return content(folder.path() / "broken/run.json").find("\"complete\": true") != std::string::npos;
       };
-      // Until it is stopped on its path and not while the specimen is made; on a busy machine that may take longer.
-      for (double time = 0.1; !fs::exists(checkpoint) && !is_complete(); time *= 1.15)
-        run_feldspar(folder.path(), "rve cell.prm --output broken --force --quiet",
-                     fmt::format("timeout --foreground --signal=INT {}", time));
+      // Until it is stopped on its path, which begins after the specimen is made: later where it had not begun, earlier where
+      // it had ended. On a busy machine neither takes the same time twice, so that the two moments are moved apart again.
+      double early = 0.0;
+      double late = 60.0;
+      double time = 0.1;
+      for (int k = 0; k < 100 && !fs::exists(checkpoint); ++k)
+        {
+          run_feldspar(folder.path(), "rve cell.prm --output broken --force --quiet",
+                       fmt::format("timeout --foreground --signal=INT {}", time));
+          (is_complete() ? late : early) = time;
+          if (late - early < 0.02 * late)
+            {
+              early *= 0.9;
+              late *= 1.1;
+            }
+          time = late < 60.0 ? 0.5 * (early + late) : 1.15 * time;
+        }
       ASSERT_TRUE(fs::exists(checkpoint)) << solver;
       const auto n_rows_before = read_table(folder.path() / "broken/curves/rve.csv")["strain_yy"].size();
       ASSERT_EQ(run_feldspar(folder.path(), "rve --resume broken --quiet").exit_code, 0);
