@@ -25,8 +25,8 @@ build_packages=(
 site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
   "${site_packages[@]}"
-  clang clang-format clang-tidy libgtest-dev libbenchmark-dev libxdmf-dev libxml2-dev locales chromium
-  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing
+  clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium
+  python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
 )
 
 say() { printf '\n==> %s\n' "$*"; }

@@ -113,7 +113,7 @@ private:
     CLI::Option* const extract =
       command
         .add_option("--extract", common.extract,
-                    "write the volume at a point for `feldspar rve` and ParaView; INPUT is the folder of a run")
+                    "write the RVE at a point for `feldspar rve` and ParaView; INPUT is the folder of a run")
         ->type_name("CELL:POINT");
     for (const char* const other : {"--resume", "--output", "--force"})
       command.get_option(other)->excludes(extract);

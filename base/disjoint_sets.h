@@ -9,7 +9,8 @@
 namespace feldspar
 {
 /// Sets of the numbers 0 … n - 1, each alone at first, which grow together two at a time. The root of a set is its smallest
-/// member, whatever the order of merging (Galler and Fischer 1964, with halved paths).
+/// member, whatever the order of merging (Galler and Fischer 1964, with halved paths). boost::disjoint_sets has the root
+/// that its ranks give; here fragments are numbered by it, and must have the same numbers for any order of the joints.
 class DisjointSets
 {
 public:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/body.h"
+
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -23,7 +25,8 @@ enum class Measure
   length,
   angle,
   density,
-  rate
+  rate,
+  stiffness ///< of a plane: stress over displacement
 };
 
 /// An interval as it is written in books: '[' and ']' take the bound in, '(' and ')' leave it out. Bounds in the unit in
@@ -48,15 +51,6 @@ inline constexpr Range above_zero{'(', 0.0, infinity, ')'};
 inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
 inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
 } // namespace ranges
-
-/// The bodies that are tested.
-enum class Body
-{
-  plane_box, ///< of discs
-  box,       ///< of spheres
-  cylinder,  ///< of spheres
-  sample     ///< of finite elements
-};
 
 /// What else is to be known of an entry.
 struct EntryFlags

@@ -3,9 +3,11 @@
 #include "base/seal.h"
 #include "base/whole_file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 namespace feldspar
 {
@@ -102,9 +104,11 @@ void seal_hdf5(const std::filesystem::path& file)
     }
   std::ifstream in(file, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::app);
   if (!in || !(out << seal_of(content)).flush())
-    throw OutputError(fmt::format("{}: cannot be sealed", file.string()));
+    throw OutputError(fmt::format("{}: cannot be sealed{}", file.string(),
+                                  errno != 0 ? ": " + std::generic_category().message(errno) : ""));
 }
 
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,

@@ -16,8 +16,10 @@ enum class RandomStream : std::uint32_t
   positions = 2,
   bonds = 3,
   strengths = 4,
-  dealing = 5,   ///< of volumes to the points of a sample
-  joint_sets = 6 ///< where their traces begin
+  dealing = 5,    ///< of RVEs to the points of a sample
+  joint_sets = 6, ///< where their traces begin
+  mineral_grains = 7,
+  clumps = 8
 };
 
 /// The same numbers from the same seed with every compiler and library: the engine and its seeding are fixed by the

@@ -2,7 +2,7 @@
 """Replays measured costs of representative volumes (RVEs) on 1 ... 10 000 cores: the limit of scaling, and the best
 distribution of the cells.
 
-    build/release/benchmarks/volume_costs > benchmarks/results/volume-costs.json
+    build/release/benchmarks/rve_costs > benchmarks/results/rve-costs.json
     python3 benchmarks/rank_queue.py    # writes results/rank-queue.json and .csv; some minutes
     python3 benchmarks/rank_queue.py 16    # prints one run of the smaller sample, on 16 cores, and writes nothing
     cd benchmarks && gnuplot rank_queue.gp
@@ -213,7 +213,7 @@ def replay(rows, cells, n_cores):
 
 
 def main():
-    with open(os.path.join(HERE, "results", "volume-costs.json"), encoding="utf-8") as file:
+    with open(os.path.join(HERE, "results", "rve-costs.json"), encoding="utf-8") as file:
         measurement = json.load(file)
     measured = measurement["volumes"]
     compression = [v["rows"] for v in measured if v["test"] == "compression"]
@@ -221,7 +221,7 @@ def main():
         print(json.dumps(replay(costs_of_rows(compression, 32, random.Random(1)), 32 * 32, int(sys.argv[1]))))
         return
     if "feldspar_version" not in measurement:
-        sys.exit("results/volume-costs.json does not say by which build it was measured: measure it anew")
+        sys.exit("results/rve-costs.json does not say by which build it was measured: measure it anew")
     everything = [row for v in measured for row in v["rows"]]
     result = {
         "feldspar_version": measurement["feldspar_version"],

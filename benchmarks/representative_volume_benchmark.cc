@@ -44,23 +44,23 @@ std::size_t bytes(const NetworkState<dim>& state)
 }
 
 template <int dim>
-void note_size(benchmark::State& state, const RepresentativeVolume<dim>& volume)
+void note_size(benchmark::State& state, const RepresentativeVolume<dim>& rve)
 {
-  state.counters["grains"] = double(volume.network().n_grains());
-  state.counters["bytes"] = double(bytes(volume.state()));
-  state.counters["cracks"] = volume.state().n_tension_breaks + volume.state().n_shear_breaks;
+  state.counters["grains"] = double(rve.network().n_grains());
+  state.counters["bytes"] = double(bytes(rve.state()));
+  state.counters["cracks"] = rve.state().n_tension_breaks + rve.state().n_shear_breaks;
 }
 
 /// Stress and the check for the first break, at `range` per cent of the strain at it.
 template <int dim>
 void intact_update(benchmark::State& state)
 {
-  RepresentativeVolume<dim> volume(network<dim>());
+  RepresentativeVolume<dim> rve(network<dim>());
   const Voigt<dim> direction = Voigt<dim>::Unit(dim - 1);
-  const Voigt<dim> strain = 0.01 * double(state.range(0)) * volume.network().first_break(direction).factor * direction;
+  const Voigt<dim> strain = 0.01 * double(state.range(0)) * rve.network().first_break(direction).factor * direction;
   for (auto _ : state)
-    benchmark::DoNotOptimize(volume.trial(strain));
-  note_size(state, volume);
+    benchmark::DoNotOptimize(rve.trial(strain));
+  note_size(state, rve);
 }
 BENCHMARK(intact_update<2>)->Arg(10)->Arg(50)->Arg(99)->Unit(benchmark::kMicrosecond);
 BENCHMARK(intact_update<3>)->Arg(10)->Arg(50)->Arg(99)->Unit(benchmark::kMicrosecond);
@@ -70,34 +70,34 @@ template <int dim>
 RepresentativeVolume<dim> pulled(const std::int64_t percent, Control<dim>& next)
 {
   constexpr int axis = dim - 1;
-  RepresentativeVolume<dim> volume(network<dim>());
+  RepresentativeVolume<dim> rve(network<dim>());
   Control<dim> control;
   control.stress_given.fill(true);
   control.stress_given[axis] = false;
   constexpr double step = 2e-6;
-  const double end = 0.01 * double(percent) * volume.network().first_break(Voigt<dim>::Unit(axis)).factor;
+  const double end = 0.01 * double(percent) * rve.network().first_break(Voigt<dim>::Unit(axis)).factor;
   while (control.strain[axis] + step < end)
     {
       control.strain[axis] += step;
-      volume.accept(volume.trial(control));
+      rve.accept(rve.trial(control));
     }
   next = control;
   next.strain[axis] += step;
-  return volume;
+  return rve;
 }
 
 template <int dim>
 void damaged_increment(benchmark::State& state)
 {
   Control<dim> next;
-  const RepresentativeVolume<dim> volume = pulled<dim>(state.range(0), next);
+  const RepresentativeVolume<dim> rve = pulled<dim>(state.range(0), next);
   std::size_t n_breaks = 0;
   for (auto _ : state)
     {
-      const auto trial = volume.trial(next);
+      const auto trial = rve.trial(next);
       n_breaks = trial.breaks.size();
     }
-  note_size(state, volume);
+  note_size(state, rve);
   state.counters["breaks"] = double(n_breaks);
 }
 BENCHMARK(damaged_increment<2>)->Arg(120)->Arg(150)->Arg(200)->Arg(250)->Unit(benchmark::kMillisecond);
@@ -107,10 +107,10 @@ template <int dim>
 void damaged_tangent(benchmark::State& state)
 {
   Control<dim> next;
-  const RepresentativeVolume<dim> volume = pulled<dim>(state.range(0), next);
+  const RepresentativeVolume<dim> rve = pulled<dim>(state.range(0), next);
   for (auto _ : state)
-    benchmark::DoNotOptimize(Equilibrium<dim>(volume.network(), volume.state(), {}).tangent());
-  note_size(state, volume);
+    benchmark::DoNotOptimize(Equilibrium<dim>(rve.network(), rve.state(), {}).tangent());
+  note_size(state, rve);
 }
 BENCHMARK(damaged_tangent<2>)->Arg(150)->Arg(250)->Unit(benchmark::kMillisecond);
 BENCHMARK(damaged_tangent<3>)->Arg(150)->Unit(benchmark::kMillisecond);

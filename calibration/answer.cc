@@ -12,7 +12,7 @@
 #include <functional>
 #include <numbers>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -170,13 +170,13 @@ double share_of_bounds(const Quantity& quantity, const double lower, const doubl
   return (measure(upper) - measure(lower)) / (middle_90 * range);
 }
 
-Verdict verdict_of(const double share)
+Determination determination_of(const double share)
 {
   constexpr double of_determined = 0.25;
   constexpr double of_bounded = 0.75;
-  return share <= of_determined ? Verdict::determined
-         : share <= of_bounded  ? Verdict::bounded
-                                : Verdict::not_determined;
+  return share <= of_determined ? Determination::determined
+         : share <= of_bounded  ? Determination::bounded
+                                : Determination::not_determined;
 }
 
 /// In the unit of tables, to three figures.
@@ -191,16 +191,18 @@ std::string sentence_of(const ParameterAnswer& answer, const std::string& helpfu
   std::string text =
     fmt::format("The {} is {} by these tests: 90 % of what agrees with them lies between {} and {}{}", answer.title,
                 words(answer.verdict), shown(answer, answer.lower_90), shown(answer, answer.upper_90), unit);
-  if (answer.verdict == Verdict::determined)
+  if (answer.verdict == Determination::determined)
     return text + ".";
   return text + (helpful_title.empty() ? "; no other test of the programme would tell more of it."
                                        : fmt::format("; a measured {} would help most.", helpful_title));
 }
 } // namespace
 
-std::string words(const Verdict verdict)
+std::string words(const Determination verdict)
 {
-  return verdict == Verdict::determined ? "determined" : verdict == Verdict::bounded ? "bounded" : "not determined";
+  return verdict == Determination::determined ? "determined"
+         : verdict == Determination::bounded  ? "bounded"
+                                              : "not determined";
 }
 
 double quantile(std::vector<double> values, const double share)
@@ -273,11 +275,11 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
                              quantile(values, 0.95),
                              quantity.bounds,
                              0.0,
-                             Verdict::not_determined,
+                             Determination::not_determined,
                              "",
                              ""};
       answer.share_of_bounds = share_of_bounds(quantity, answer.lower_90, answer.upper_90);
-      answer.verdict = verdict_of(answer.share_of_bounds);
+      answer.verdict = determination_of(answer.share_of_bounds);
       // A test helps by what it shares with the parameter, less what its own error of measurement would hide.
       double most = 0.1; // of the variance; less is no help
       std::string helpful_title;
@@ -306,4 +308,4 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
     }
   return result;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

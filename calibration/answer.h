@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// How well the tests tell a parameter.
-enum class Verdict
+enum class Determination
 {
   determined,    ///< its 90 % interval is a quarter of what the bounds allow, or less
   bounded,       ///< three quarters or less
   not_determined ///< more
 };
 
-std::string words(Verdict verdict);
+std::string words(Determination verdict);
 
 /// A micro-parameter after the tests.
 struct ParameterAnswer
@@ -32,7 +32,7 @@ struct ParameterAnswer
   double upper_90;
   std::optional<Bounds> bounds; ///< of an unknown that has some
   double share_of_bounds;       ///< of the 90 % interval, of what 90 % of the unconstrained parameter would take
-  Verdict verdict;
+  Determination verdict;
   std::string helpful_test; ///< the response without a target that would tell most of it; empty: none does
   std::string sentence;
 };
@@ -61,4 +61,4 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
 
 /// The value below which a share of the values lies, between two of them in proportion. At least one value.
 double quantile(std::vector<double> values, double share);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -196,4 +196,4 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
     }
   return text + "\n" + outcome.statement + "\n";
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

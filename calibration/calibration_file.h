@@ -2,8 +2,8 @@
 
 #include "calibration/answer.h"
 #include "calibration/response_model.h"
+#include "calibration/target_outcomes.h"
 #include "results/run.h"
-#include "results/statistics.h"
 
 #include <filesystem>
 #include <map>
@@ -12,7 +12,7 @@
 #include <vector>
 
 /// What a calibration leaves in its folder beside the tests of its answer.
-namespace feldspar
+namespace feldspar::calibration
 {
 /// Files of a calibration that more than one place names.
 namespace calibration_file
@@ -23,17 +23,6 @@ inline constexpr const char* posterior = "posterior.csv";
 inline constexpr const char* best = "best.prm";
 inline constexpr const char* nearest = "nearest.prm"; ///< where the targets cannot be reached
 } // namespace calibration_file
-
-/// A target and the tests of the answer.
-struct TargetOutcome
-{
-  Target target;
-  std::optional<Statistics> reached; ///< over packings that no choice was made by [SI]; else by the model
-  double predicted;                  ///< [SI]
-
-  double value() const { return reached ? reached->mean : predicted; }
-  double deviation() const { return value() / target.value - 1.0; }
-};
 
 struct CalibrationOutcome
 {
@@ -56,4 +45,4 @@ void write_calibration(const Provenance& made_by, const CalibrationOutcome& outc
 
 /// For a terminal: targets, then parameters, then a sentence each.
 std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -9,7 +9,7 @@
 #include <openturns/SobolSequence.hxx>
 #include <openturns/Uniform.hxx>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -44,4 +44,4 @@ SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, con
   const OT::Point total = algorithm.getTotalOrderIndices();
   return {{first.begin(), first.end()}, {total.begin(), total.end()}};
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

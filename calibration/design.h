@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Designs and sensitivities, by OpenTURNS.
-namespace feldspar
+namespace feldspar::calibration
 {
 /// In the unit cube, a coordinate each.
 using UnitPoint = std::vector<double>;
@@ -24,4 +24,4 @@ struct SobolIndices
 /// By the estimator of Martinez (2011) with n points for each matrix, (dimension + 2) n values in all.
 SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, std::size_t dimension, std::size_t n,
                            std::uint64_t seed);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -71,4 +71,4 @@ ElasticTable::Constants ElasticTable::largest() const
       most = {std::max(most.modulus_ratio, one.modulus_ratio), std::max(most.poissons_ratio, one.poissons_ratio)};
   return most;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// Elastic constants of the intact rock, from representative volumes: Young's modulus over that of the joints, and
 /// Poisson's ratio, over stiffness ratio and installation gap. Between its entries they are interpolated linearly over
@@ -33,4 +33,4 @@ private:
   std::vector<double> of_gap;
   std::vector<std::vector<Constants>> entries;
 };
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -118,4 +118,4 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
     }
   return fit;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// What a fit may change.
 struct FitFreedom
@@ -28,4 +28,4 @@ struct Fit
 /// to that.
 Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, double tolerance,
              const FitFreedom& freedom, const Place& start);
-} // namespace feldspar
+} // namespace feldspar::calibration

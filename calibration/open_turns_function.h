@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Between our types and those of OpenTURNS. For the sources of this room alone: its headers are long.
-namespace feldspar
+namespace feldspar::calibration
 {
 inline OT::Point as_point(const std::vector<double>& values)
 {
@@ -44,4 +44,4 @@ private:
   std::function<double(const std::vector<double>&)> f;
   std::size_t dimension;
 };
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -6,7 +6,7 @@
 #include <openturns/RandomGenerator.hxx>
 #include <openturns/RandomWalkMetropolisHastings.hxx>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 std::vector<std::vector<double>> metropolis(const std::function<double(const std::vector<double>&)>& log_density,
                                             const std::vector<double>& lower, const std::vector<double>& upper,
@@ -33,4 +33,4 @@ std::vector<std::vector<double>> metropolis(const std::function<double(const std
       points[i][k] = sample(i, k);
   return points;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

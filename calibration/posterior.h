@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// Draws from a density known up to a factor, by the random walk of Metropolis and Hastings of OpenTURNS: n points of one
 /// chain, [n][dimension], after a quarter as many that are thrown away.
@@ -16,4 +16,4 @@ std::vector<std::vector<double>> metropolis(const std::function<double(const std
                                             const std::vector<double>& start,
                                             const std::vector<std::vector<double>>& covariance, std::size_t n,
                                             std::uint64_t seed);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 ResponseModel::ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns,
                              const MicroParameters& fixed, ElasticTable elastic, const double gap_of_specimens)
@@ -129,4 +129,4 @@ double ResponseModel::deviation(const std::size_t j, const UnitPoint& point) con
 {
   return std::hypot(surrogates[j]->deviation(point), correction_errors[j]);
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

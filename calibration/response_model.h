@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// What came out of the tests of one set of parameters on one packing.
 struct TestedPoint
@@ -81,4 +81,4 @@ private:
   std::vector<double> correction_errors;
   std::vector<std::optional<double>> scatters;
 };
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -176,4 +176,4 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
     throw InputError("Report/Reference file: its experiment has none of the figures that the tests of Tests/List give");
   return all;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -12,7 +12,7 @@
 #include <vector>
 
 /// The figures that tests of a specimen give, and those of them that a laboratory measured.
-namespace feldspar
+namespace feldspar::calibration
 {
 /// With which scale of the micro-parameters a figure goes, all their ratios kept.
 enum class ResponseScale
@@ -63,4 +63,4 @@ struct Target
 /// of the programme gives, and where there is none at all.
 std::vector<Target> targets(const std::vector<Response>& responses, const Reference& reference,
                             const CalibrationParameters& wanted);
-} // namespace feldspar
+} // namespace feldspar::calibration

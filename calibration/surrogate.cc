@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 struct Surrogate::Kriging
 {
@@ -66,4 +66,4 @@ double Surrogate::deviation(const UnitPoint& point) const
 {
   return std::sqrt(std::max(0.0, kriging->result.getConditionalMarginalVariance(as_point(point))));
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// A smooth function of a point of the unit cube, out of values that scatter: Kriging with a linear trend and a Matérn
 /// 5/2 covariance with a length for each coordinate, by OpenTURNS. Copies share it.
@@ -22,4 +22,4 @@ private:
   struct Kriging;
   std::shared_ptr<const Kriging> kriging;
 };
-} // namespace feldspar
+} // namespace feldspar::calibration

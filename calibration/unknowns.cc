@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 double Unknown::value(const double coordinate) const
 {
@@ -48,4 +48,4 @@ MicroParameters parameters_at(const UnitPoint& point, const std::vector<Unknown>
       parameters.gap = unknowns[k].value(point[k]);
   return parameters;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// The micro-parameters that a calibration may seek.
 struct MicroParameters
@@ -42,4 +42,4 @@ std::vector<Unknown> unknowns(const CalibrationParameters& wanted);
 /// `fixed` with the unknowns at a point of the unit cube.
 MicroParameters parameters_at(const UnitPoint& point, const std::vector<Unknown>& unknowns,
                               const MicroParameters& fixed);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -15,7 +15,7 @@ studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
-  contact-models/parallel-bond
+  contact-models/{parallel-bond,grain-based}
   calibrate-beishan/calibrate
   flawed-granite/flaw
   toughness/toughness

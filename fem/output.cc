@@ -12,6 +12,7 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 #include <fmt/format.h>
+#include <hdf5.h>
 
 #include <sstream>
 #include <utility>
@@ -54,7 +55,7 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
     if (!components[c].empty())
       {
         const double to_tensor = c < material_dim ? 1.0 : 0.5; // from engineering shear
-        add("stress_" + components[c] + "_Pa", [&](const std::size_t i) { return solid.answers()[i].stress[c]; });
+        add("stress_" + components[c] + "_Pa", [&](const std::size_t i) { return solid.responses()[i].stress[c]; });
         add("strain_" + components[c], [&](const std::size_t i) { return to_tensor * solid.strains()[i][c]; });
       }
 
@@ -83,6 +84,16 @@ void seal(const std::vector<std::filesystem::path>& files, const MPI_Comm commun
   problem = dealii::Utilities::MPI::broadcast(communicator, problem);
   if (!problem.empty())
     throw OutputError(problem);
+}
+/// What deal.II throws where a file cannot be written tells neither which nor why, and leaves files of HDF5 open, which would
+/// be closed when MPI is down already. Throws OutputError.
+[[noreturn]] void say_why(const std::filesystem::path& file)
+{
+  H5close();
+  write_whole_file(file, "nothing"); // which tells the cause, if it is still there
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  throw OutputError(fmt::format("{}: cannot be written", file.string()));
 }
 } // namespace
 
@@ -119,14 +130,29 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
       mesh_of_ranks = of_ranks;
     }
   const std::string fields_file = fmt::format("{}-{:04}.h5", name, entries.size());
-  out.write_hdf5_parallel(filter, another_mesh, (folder / mesh_file).string(), (folder / fields_file).string(),
-                          solid.communicator());
+  try
+    {
+      out.write_hdf5_parallel(filter, another_mesh, (folder / mesh_file).string(), (folder / fields_file).string(),
+                              solid.communicator());
+    }
+  catch (const dealii::ExceptionBase&)
+    {
+      say_why(folder / fields_file);
+    }
   std::vector<std::filesystem::path> files{folder / fields_file};
   if (another_mesh)
     files.push_back(folder / mesh_file);
   seal(files, solid.communicator());
   entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
-  out.write_xdmf_file(entries, (folder / (name + ".xdmf")).string(), solid.communicator());
+  const std::filesystem::path xdmf_file = folder / (name + ".xdmf");
+  try
+    {
+      out.write_xdmf_file(entries, xdmf_file.string(), solid.communicator());
+    }
+  catch (const dealii::ExceptionBase&)
+    {
+      say_why(xdmf_file);
+    }
 }
 
 std::string FieldOutput::stored() const

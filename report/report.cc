@@ -41,6 +41,20 @@ Findings findings_of(const std::vector<Series>& all, const ReportInput& input)
   return findings;
 }
 
+/// The first picture of the sections: it stands beside the verdict, on the first screen, instead of in its own place.
+std::vector<PagePicture> lead_of(std::vector<PageSection>& sections)
+{
+  for (PageSection& section : sections)
+    for (PageBlock& block : section.blocks)
+      if (block.folded.empty() && !block.pictures.empty())
+        {
+          std::vector<PagePicture> lead{std::move(block.pictures.front())};
+          block.pictures.erase(block.pictures.begin());
+          return lead;
+        }
+  return {};
+}
+
 /// The page without its pictures, which the book draws later.
 Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& calibration, PictureBook& book)
 {
@@ -63,6 +77,7 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
+  page.sections.front().blocks.front().lead = lead_of(page.sections);
   return page;
 }
 
@@ -84,7 +99,8 @@ void write_tables(const Page& page, const Findings& findings, const std::filesys
 }
 } // namespace
 
-std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder)
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder,
+                                      const std::function<bool()>& is_over)
 {
   const std::vector<Series> all = with_labels_to_show(input.all);
   const Findings findings = findings_of(all, input);
@@ -96,7 +112,7 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const std::filesystem::path figures = folder / result_file::figures;
   std::filesystem::create_directories(figures);
   std::filesystem::create_directories(folder / result_file::tables);
-  const std::string not_drawn = book.draw_into(figures, page);
+  const std::string not_drawn = book.draw_into(figures, page, is_over);
   if (!not_drawn.empty())
     page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + not_drawn);
   write_tables(page, findings, folder / result_file::tables);

@@ -6,6 +6,7 @@
 #include "results/series.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,10 @@ struct ReportInput
   bool one_folder = true; ///< the names of tests are unlike; every test gets pictures of its own, as files
 };
 
-/// Writes report.html, figures/ and tables/ into a folder that exists. Returns what is missing in the report and why,
-/// each in a sentence; the report says it too.
-std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder);
+/// Writes report.html, figures/ and tables/ into a folder that exists. Once is_over() says so no more pictures are drawn,
+/// which take nearly all of the time; words and tables come all the same. Returns what is missing in the report and why, each in
+/// a sentence; the report says it too.
+std::vector<std::string> write_report(
+  const ReportInput& input, const std::filesystem::path& folder,
+  const std::function<bool()>& is_over = [] { return false; });
 } // namespace feldspar

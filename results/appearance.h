@@ -19,6 +19,7 @@ struct GrainPicture
   std::array<double, 3> position; ///< at the end [m]
   double radius;                  ///< [m]
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
+  std::uint32_t mineral = 0;      ///< number of the mineral grain it is a part of, from 1; 0: of none
 };
 
 /// The grains at one row of the curve.
@@ -36,7 +37,7 @@ struct Snapshot
 };
 
 /// The representative volume at a point of a sample, as it was when the test ended.
-struct PointVolume
+struct PointRve
 {
   std::string which; ///< most damaged, median, intact
   unsigned int cell; ///< as in the fields, from 0
@@ -62,9 +63,9 @@ struct TestAppearance
 {
   std::vector<GrainPicture> grains_at_end;
   std::vector<FlawPicture> flaws;
-  std::vector<Snapshot> snapshots;  ///< a few, evenly over the curve; the first is the start
-  SampleFields fields;              ///< read back from the folder; never written by who writes a result folder
-  std::vector<PointVolume> volumes; ///< representative volumes of a few points
+  std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
+  SampleFields fields;             ///< read back from the folder; never written by who writes a result folder
+  std::vector<PointRve> rves;      ///< representative volumes of a few points
 };
 
 /// None without grains.

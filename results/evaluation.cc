@@ -38,6 +38,9 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::n_tension_cracks_at_peak,
                                                       &TestResults::n_shear_cracks_at_peak,
                                                       &TestResults::shear_share_at_peak,
+                                                      &TestResults::n_smooth_tension_cracks_at_peak,
+                                                      &TestResults::n_smooth_shear_cracks_at_peak,
+                                                      &TestResults::smooth_tension_share_at_peak,
                                                       &TestResults::kinetic_to_strain_energy,
                                                       &TestResults::end_stress_difference,
                                                       &TestResults::unbalanced_force_ratio,
@@ -317,6 +320,27 @@ std::optional<std::size_t> crack_initiation_row(const TestRecord& record, const 
   return row;
 }
 
+/// Which part of the cracks at the peak is on smooth joints: in a grain-based model, on grain boundaries.
+void evaluate_smooth_joints(const TestRecord& record, const CurveSample& at_peak, TestResults& results)
+{
+  if (record.specimen.n_smooth_joints == 0)
+    {
+      results.n_smooth_tension_cracks_at_peak = results.n_smooth_shear_cracks_at_peak =
+        results.smooth_tension_share_at_peak = unknown("no smooth joints");
+      return;
+    }
+  const auto n = [&](const CrackKind kind) {
+    return double(std::count_if(record.cracks.begin(), record.cracks.end(), [&](const Crack& crack) {
+      return crack.on_smooth_joint && crack.kind == kind && crack.step <= at_peak.step;
+    }));
+  };
+  results.n_smooth_tension_cracks_at_peak = known(n(CrackKind::tension));
+  results.n_smooth_shear_cracks_at_peak = known(n(CrackKind::shear));
+  results.smooth_tension_share_at_peak = n_cracks(at_peak) > 0
+                                           ? known(n(CrackKind::tension) / double(n_cracks(at_peak)))
+                                           : unknown("no crack before the peak");
+}
+
 TestResults evaluate(const TestRecord& record)
 {
   TestResults results;
@@ -357,6 +381,7 @@ TestResults evaluate(const TestRecord& record)
   results.shear_share_at_peak = n_cracks(at_peak) > 0
                                   ? known(double(at_peak.n_shear_cracks) / double(n_cracks(at_peak)))
                                   : unknown("no crack before the peak");
+  evaluate_smooth_joints(record, at_peak, results);
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);
   evaluate_toughness(record, branch, results);

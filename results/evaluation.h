@@ -35,7 +35,10 @@ struct TestResults
   std::uint64_t n_shear_cracks = 0;
   Figure n_tension_cracks_at_peak;
   Figure n_shear_cracks_at_peak;
-  Figure shear_share_at_peak; ///< of all cracks
+  Figure shear_share_at_peak;             ///< of all cracks
+  Figure n_smooth_tension_cracks_at_peak; ///< of smooth joints
+  Figure n_smooth_shear_cracks_at_peak;
+  Figure smooth_tension_share_at_peak; ///< of all cracks
   double energy_imbalance = 0.0;
   double energy_imbalance_over_work = 0.0;
   Figure kinetic_to_strain_energy; ///< largest from 5 % of the peak to the peak

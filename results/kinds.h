@@ -13,7 +13,8 @@ namespace feldspar
 struct Channel
 {
   double CurveSample::*value;
-  std::string_view name; ///< on axes
+  std::string_view name;                         ///< on axes
+  std::string_view strain_name = "axial strain"; ///< of CurveSample::axial_strain, on axes
 };
 
 inline constexpr Channel axial_stress{&CurveSample::axial_stress, "axial stress"};

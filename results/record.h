@@ -30,8 +30,9 @@ struct Crack
   double axial_strain;              ///< of the specimen, platen or grip travel
   std::array<double, 3> centroid{}; ///< [m]
   std::array<double, 3> normal{};
-  double size;            ///< length of the segment in 2D, root of its area in 3D [m]
-  double released_energy; ///< [J]
+  double size;                  ///< length of the segment in 2D, root of its area in 3D [m]
+  double released_energy;       ///< [J]
+  bool on_smooth_joint = false; ///< of a flaw or at the boundary of a mineral grain
 };
 
 /// The pieces that the joints still hold together at the end.

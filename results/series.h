@@ -11,7 +11,7 @@ namespace feldspar
 enum class SeriesKind
 {
   specimens,       ///< of grains: `feldspar lab`
-  finite_elements, ///< with a volume of grains or a law at every point: `feldspar multiscale`
+  finite_elements, ///< with an RVE of grains or a law at every point: `feldspar multiscale`
   laboratory_curve ///< measured on rock: `feldspar report --curve`
 };
 

@@ -16,7 +16,7 @@ public:
   {
   }
 
-  MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+  MaterialResponse<2> trial(const StrainVector<2>& strain) const override
   {
     const StiffnessMatrix<2> now = (broken ? share : 1.0) * stiffness;
     return {now * strain, now};

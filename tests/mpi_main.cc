@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);
+  setenv("OMPI_MCA_sharedfp", "individual", 0); // as run_multiscale() has it
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv);
   // One voice is enough, unless another rank fails.
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)

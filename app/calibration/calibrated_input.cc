@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -106,4 +106,4 @@ MicroParameters rounded(const MicroParameters& parameters)
     result.gap = to_figures(*parameters.gap, 1.0);
   return result;
 }
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// Those of the input's flat joint.
 MicroParameters micro_parameters(const Input& input);
@@ -20,4 +20,4 @@ std::string as_prm(const Input& input, const std::string& comment);
 
 /// To four figures in the units of as_prm(), so that a reader sees all of them and the file gives the same rock.
 MicroParameters rounded(const MicroParameters& parameters);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -37,6 +37,9 @@ Input cell_of(const Input& input)
   constexpr double n_grains = 900.0; // the constants of a cell then scatter by a per cent (docs/theory.md §3)
   Input cell = input;
   cell.specimen.shape = "periodic";
+  cell.specimen.coring = Coring::none; // a core is cut from such a cell
+  cell.specimen.cells_across = 1;
+  cell.specimen.cells_along = 1;
   const double present = expected_grains(cell.specimen) / (cell.specimen.width * cell.specimen.height *
                                                            (cell.specimen.dimension == 3 ? cell.specimen.width : 1.0));
   cell.specimen.width = std::pow(n_grains / present, 1.0 / double(cell.specimen.dimension));
@@ -99,4 +102,4 @@ template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bou
                                            double);
 template double installation_gap<2>(const Input&, std::uint64_t);
 template double installation_gap<3>(const Input&, std::uint64_t);
-} // namespace feldspar
+} // namespace feldspar::calibration

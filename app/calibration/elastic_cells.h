@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// Elastic constants of the input's rock from intact periodic cells of some 900 grains: the mean of three packings for
 /// each stiffness ratio between the bounds, and each gap between them (or the one given). Without bounds: of the input's
@@ -18,4 +18,4 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
 /// The gap of a specimen of the input; of one that asks for a coordination number, what genesis finds for it.
 template <int dim>
 double installation_gap(const Input& input, std::uint64_t seed);
-} // namespace feldspar
+} // namespace feldspar::calibration

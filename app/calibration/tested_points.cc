@@ -1,9 +1,9 @@
 #include "app/calibration/tested_points.h"
 
 #include "app/calibration/calibrated_input.h"
+#include "app/programme/lab_run.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
-#include "app/run/lab_run.h"
 #include "app/run/run_record.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
@@ -23,7 +23,7 @@
 #include <set>
 #include <utility>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -158,4 +158,4 @@ template std::vector<TestedPoint> test_points<2>(const Input&, const std::vector
 template std::vector<TestedPoint> test_points<3>(const Input&, const std::vector<Response>&,
                                                  const std::vector<PointOrder>&, const std::filesystem::path&,
                                                  Progress&);
-} // namespace feldspar
+} // namespace feldspar::calibration

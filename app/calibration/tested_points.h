@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 /// A set of parameters to be tested on a packing.
 struct PointOrder
@@ -30,4 +30,4 @@ template <int dim>
 std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
                                      const std::vector<PointOrder>& orders, const std::filesystem::path& folder,
                                      Progress& progress);
-} // namespace feldspar
+} // namespace feldspar::calibration

@@ -1,612 +1,65 @@
-#include "app/calibration/calibrated_input.h"
-#include "app/calibration/elastic_cells.h"
-#include "app/calibration/tested_points.h"
+#include "app/calibration/calibration_run.h"
+#include "app/calibration/problem.h"
 #include "app/commands/commands.h"
-#include "app/commands/report_command.h"
-#include "app/input/parameter_table.h"
-#include "app/run/interrupt.h"
-#include "app/run/lab_run.h"
-#include "app/run/provenance.h"
-#include "app/run/specimen_source.h"
-#include "app/screen/print_result.h"
-#include "app/screen/progress.h"
+#include "app/programme/checks.h"
+#include "app/run/run.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
-#include "calibration/calibration_file.h"
-#include "calibration/fit.h"
-#include "results/folder/field_output.h"
-#include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
+#include <filesystem>
+#include <string>
 
 namespace feldspar
 {
 namespace
 {
-/// What a calibration is about, as far as the input tells.
-struct Problem
+void check(const Input& input)
 {
-  Reference reference;
-  std::vector<Response> responses;
-  std::vector<Target> targets;
-  std::vector<Unknown> unknowns;
-  bool has_modulus = false;  ///< a target tells the scale of stiffness
-  bool has_strength = false; ///< one tells the scale of strength
-
-  const Response& response_of(const Target& target) const { return responses[target.response]; }
-};
-
-Problem problem_of(const Input& input)
-{
-  Problem problem;
-  problem.reference = read_reference(input.reference_file);
-  problem.responses = responses(test_cases(input.test_list, input.confinements), input.calibration);
-  problem.targets = targets(problem.responses, problem.reference, input.calibration);
-  problem.unknowns = unknowns(input.calibration);
-  for (const Target& target : problem.targets)
-    {
-      problem.has_modulus |= problem.response_of(target).scale == ResponseScale::modulus;
-      problem.has_strength |= problem.response_of(target).scale == ResponseScale::strength;
-    }
-  return problem;
-}
-
-void check(const Input& input, const std::filesystem::path& file)
-{
-  const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
+  const auto refuse = [&](const std::string& what) { throw InputError(what); };
   const SpecimenParameters& specimen = input.specimen;
   if (specimen.joint_law != "flat joint")
     refuse(fmt::format("Specimen/Joint law = {}: only the flat joint is calibrated", specimen.joint_law));
-  if (specimen.shape == "periodic")
-    refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
   if (!specimen.specimen_file.empty() || !specimen.packing_file.empty())
     refuse("Specimen: a calibration makes its own packings; name no Packing file and no Specimen file");
+  if (input.clumps.diameter)
+    refuse("Clumps: a calibration is of grains that move each for itself; take the section out");
+  if (!input.flaws.all().empty())
+    refuse("Flaws: a calibration is of the intact rock; take the section out");
   if (!input.variants.entries.empty())
     refuse("Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
   if (input.seeds.size() > 1)
     refuse("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");
-  for (const TestKind& kind : input.test_list)
-    if (const std::string objection = objection_to_grains(kind, specimen.dimension); !objection.empty())
-      refuse(objection);
-  check_body(input, specimen.dimension == 2        ? Body::plane_box
-                    : specimen.shape == "cylinder" ? Body::cylinder
-                                                   : Body::box);
+  check_specimen_and_tests(input);
   if (input.reference_file.empty())
     refuse("Report/Reference file: is needed; it has the laboratory's figures that are to be reached");
-  const Problem problem = problem_of(input);
+}
+
+/// Problems that no fit can solve; a reference file that does not serve is told by its own name.
+void check_problem(const calibration::Problem& problem, const CalibrationParameters& wanted)
+{
   if (problem.unknowns.empty())
-    refuse("Calibration: all its ratios are fixed; give bounds to one of them at least");
+    throw InputError("Calibration: all its ratios are fixed; give bounds to one of them at least");
   // A trend, and something left to tell its error by.
-  if (const std::size_t least = problem.unknowns.size() + 3; input.calibration.n_points < least)
-    refuse(fmt::format("Calibration/Design points = {}: must be at least {} for {} unknown ratios",
-                       input.calibration.n_points, least, problem.unknowns.size()));
+  if (const std::size_t least = problem.unknowns.size() + 3; wanted.n_points < least)
+    throw InputError(fmt::format("Calibration/Design points = {}: must be at least {} for {} unknown ratios",
+                                 wanted.n_points, least, problem.unknowns.size()));
 }
 
-/// Seeds of the packings, stage by stage.
-struct Packings
+void check_calibration_input(const Input& input, const std::filesystem::path& input_file)
 {
-  std::uint64_t next;
-
-  std::vector<std::uint64_t> take(const std::size_t n)
-  {
-    std::vector<std::uint64_t> seeds(n);
-    std::iota(seeds.begin(), seeds.end(), next);
-    next += n;
-    return seeds;
-  }
-};
-
-/// A scale to begin with, of flat joints as they usually are: σ_t is some 0.45 of the bonds' strength, UCS some 7 times.
-double first_bond_strength(const Problem& problem, const double otherwise)
-{
-  for (const auto& [name, share] : {std::pair("tensile_strength", 0.45), std::pair("brazilian_strength", 0.45),
-                                    std::pair("uniaxial_compressive_strength", 7.0)})
-    for (const Target& target : problem.targets)
-      if (problem.response_of(target).name == name)
-        return target.value / share;
-  return otherwise;
+  with_name_of(input_file, [&] { check(input); });
+  const calibration::Problem problem = calibration::problem_of(input);
+  with_name_of(input_file, [&] { check_problem(problem, input.calibration); });
 }
-
-std::optional<double> target_of(const Problem& problem, const ResponseScale scale)
-{
-  for (const Target& target : problem.targets)
-    if (problem.response_of(target).scale == scale)
-      return target.value;
-  return std::nullopt;
-}
-
-/// Refuses a Poisson's ratio that the intact rock cannot have, before anything is broken.
-void check_poissons_ratio(const Problem& problem, const CalibrationParameters& wanted, const ElasticTable& elastic)
-{
-  const auto target = target_of(problem, ResponseScale::none);
-  if (!target || wanted.poissons_ratio != ElasticFigure::initial)
-    return; // cracks raise the secant: the design will tell
-  const double least = elastic.least().poissons_ratio;
-  const double largest = elastic.largest().poissons_ratio;
-  // Specimens between walls differ from cells by some hundredths.
-  constexpr double of_walls = 0.03;
-  if (*target < least - of_walls || *target > largest + of_walls)
-    throw InputError(
-      fmt::format("an initial Poisson's ratio of {:.3f} cannot be reached: the intact rock has {:.3f} to "
-                  "{:.3f} between the bounds of section Calibration; widen those of Stiffness ratio or "
-                  "Installation gap ratio, or correct the reference file",
-                  *target, least, largest));
-}
-
-/// Everything that a calibration knows while it runs.
-template <int dim>
-class CalibrationRun
-{
-public:
-  explicit CalibrationRun(const Run& of)
-    : run(of)
-    , input(of.input)
-    , wanted(of.input.calibration)
-    , problem(problem_of(of.input))
-    , progress(of.quiet)
-    , packings{of.input.seeds.front()}
-  {
-  }
-
-  RunEnd go()
-  {
-    tell_cost();
-    ResponseModel model = elastic_stage();
-    if (const std::string objection = design_stage(model); !objection.empty())
-      return {false, objection}; // its tests stay
-
-    FitFreedom freedom{problem.has_modulus, problem.has_strength, UnitPoint(problem.unknowns.size(), 0.5), 0.5};
-    Fit fit = best_fit(model, problem.targets, wanted.tolerance, freedom, start);
-    if (const std::string objection = out_of_reach(model, fit); !objection.empty())
-      return end_out_of_reach(model, fit, objection);
-
-    fit = steps(model, fit);
-    test_strain_scale(model, fit.place);
-    return answer(model, fit);
-  }
-
-private:
-  void tell_cost()
-  {
-    const std::size_t n_tests = test_cases(input.test_list, input.confinements).size();
-    const std::size_t n_design = wanted.n_points * wanted.n_packings;
-    const std::size_t n_of_steps = wanted.most_steps * wanted.n_step_packings;
-    progress.remark(fmt::format(
-      "{} target(s), {} unknown ratio(s){}{}. The design takes {} specimens of some {:.0f} grains, {} test(s) each; "
-      "steps up to {} specimens, the answer up to {} for each of at most {} rounds.",
-      problem.targets.size(), problem.unknowns.size(), problem.has_modulus ? ", the modulus" : "",
-      problem.has_strength ? ", the strength" : "", n_design, expected_grains(input.specimen), n_tests, n_of_steps,
-      wanted.most_packings, most_rounds));
-  }
-
-  /// The intact rock, and a place to begin at.
-  ResponseModel elastic_stage()
-  {
-    progress.start("elastic constants of intact cells");
-    const MicroParameters fixed = micro_parameters(input);
-    const double gap = installation_gap<dim>(input, packings.next);
-    const ElasticTable elastic =
-      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap);
-    check_poissons_ratio(problem, wanted, elastic);
-    progress.finish(fmt::format("E {:.2f} to {:.2f} of the joints', nu {:.3f} to {:.3f}", elastic.least().modulus_ratio,
-                                elastic.largest().modulus_ratio, elastic.least().poissons_ratio,
-                                elastic.largest().poissons_ratio));
-    start.point.assign(problem.unknowns.size(), 0.5);
-    start.log_strength = std::log(problem.has_strength ? first_bond_strength(problem, fixed.bond_tensile_strength)
-                                                       : fixed.bond_tensile_strength);
-    const MicroParameters middle = parameters_at(start.point, problem.unknowns, fixed);
-    const auto modulus = target_of(problem, ResponseScale::modulus);
-    start.log_modulus = std::log(
-      modulus ? *modulus / elastic.at(middle.stiffness_ratio, middle.gap.value_or(gap)).modulus_ratio : fixed.modulus);
-    return {problem.responses, problem.unknowns, fixed, elastic, gap};
-  }
-
-  /// Learns how the responses depend on the ratios.
-  /// Why it cannot; empty if it could.
-  std::string design_stage(ResponseModel& model)
-  {
-    const auto seeds = packings.take(wanted.n_packings);
-    std::vector<PointOrder> orders;
-    const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (const std::uint64_t seed : seeds)
-        orders.push_back(
-          {"design", i, seed, points[i], model.parameters({points[i], start.log_modulus, start.log_strength})});
-    add(test("design", orders));
-    model.learn(tested);
-    for (const Target& target : problem.targets)
-      if (!model.knows(target.response))
-        return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: "
-                           "raise Calibration/Design points, or narrow its bounds",
-                           problem.response_of(target).title);
-    return "";
-  }
-
-  /// Why the targets cannot be reached by the surrogates alone; empty if they may.
-  std::string out_of_reach(const ResponseModel& model, const Fit& fit) const
-  {
-    bool is_out = false;
-    for (std::size_t t = 0; t < problem.targets.size(); ++t)
-      {
-        const Target& target = problem.targets[t];
-        const double per_share = problem.response_of(target).per_share(target.value);
-        const double error = std::hypot(model.deviation(target.response, fit.place.point),
-                                        model.noise(target.response) / std::sqrt(double(wanted.n_packings))) /
-                             per_share;
-        constexpr double errors_apart = 3.0;
-        is_out |= std::abs(fit.deviations[t]) >
-                  errors_apart * error + std::max(wanted.tolerance, 2.0 * target.deviation / target.value);
-      }
-    return is_out ? nearest_in_words(fit) : "";
-  }
-
-  std::string nearest_in_words(const Fit& fit) const
-  {
-    std::string text = "these targets cannot be reached together between the bounds of section Calibration; nearest "
-                       "come";
-    for (std::size_t t = 0; t < problem.targets.size(); ++t)
-      {
-        const Response& response = problem.response_of(problem.targets[t]);
-        const double value = problem.targets[t].value * (1.0 + fit.deviations[t]);
-        text +=
-          fmt::format("{} {} {:.{}f}{} ({:+.1f} %)", t == 0 ? "" : ",", response.title, value / response.unit_size,
-                      response.decimals, response.unit.empty() ? "" : " " + response.unit, 100.0 * fit.deviations[t]);
-      }
-    return text;
-  }
-
-  /// Steps in a region about the last place, each confirmed on the same packings, until the targets are met there.
-  Fit steps(ResponseModel& model, Fit fit)
-  {
-    const auto seeds = packings.take(wanted.n_step_packings);
-    Fit best = fit;
-    std::optional<double> least;
-    double half_width = 0.25;
-    // Room is left for fresh packings; what the packings of a step scatter cannot be mended by another step.
-    const auto is_near = [&](const TargetOutcome& outcome) {
-      const double error = outcome.reached ? outcome.reached->standard_error.value_or(0.0) : 0.0;
-      return outcome.reached &&
-             std::abs(outcome.deviation()) <= std::max(0.5 * wanted.tolerance, error / std::abs(outcome.target.value));
-    };
-    for (n_steps = 0; n_steps < wanted.most_steps;)
-      {
-        ++n_steps;
-        const Place place = fit.place;
-        std::vector<PointOrder> orders;
-        for (const std::uint64_t seed : seeds)
-          orders.push_back({fmt::format("step {}", n_steps), 0, seed, place.point, model.parameters(place)});
-        auto of_step = test(fmt::format("step {}", n_steps), orders);
-        const std::vector<TargetOutcome> outcomes = outcomes_of(of_step, model, place);
-        corrections.insert(corrections.end(), of_step.begin(), of_step.end());
-        add(std::move(of_step));
-        double misfit = 0.0;
-        for (const TargetOutcome& outcome : outcomes)
-          misfit += std::pow(outcome.deviation(), 2);
-        if (!least || misfit < *least)
-          {
-            least = misfit;
-            best = fit;
-            model.correct(corrections);
-          }
-        else
-          half_width *= 0.5; // the region in which the corrections hold was too large
-        if (std::all_of(outcomes.begin(), outcomes.end(), is_near))
-          break;
-        model.correct(corrections);
-        fit = best_fit(model, problem.targets, wanted.tolerance,
-                       {problem.has_modulus, problem.has_strength, best.place.point, half_width}, best.place);
-      }
-    // By all that was learnt on the way.
-    model.correct(corrections);
-    return best_fit(model, problem.targets, wanted.tolerance,
-                    {problem.has_modulus, problem.has_strength, best.place.point, 0.5 * half_width}, best.place);
-  }
-
-  /// Whether strengths go with the bonds' at another ratio of strength to stiffness: then strains are larger.
-  void test_strain_scale(const ResponseModel& model, const Place& place)
-  {
-    if (!problem.has_strength)
-      return;
-    constexpr double factor = 1.5;
-    const std::uint64_t seed = tested.back().seed;
-    MicroParameters as_is = model.parameters(place);
-    MicroParameters stronger = as_is;
-    stronger.bond_tensile_strength *= factor;
-    const auto both =
-      test("strain scale", {{"scale", 0, seed, place.point, as_is}, {"scale", 1, seed, place.point, stronger}});
-    for (std::size_t j = 0; j < problem.responses.size(); ++j)
-      if (const Response& response = problem.responses[j]; response.scale == ResponseScale::strength &&
-                                                           !response.name.starts_with("strength_at_") &&
-                                                           both[0].values[j] && both[1].values[j])
-        scale_effects[response.name] = *both[1].values[j] / *both[0].values[j] / factor - 1.0;
-    tested.insert(tested.end(), both.begin(), both.end());
-  }
-
-  /// Tests the answer on packings by which nothing was chosen, as many as its standard errors ask for. One that misses
-  /// by more than they explain is mended once or twice, and tested on others.
-  RunEnd answer(ResponseModel& model, Fit fit)
-  {
-    std::vector<FinishedTest> finished_tests;
-    Input best_input;
-    std::vector<TargetOutcome> outcomes;
-    Place place = fit.place;
-    for (std::size_t round = 1;; ++round)
-      {
-        place = rounded_place(model, fit.place);
-        const std::uint64_t first = packings.next;
-        finished_tests.clear();
-        std::vector<TestedPoint> points;
-        std::size_t n = 0;
-        std::size_t needed = std::min<std::size_t>(3, wanted.most_packings);
-        while (n < needed)
-          {
-            const auto folder = run.folder / "calibration" / fmt::format("answer_{}_from_{}", round, n);
-            std::filesystem::create_directories(folder);
-            const Input batch = input_of(model.parameters(place), first + n, needed - n);
-            for (auto& one : run_answer(batch, folder, round))
-              finished_tests.push_back(std::move(one));
-            n = needed;
-            points = as_tested_points(finished_tests, fmt::format("answer {}", round), model, place);
-            outcomes = outcomes_of(points, model, place);
-            needed = std::min<std::size_t>(packings_needed(outcomes), wanted.most_packings);
-          }
-        best_input = input_of(model.parameters(place), first, n);
-        packings.next = first + wanted.most_packings;
-        corrections.insert(corrections.end(), points.begin(), points.end());
-        add(points);
-        model.correct(corrections);
-        if (round == most_rounds || all_met(outcomes))
-          break;
-        fit = best_fit(model, problem.targets, wanted.tolerance,
-                       {problem.has_modulus, problem.has_strength, place.point, 0.1}, place);
-      }
-
-    const bool has_reached = all_met(outcomes);
-    const std::string statement = statement_of(outcomes, has_reached);
-    const FitFreedom freedom{problem.has_modulus, problem.has_strength, place.point, 0.5};
-    CalibrationOutcome outcome = outcome_of(model, place, outcomes, has_reached, statement);
-    progress.start("posterior");
-    outcome.posterior = posterior(model, problem.targets, freedom, place, wanted.n_samples, input.seeds.front());
-    for (std::size_t j = 0; j < problem.responses.size(); ++j)
-      if (model.knows(j))
-        outcome.sensitivities[problem.responses[j].name] =
-          sobol_indices([&](const UnitPoint& point) { return model.learnt(j, point); }, problem.unknowns.size(), 1024,
-                        input.seeds.front());
-    progress.finish(fmt::format("{} samples", outcome.posterior.samples.size()));
-    finish(model, outcome, best_input, finished_tests);
-    return {false, has_reached ? "" : statement};
-  }
-
-  /// Where the surrogates already tell that the targets contradict each other.
-  RunEnd end_out_of_reach(const ResponseModel& model, const Fit& fit, const std::string& objection)
-  {
-    std::vector<TargetOutcome> outcomes;
-    for (std::size_t t = 0; t < problem.targets.size(); ++t)
-      outcomes.push_back({problem.targets[t], std::nullopt, problem.targets[t].value * (1.0 + fit.deviations[t])});
-    const CalibrationOutcome outcome = outcome_of(model, fit.place, outcomes, false, objection);
-    finish(model, outcome, input_of(rounded(model.parameters(fit.place)), input.seeds.front(), 3), {});
-    return {false, objection};
-  }
-
-  CalibrationOutcome outcome_of(const ResponseModel& model, const Place& place,
-                                const std::vector<TargetOutcome>& outcomes, const bool has_reached,
-                                const std::string& statement) const
-  {
-    CalibrationOutcome outcome;
-    outcome.rock = problem.reference.rock;
-    outcome.statement = statement;
-    outcome.has_reached = has_reached;
-    outcome.tolerance = wanted.tolerance;
-    outcome.targets = outcomes;
-    outcome.scale_effects = scale_effects;
-    outcome.n_steps = n_steps;
-    outcome.best = model.parameters(place);
-    for (std::size_t j = 0; j < problem.responses.size(); ++j)
-      if (problem.responses[j].scale == ResponseScale::modulus && model.knows(j))
-        outcome.modulus_of_specimens_over_cells = std::exp(model.learnt(j, place.point) + model.correction(j));
-    return outcome;
-  }
-
-  /// The files, and the words on the screen.
-  void finish(const ResponseModel& model, const CalibrationOutcome& outcome, const Input& best_input,
-              const std::vector<FinishedTest>& finished_tests)
-  {
-    const auto& folder = run.folder;
-    std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
-                               std::filesystem::copy_options::overwrite_existing);
-    Input shown = best_input;
-    shown.reference_file = result_file::reference;
-    write_whole_file(folder / (outcome.has_reached ? calibration_file::best : calibration_file::nearest),
-                     as_prm(shown, fmt::format("{}\n{}\nWritten by feldspar calibrate from {}.", outcome.rock,
-                                               outcome.statement, run.input_file.filename().string())));
-    const Provenance made_by = provenance(input, run.input_file);
-    write_calibration(made_by, outcome, model, tested, folder);
-    std::string text = as_text(outcome, model);
-    if (!finished_tests.empty())
-      {
-        const RunEnvelopes envelopes = fit_each_rock(finished_tests);
-        write_result_folder(provenance(best_input, run.input_file), finished_tests, envelopes, folder);
-        std::filesystem::create_directories(folder / result_file::fields);
-        for (const auto& one : finished_tests)
-          write_fields(one.name, one.record.kind, one.record.cracks, one.appearance, folder / result_file::fields);
-        for (const auto& sentence : report_on({{folder}, {}, {}, folder, envelopes}))
-          text += sentence + "\n";
-      }
-    write_whole_file(folder / "log.txt", text);
-    std::filesystem::remove_all(folder / "calibration");
-    if (!run.quiet)
-      print_result("\n{}\n", text);
-    print_result("{}\n", folder.string());
-  }
-
-  /// A run of `feldspar lab` of the same input gives the same tests.
-  Input input_of(const MicroParameters& parameters, const std::uint64_t first_seed, const std::size_t n) const
-  {
-    Input result = with_parameters(input, parameters);
-    result.seeds.resize(n);
-    std::iota(result.seeds.begin(), result.seeds.end(), first_seed);
-    result.calibration = {};
-    result.reference_file = std::filesystem::absolute(input.reference_file).string();
-    // As a reader of the file would have it, to the last bit.
-    const auto file = run.folder / "calibration" / "answer.prm";
-    std::filesystem::create_directories(file.parent_path());
-    write_whole_file(file, as_prm(result, ""));
-    return read_input(file);
-  }
-
-  Place rounded_place(const ResponseModel& model, const Place& place) const
-  {
-    const MicroParameters parameters = rounded(model.parameters(place));
-    Place result = place;
-    for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
-      {
-        const Unknown& unknown = problem.unknowns[k];
-        result.point[k] = unknown.coordinate(unknown.member ? parameters.*unknown.member : *parameters.gap);
-      }
-    result.log_modulus = std::log(parameters.modulus);
-    result.log_strength = std::log(parameters.bond_tensile_strength);
-    return result;
-  }
-
-  std::vector<FinishedTest> run_answer(const Input& best_input, const std::filesystem::path& folder,
-                                       const std::size_t round)
-  {
-    progress.remark(fmt::format("Answer, round {}: {} fresh packings.", round, best_input.seeds.size()));
-    const std::vector<Variant> one{{"", best_input}};
-    const auto orders = specimen_orders(one);
-    const auto specimens = provide_specimens<dim>(one, orders, folder, progress);
-    auto finished_tests = run_programme(one, orders, specimens, folder, progress);
-    end_if_interrupted();
-    return finished_tests;
-  }
-
-  std::vector<TestedPoint> as_tested_points(const std::vector<FinishedTest>& finished_tests, const std::string& stage,
-                                            const ResponseModel& model, const Place& place) const
-  {
-    std::vector<std::uint64_t> seeds;
-    for (const FinishedTest& one : finished_tests)
-      if (std::find(seeds.begin(), seeds.end(), one.record.seed) == seeds.end())
-        seeds.push_back(one.record.seed);
-    std::vector<TestedPoint> points;
-    for (const std::uint64_t seed : seeds)
-      {
-        std::vector<FinishedTest> of_seed;
-        std::copy_if(finished_tests.begin(), finished_tests.end(), std::back_inserter(of_seed),
-                     [&](const FinishedTest& one) { return one.record.seed == seed; });
-        points.push_back({stage, 0, seed, place.point, model.parameters(place), values_of(problem.responses, of_seed)});
-      }
-    return points;
-  }
-
-  std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, const ResponseModel& model,
-                                         const Place& place) const
-  {
-    std::vector<TargetOutcome> outcomes;
-    for (const Target& target : problem.targets)
-      {
-        std::vector<double> values;
-        for (const TestedPoint& one : points)
-          if (one.values[target.response])
-            values.push_back(*one.values[target.response]);
-        outcomes.push_back(
-          {target, statistics(values), problem.response_of(target).in_si(model.predict(target.response, place))});
-      }
-    return outcomes;
-  }
-
-  /// For standard errors below half of the tolerance.
-  std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes) const
-  {
-    double needed = 0.0;
-    for (const TargetOutcome& outcome : outcomes)
-      if (outcome.reached && outcome.reached->standard_deviation)
-        needed = std::max(needed, std::pow(*outcome.reached->standard_deviation /
-                                             (0.5 * wanted.tolerance * std::abs(outcome.target.value)),
-                                           2));
-    return std::size_t(std::min(std::ceil(needed), 1e6));
-  }
-
-  /// Within the tolerance, or no further off than two standard errors.
-  bool is_met(const TargetOutcome& outcome) const
-  {
-    if (!outcome.reached)
-      return false; // no specimen gave it
-    const double error = outcome.reached->standard_error.value_or(0.0);
-    return std::abs(outcome.deviation()) <= std::max(wanted.tolerance, 2.0 * error / std::abs(outcome.target.value));
-  }
-
-  bool all_met(const std::vector<TargetOutcome>& outcomes) const
-  {
-    return std::all_of(outcomes.begin(), outcomes.end(), [&](const auto& outcome) { return is_met(outcome); });
-  }
-
-  std::string statement_of(const std::vector<TargetOutcome>& outcomes, const bool has_reached) const
-  {
-    std::string missed;
-    std::string uncertain;
-    for (const TargetOutcome& outcome : outcomes)
-      {
-        const Response& response = problem.response_of(outcome.target);
-        const std::string one =
-          fmt::format("{} {:.{}f}{} ({:+.1f} %)", response.title, outcome.value() / response.unit_size,
-                      response.decimals, response.unit.empty() ? "" : " " + response.unit, 100.0 * outcome.deviation());
-        if (!is_met(outcome))
-          missed += (missed.empty() ? "" : ", ") + one;
-        else if (outcome.reached && outcome.reached->standard_error &&
-                 *outcome.reached->standard_error > 0.5 * wanted.tolerance * std::abs(outcome.target.value))
-          uncertain += (uncertain.empty() ? "" : ", ") + response.title;
-      }
-    if (!has_reached)
-      return fmt::format("the targets were not all reached after {} steps: {} off by more than the tolerance of {:g} %",
-                         n_steps, missed, 100.0 * wanted.tolerance);
-    std::string text = fmt::format("All targets were reached within {:g} %", 100.0 * wanted.tolerance);
-    if (!uncertain.empty())
-      text += fmt::format(" or within two standard errors, but the scatter of packings left those of {} above half of "
-                          "that: raise Calibration/Most packings, or test larger specimens",
-                          uncertain);
-    return text + ".";
-  }
-
-  std::vector<TestedPoint> test(const std::string& title, const std::vector<PointOrder>& orders)
-  {
-    progress.start(title);
-    auto points = test_points<dim>(input, problem.responses, orders, run.folder, progress);
-    progress.finish(fmt::format("{} specimen(s)", orders.size()));
-    return points;
-  }
-
-  void add(std::vector<TestedPoint> points)
-  {
-    tested.insert(tested.end(), std::make_move_iterator(points.begin()), std::make_move_iterator(points.end()));
-  }
-
-  static constexpr std::size_t most_rounds = 3;
-
-  const Run& run;
-  const Input& input;
-  const CalibrationParameters& wanted;
-  Problem problem;
-  Progress progress;
-  Packings packings;
-  Place start{};
-  std::vector<TestedPoint> tested;      ///< all
-  std::vector<TestedPoint> corrections; ///< after the design
-  std::map<std::string, double> scale_effects;
-  std::size_t n_steps = 0;
-};
 } // namespace
 
 int run_calibrate(const CommonOptions& options)
 {
-  const RunCommand calibrate{"calibrate", check, [](const Run& run) {
-                               return run.input.specimen.dimension == 2 ? CalibrationRun<2>(run).go()
-                                                                        : CalibrationRun<3>(run).go();
-                             }};
-  return run_command(calibrate, options);
+  const RunCommand command{"calibrate", check_calibration_input, [](const Run& run) {
+                             return run.input.specimen.dimension == 2 ? calibration::calibrate<2>(run)
+                                                                      : calibration::calibrate<3>(run);
+                           }};
+  return run_command(command, options);
 }
 } // namespace feldspar

@@ -73,7 +73,7 @@ struct Segments
   std::vector<Update> updates;
 };
 
-/// Columns of the path and of the answer.
+/// Columns of the path and of the response.
 template <int dim>
 struct Columns;
 
@@ -142,7 +142,7 @@ std::string csv_row(const FaceResultants<dim, double>& sum, const Segments<Updat
 }
 
 template <int dim, typename Law>
-std::string answer(const Law& law, const typename Law::Parameters& joint, const Input& input)
+std::string response(const Law& law, const typename Law::Parameters& joint, const Input& input)
 {
   const auto path = read_csv(input.contact.path_file, Columns<dim>::path);
   const Face<double> face = make_face<Law>(joint, input);
@@ -162,15 +162,15 @@ std::string answer(const Law& law, const typename Law::Parameters& joint, const 
   return table;
 }
 
-/// What the joint answers to the path.
+/// The response of the joint to the path.
 template <int dim>
-std::string answer(const Input& input)
+std::string response(const Input& input)
 {
   const JointParameters joint = joint_parameters(input);
   return std::visit(
     [&]<typename Law, typename Parameters>(const Law& law, const Parameters& parameters) -> std::string {
       if constexpr (std::same_as<typename Law::Parameters, Parameters>)
-        return answer<dim>(law, parameters, input);
+        return response<dim>(law, parameters, input);
       else
         throw std::logic_error("a joint law with the parameters of another");
     },
@@ -184,8 +184,9 @@ int run_contact(const CommonOptions& options)
   if (input.contact.path_file.empty())
     throw InputError(
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", options.input.string()));
-  const std::string table = input.specimen.dimension == 2 ? answer<2>(input) : answer<3>(input);
+  const std::string table = input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
   const OutputFolder folder(options.output, options.input, options.force);
+  const FolderLock lock(folder.path());
   write_whole_file(folder.path() / "contact.csv", table);
   if (!options.quiet)
     print_result("{}\n", (folder.path() / "contact.csv").string());

@@ -1,20 +1,20 @@
 #include "app/commands/commands.h"
-#include "app/commands/report_command.h"
 #include "app/input/input.h"
-#include "app/input/parameter_table.h"
+#include "app/programme/checks.h"
+#include "app/programme/lab_run.h"
+#include "app/programme/reference_body.h"
+#include "app/programme/run_report.h"
+#include "app/programme/specimen_source.h"
+#include "app/programme/test_effort.h"
 #include "app/run/interrupt.h"
-#include "app/run/lab_run.h"
+#include "app/run/launched.h"
 #include "app/run/provenance.h"
-#include "app/run/reference_body.h"
-#include "app/run/specimen_source.h"
-#include "app/screen/print_result.h"
 #include "app/screen/progress.h"
 #include "base/append.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
+#include "coupling/sample/ranks.h"
+#include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
-#include "results/fits/run_envelopes.h"
-#include "results/folder/field_output.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/trust.h"
@@ -32,7 +32,7 @@ std::optional<Reference> reference_of(const Input& input)
 {
   if (input.reference_file.empty())
     return std::nullopt;
-  return read_reference(input.reference_file);
+  return read_reference(input.reference_file, test_kinds());
 }
 
 /// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
@@ -63,30 +63,49 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   return text;
 }
 
-/// Refuses entries that have no use on this body.
-void check_bodies(const std::vector<Variant>& all, const Body body, const std::filesystem::path& file)
+/// Several processes make the specimens, each its share, and then the tests, each its share: what has ended lies in the
+/// folder.
+template <int dim>
+void share_out(const Run& run, Progress& progress)
 {
-  for (const Variant& variant : all)
-    try
-      {
-        check_body(variant.input, body);
-      }
-    catch (const InputError& error)
-      {
-        throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-      }
+  const auto all_variants = variants(run.input);
+  const auto orders = specimen_orders(all_variants);
+  check_memory_of_tests(all_variants, orders);
+  const Share share{ranks::number(), ranks::mine()};
+  std::vector<SpecimenOrder> own;
+  for (std::size_t k = share.mine; k < orders.size(); k += share.number)
+    own.push_back(orders[k]);
+  together_or_interrupted([&] {
+    if (!own.empty())
+      provide_specimens<dim>(all_variants, own, run.folder, progress);
+  });
+  together_or_interrupted([&] {
+    std::vector<SpecimenOrder> needed;
+    const std::vector<std::size_t> numbers = specimens_of(all_variants, orders, share);
+    for (const std::size_t k : numbers)
+      needed.push_back(orders[k]);
+    if (needed.empty())
+      return;
+    auto read = provide_specimens<dim>(all_variants, needed, run.folder, progress);
+    std::vector<Specimen<dim>> specimens(orders.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      specimens[numbers[k]] = std::move(read[k]);
+    if (std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.periodic; }))
+      run_programme(all_variants, orders, specimens, run.folder, progress, share);
+    end_if_interrupted();
+  });
 }
 
-/// Specimens, tests and report of a run in its folder, from wherever it stands.
+/// Specimens, tests and report of a run in its folder, from wherever it stands, by this process.
 template <int dim>
-RunEnd go(const Run& run)
+RunEnd go_alone(const Run& run, Progress& progress)
 {
   const auto& [folder, input_file, input, quiet] = run;
-  Progress progress(quiet);
 
   // Make the rock.
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
+  check_memory_of_tests(all_variants, orders);
   const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
   for (const auto& specimen : specimens)
     if (specimen.periodic)
@@ -95,11 +114,10 @@ RunEnd go(const Run& run)
                                    input_file.string()));
 
   if (!input.specimen.specimen_file.empty()) // it brought its own shape
-    check_bodies(all_variants,
-                 dim == 2                  ? Body::plane_box
-                 : specimens.front().round ? Body::cylinder
-                                           : Body::box,
-                 input_file);
+    with_name_of(input_file, [&] {
+      for (const Variant& variant : all_variants)
+        check_on_body(variant.input, dim == 2 ? Body::plane_box : specimens.front().round ? Body::cylinder : Body::box);
+    });
 
   // Break it.
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
@@ -113,74 +131,21 @@ RunEnd go(const Run& run)
 
   // Report.
   const bool was_interrupted = interrupted();
-  const RunEnvelopes envelopes = fit_each_rock(tests);
-  write_result_folder(provenance(input, input_file), tests, envelopes, folder);
-  std::filesystem::create_directories(folder / "fields");
-  for (const auto& test : tests)
-    write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / "fields");
-  if (!input.reference_file.empty())
-    std::filesystem::copy_file(input.reference_file, folder / result_file::reference,
-                               std::filesystem::copy_options::overwrite_existing);
-  auto missing = tests.empty() ? std::vector<std::string>{} : report_on({{folder}, {}, {}, folder, envelopes});
+  auto [envelopes, missing] = write_and_report(provenance(input, input_file), tests, input.reference_file, folder);
   std::vector<SpecimenReport> bodies;
   for (const auto& specimen : specimens)
     bodies.push_back(specimen.report);
   append(missing, beside_reference_body(input, bodies));
-  const std::string text = describe_run(all_variants, specimens, tests, envelopes, missing);
-  write_whole_file(folder / "log.txt", text);
-  if (!quiet)
-    print_result("\n{}\n", text);
-  print_result("{}\n", folder.string());
-  return {was_interrupted, failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+  write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), quiet);
+  // Of what was interrupted while it was drawn the pictures are still to be made.
+  return {was_interrupted || interrupted(),
+          failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }
 
-Body body_of(const SpecimenParameters& specimen)
-{
-  if (specimen.dimension == 2)
-    return Body::plane_box;
-  return specimen.shape == "cylinder" ? Body::cylinder : Body::box;
-}
-
-/// What can be told before any work.
-void check(const Input& input, const std::filesystem::path& file)
-{
-  const auto refuse = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
-  for (const Variant& variant : variants(input))
-    {
-      const SpecimenParameters& specimen = variant.input.specimen;
-      const TestParameters& tests = variant.input.tests;
-      if (specimen.shape == "periodic")
-        refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
-               "feldspar rve");
-      for (const TestKind& kind : variant.input.test_list)
-        if (const std::string objection = objection_to_grains(kind, specimen.dimension); !objection.empty())
-          refuse(objection);
-      if (specimen.specimen_file.empty())
-        check_bodies({variant}, body_of(specimen), file);
-      const bool is_confined = any_takes_confining_pressure(variant.input.test_list);
-      for (const double confinement : variant.input.confinements)
-        if (is_confined && tests.intermediate_stress && *tests.intermediate_stress < confinement)
-          refuse(
-            fmt::format("Tests/Intermediate stress = {:g} MPa: must be at least the least stress, and Confinements "
-                        "has {:g} MPa",
-                        *tests.intermediate_stress / 1e6, confinement / 1e6));
-    }
-  reference_of(input);
-  try
-    {
-      reference_body(input);
-    }
-  catch (const InputError& error)
-    {
-      refuse(error.what());
-    }
-}
 } // namespace
 
 int run_lab(const CommonOptions& options)
 {
-  const RunCommand lab{"lab", check,
-                       [](const Run& run) { return run.input.specimen.dimension == 2 ? go<2>(run) : go<3>(run); }};
-  return run_command(lab, options);
+  return run_shared("lab", check_laboratory_input, {share_out<2>, go_alone<2>}, {share_out<3>, go_alone<3>}, options);
 }
 } // namespace feldspar

@@ -5,6 +5,7 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "dem/lab/protocols/protocols.h"
 #include "results/folder/reference.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ int run_parameters(const ParametersOptions& options)
   if (options.check)
     {
       if (const Input input = read_input(*options.check, {}, options.settings); !input.reference_file.empty())
-        read_reference(input.reference_file);
+        read_reference(input.reference_file, test_kinds());
       print_result("{}: OK\n", options.check->string());
       return 0;
     }

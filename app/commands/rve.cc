@@ -1,20 +1,23 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
 #include "app/input/strain_path.h"
+#include "app/programme/checks.h"
+#include "app/programme/reference_body.h"
+#include "app/programme/run_report.h"
+#include "app/programme/rve_results.h"
+#include "app/programme/specimen_source.h"
 #include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
+#include "app/run/launched.h"
 #include "app/run/provenance.h"
-#include "app/run/reference_body.h"
 #include "app/run/run_record.h"
-#include "app/run/rve_results.h"
-#include "app/run/specimen_source.h"
-#include "app/screen/print_result.h"
 #include "app/screen/progress.h"
 #include "base/input_error.h"
-#include "base/whole_file.h"
 #include "coupling/rve/explicit_run.h"
-#include "coupling/rve/volume_file.h"
+#include "coupling/rve/rve_file.h"
+#include "coupling/sample/ranks.h"
+#include "dem/specimen/specimen_file.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -35,13 +38,13 @@ double seconds_since(const Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Tells the progress how all volumes stand.
+/// Tells the progress how all RVEs stand.
 class Board
 {
 public:
-  Board(Progress& shown, const std::size_t n_volumes)
+  Board(Progress& shown, const std::size_t n_rves)
     : progress(shown)
-    , entries(n_volumes)
+    , entries(n_rves)
   {
     progress.start("paths");
   }
@@ -58,7 +61,7 @@ public:
         if (entry.fraction > 0.0 && entry.fraction < 1.0)
           running.push_back(entry);
       }
-    progress.update(sum, fmt::format("{} volume(s)", entries.size()), running);
+    progress.update(sum, fmt::format("{} RVE(s)", entries.size()), running);
   }
 
 private:
@@ -108,10 +111,10 @@ Tensor<dim> turn_of_cell(const double angle)
     return Eigen::AngleAxisd(angle, Vector<3>::UnitY()).toRotationMatrix();
 }
 
-/// The path of one volume by the solver that is wanted.
+/// The path of one RVE by the solver that is wanted.
 template <int dim>
-FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
-                               const std::filesystem::path& folder, const Listener<dim>& show)
+FinishedRve<dim> run_rve(const Variant& variant, const std::string& name, const Specimen<dim>& specimen,
+                         const std::filesystem::path& folder, const Listener<dim>& show)
 {
   const auto started = Clock::now();
   const Input& input = variant.input;
@@ -119,24 +122,23 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
   const auto network = std::make_shared<const Network<dim>>(specimen, turn_of_cell<dim>(input.strain_path.cell_angle));
   const auto legs = path_legs<dim>(input.strain_path);
   const Checkpoints checkpoints(folder / "checkpoints", name, run_identity(input, name));
-  const auto finish = [&](const auto& run) -> FinishedVolume<dim> {
+  const auto finish = [&](const auto& run) -> FinishedRve<dim> {
     return {name,    variant.label, specimen.seed, specimen.report,
             network, run.record(),  run.state(),   seconds_since(started)};
   };
-  std::optional<NetworkState<dim>> start; // a volume out of a sample goes on from where it stands there
+  std::optional<NetworkState<dim>> start; // an RVE out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())
-    start = read_volume_state(file, *network);
+    start = read_rve_state(file, *network);
   if (start && input.strain_path.cell_angle != 0.0)
-    throw InputError(fmt::format("Strain path/Cell angle: {} is a volume in the state it has in its sample, which is "
+    throw InputError(fmt::format("Strain path/Cell angle: {} is an RVE in the state it has in its sample, which is "
                                  "in the axes of its cell; set Cell angle = 0 deg",
                                  input.specimen.specimen_file));
   if (start && !input.flaws.all().empty())
-    throw InputError(
-      fmt::format("Flaws: {} is a volume in the state it has in its sample, and takes none; put them into "
-                  "the volume of the sample",
-                  input.specimen.specimen_file));
+    throw InputError(fmt::format("Flaws: {} is an RVE in the state it has in its sample, and takes none; put them into "
+                                 "the RVE of the sample",
+                                 input.specimen.specimen_file));
   if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
-    throw InputError(fmt::format("Strain path/Solver = explicit: {} is a volume in the state it has in its sample, and "
+    throw InputError(fmt::format("Strain path/Solver = explicit: {} is an RVE in the state it has in its sample, and "
                                  "explicit dynamics begin at rest; set Solver = event by event",
                                  input.specimen.specimen_file));
   if (input.strain_path.solver == PathSolver::explicit_dynamics)
@@ -156,11 +158,67 @@ FinishedVolume<dim> run_volume(const Variant& variant, const std::string& name, 
     checkpoints, show));
 }
 
+struct PlannedPath
+{
+  std::size_t variant;
+  std::size_t specimen;
+  std::string name;
+};
+
+std::vector<PlannedPath> plan(const Input& input, const std::vector<Variant>& all_variants,
+                              const std::vector<SpecimenOrder>& orders)
+{
+  std::vector<PlannedPath> runs;
+  for (std::size_t v = 0; v < all_variants.size(); ++v)
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
+        runs.push_back({v, s,
+                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
+                          (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
+  return runs;
+}
+
+/// Several processes make cells and paths, each those whose turn it is: what has ended lies in the folder.
 template <int dim>
-RunEnd go(const Run& run)
+void share_out(const Run& run, Progress& progress)
+{
+  const auto all_variants = variants(run.input);
+  const auto orders = specimen_orders(all_variants);
+  const auto paths = plan(run.input, all_variants, orders);
+  const auto in_turn = [](const std::size_t k) { return k % ranks::number() == ranks::mine(); };
+  together_or_interrupted([&] {
+    std::vector<SpecimenOrder> own;
+    for (std::size_t s = 0; s < orders.size(); ++s)
+      if (in_turn(s))
+        own.push_back(orders[s]);
+    if (!own.empty())
+      provide_specimens<dim>(all_variants, own, run.folder, progress);
+  });
+  ranks::first([&] { std::filesystem::create_directories(run.folder / "checkpoints"); });
+  together_or_interrupted([&] {
+    std::vector<PlannedPath> own;
+    for (std::size_t k = 0; k < paths.size(); ++k)
+      if (in_turn(k))
+        own.push_back(paths[k]);
+    Board board(progress, std::max<std::size_t>(own.size(), 1));
+    for_each_job(own.size(), [&](const std::size_t k) {
+      const auto& [variant, specimen, name] = own[k];
+      const auto cell = read_specimen<dim>(run.folder / (orders[specimen].name + ".h5"));
+      if (cell.periodic)
+        run_rve<dim>(all_variants[variant], name, cell, run.folder,
+                     [&](const double progress_of_path, const PathSample<dim>& sample) {
+                       board.update(k, progress_of_path, describe(name, sample));
+                     });
+    });
+    progress.finish(fmt::format("{} of {} RVE(s)", own.size(), paths.size()));
+    end_if_interrupted();
+  });
+}
+
+template <int dim>
+RunEnd go_alone(const Run& run, Progress& progress)
 {
   const auto& [folder, input_file, input, quiet] = run;
-  Progress progress(quiet);
 
   // Make the rock.
   const auto all_variants = variants(input);
@@ -174,80 +232,39 @@ RunEnd go(const Run& run)
 
   // Strain it.
   std::filesystem::create_directories(folder / "checkpoints");
-  struct PlannedPath
-  {
-    std::size_t variant;
-    std::size_t specimen;
-    std::string name;
-  };
-  std::vector<PlannedPath> runs;
-  for (std::size_t v = 0; v < all_variants.size(); ++v)
-    for (std::size_t s = 0; s < orders.size(); ++s)
-      if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
-        runs.push_back({v, s,
-                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
-                          (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
-  std::vector<FinishedVolume<dim>> volumes(runs.size());
+  const auto runs = plan(input, all_variants, orders);
+  std::vector<FinishedRve<dim>> rves(runs.size());
   Board board(progress, runs.size());
   for_each_job(runs.size(), [&](const std::size_t k) {
     const auto& [variant, specimen, name] = runs[k];
-    volumes[k] = run_volume<dim>(all_variants[variant], name, specimens[specimen], folder,
-                                 [&](const double progress_of_path, const PathSample<dim>& sample) {
-                                   board.update(k, progress_of_path, describe(name, sample));
-                                 });
+    rves[k] = run_rve<dim>(all_variants[variant], name, specimens[specimen], folder,
+                           [&](const double progress_of_path, const PathSample<dim>& sample) {
+                             board.update(k, progress_of_path, describe(name, sample));
+                           });
   });
-  progress.finish(fmt::format("{} volume(s)", volumes.size()));
+  progress.finish(fmt::format("{} RVE(s)", rves.size()));
 
   // Report.
   const bool was_interrupted = interrupted();
-  write_results(provenance(input, input_file), volumes, folder);
+  write_results(provenance(input, input_file), rves, folder);
   std::string text;
-  for (const auto& volume : volumes)
-    text += describe(volume) + "\n";
+  for (const auto& rve : rves)
+    text += describe(rve) + "\n";
   std::vector<SpecimenReport> bodies;
   for (const auto& specimen : specimens)
     bodies.push_back(specimen.report);
   for (const std::string& line : beside_reference_body(input, bodies))
     text += line + "\n";
-  write_whole_file(folder / "log.txt", text);
-  if (!quiet)
-    print_result("\n{}", text);
-  print_result("{}\n", folder.string());
-  const auto failed = std::find_if(volumes.begin(), volumes.end(),
-                                   [](const FinishedVolume<dim>& volume) { return !volume.record.failure.empty(); });
-  return {was_interrupted, failed == volumes.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
+  write_log(folder, text, quiet);
+  const auto failed =
+    std::find_if(rves.begin(), rves.end(), [](const FinishedRve<dim>& rve) { return !rve.record.failure.empty(); });
+  return {was_interrupted, failed == rves.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }
 
-/// What can be told before any work.
-void check(const Input& input, const std::filesystem::path& file)
-{
-  try
-    {
-      for (const Variant& variant : variants(input))
-        {
-          if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
-            throw InputError(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
-                                         variant.input.specimen.shape));
-          check(variant.input.strain_path);
-        }
-      reference_body(input);
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-    }
-  for (const Variant& variant : variants(input))
-    if (variant.input.specimen.dimension == 2)
-      path_legs<2>(variant.input.strain_path);
-    else
-      path_legs<3>(variant.input.strain_path);
-}
 } // namespace
 
 int run_rve(const CommonOptions& options)
 {
-  const RunCommand rve{"rve", [](const Input& input, const std::filesystem::path& file) { check(input, file); },
-                       [](const Run& run) { return run.input.specimen.dimension == 2 ? go<2>(run) : go<3>(run); }};
-  return run_command(rve, options);
+  return run_shared("rve", check_rve_input, {share_out<2>, go_alone<2>}, {share_out<3>, go_alone<3>}, options);
 }
 } // namespace feldspar

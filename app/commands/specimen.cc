@@ -1,8 +1,8 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
+#include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
-#include "app/run/specimen_source.h"
 #include "app/screen/print_result.h"
 #include "app/screen/progress.h"
 
@@ -20,6 +20,7 @@ template <int dim>
 int make_specimens(const CommonOptions& options, const Input& input)
 {
   const OutputFolder folder(options.output, options.input, options.force);
+  const FolderLock lock(folder.path());
   Progress progress(options.quiet);
   watch_for_interrupt(!options.quiet);
 

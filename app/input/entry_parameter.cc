@@ -29,6 +29,8 @@ const Dimension& dimension_of(const Measure measure)
       return angle;
     case Measure::density:
       return density;
+    case Measure::stiffness:
+      return plane_stiffness;
     default:
       return rate;
     }
@@ -118,7 +120,7 @@ ValueForm<unsigned int> integer_form(const Range& range)
 
 ValueForm<std::string> file_form()
 {
-  return {"", "none, or a file",
+  return {"", std::string(none_or_a_file),
           [](const Input& input, const std::string_view text) {
             const std::filesystem::path path = text.empty() || text == none ? "" : input.folder / text;
             std::error_code ignored;

@@ -1,6 +1,7 @@
 #include "app/input/flaw_entries.h"
 
 #include "app/input/nearest_name.h"
+#include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/csv.h"
 #include "base/input_error.h"
@@ -170,6 +171,30 @@ public:
     });
   }
 
+  /// None where it is not given.
+  std::optional<double> from_zero(const std::string_view word, const Dimension* const dimension) const
+  {
+    if (!has(word))
+      return std::nullopt;
+    return read(word, [=](const std::string_view text) {
+      const double value = dimension ? parse_quantity(text, *dimension) : parse_number(text);
+      if (!(value >= 0.0))
+        throw InputError("must be >= 0");
+      return value;
+    });
+  }
+
+  /// A word that stands alone.
+  bool says(const std::string_view word) const
+  {
+    const auto found = texts.find(word);
+    if (found == texts.end())
+      return false;
+    if (!found->second.empty())
+      throw InputError(fmt::format("{} stands alone; {} follows it", word, excerpt(found->second)));
+    return true;
+  }
+
   std::uint64_t count(const std::string_view word) const
   {
     return read(word, [](const std::string_view text) {
@@ -231,16 +256,48 @@ Shape read_slot(const Quantities& given)
   return Slot{from, to, given.length_from_zero("width")};
 }
 
+constexpr std::array<std::string_view, 7> words_of_smooth_sides{
+  "normal-stiffness", "shear-stiffness", "friction", "dilation", "tensile-strength", "cohesion", "friction-angle"};
+
+/// None of a flaw whose joints keep their law.
+std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
+{
+  if (!given.says("smooth"))
+    {
+      for (const std::string_view word : words_of_smooth_sides)
+        if (given.has(word))
+          throw InputError(fmt::format("{} is of smooth sides; say smooth before it", word));
+      return std::nullopt;
+    }
+  SmoothSides sides;
+  sides.normal_stiffness = given.from_zero("normal-stiffness", &plane_stiffness);
+  sides.shear_stiffness = given.from_zero("shear-stiffness", &plane_stiffness);
+  for (const auto& [word, value] :
+       {std::pair("normal-stiffness", sides.normal_stiffness), std::pair("shear-stiffness", sides.shear_stiffness)})
+    if (value && !(*value > 0.0))
+      throw InputError(fmt::format("{}: must be > 0 GPa/mm", word));
+  sides.friction = given.from_zero("friction", nullptr);
+  sides.dilation_angle = given.from_zero("dilation", &angle);
+  sides.tensile_strength = given.from_zero("tensile-strength", &stress);
+  sides.cohesion = given.from_zero("cohesion", &stress);
+  sides.friction_angle = given.from_zero("friction-angle", &angle);
+  for (const auto& [word, value] :
+       {std::pair("dilation", sides.dilation_angle), std::pair("friction-angle", sides.friction_angle)})
+    if (value && !(*value < 0.5 * std::numbers::pi))
+      throw InputError(fmt::format("{}: must lie in [0 deg, 90 deg)", word));
+  return sides;
+}
+
 Shape read_closed_flaw(const Quantities& given)
 {
   if (given.is_given_by({"from", "to"}, {"centre", "length", "angle", "points"}) ||
       given.is_given_by({"centre", "length"}, {"from", "to", "points"}))
     {
       const auto [from, to] = read_line(given);
-      return ClosedFlaw{{from, to}};
+      return ClosedFlaw{{from, to}, read_smooth_sides(given)};
     }
   if (given.is_given_by({"points"}, {"from", "to", "centre", "length", "angle"}))
-    return ClosedFlaw{given.points("points", 2)};
+    return ClosedFlaw{given.points("points", 2), read_smooth_sides(given)};
   throw InputError(
     "is given by \"from X, Y mm to X, Y mm\", \"centre X, Y mm length L mm angle D deg\" or \"points X1, "
     "Y1, X2, Y2 mm\"");
@@ -252,7 +309,8 @@ Shape read_disc_flaw(const Quantities& given)
   const double dip = given.angle_or_zero("dip");
   const double direction = given.angle_or_zero("dip-direction");
   return DiscFlaw{given.point<3>("centre"), given.positive_length("radius"),
-                  Vector<3>(std::sin(dip) * std::cos(direction), std::sin(dip) * std::sin(direction), std::cos(dip))};
+                  Vector<3>(std::sin(dip) * std::cos(direction), std::sin(dip) * std::sin(direction), std::cos(dip)),
+                  read_smooth_sides(given)};
 }
 
 Shape read_joint_set(const Quantities& given)
@@ -268,6 +326,7 @@ Shape read_joint_set(const Quantities& given)
     set.trace_length = given.positive_length("trace-length");
   if (given.has("seed"))
     set.seed = given.count("seed");
+  set.smooth = read_smooth_sides(given);
   return set;
 }
 
@@ -279,15 +338,22 @@ struct Form
   Shape (*read)(const Quantities&);
 };
 
+std::vector<std::string_view> and_smooth(std::vector<std::string_view> words)
+{
+  words.push_back("smooth");
+  words.insert(words.end(), words_of_smooth_sides.begin(), words_of_smooth_sides.end());
+  return words;
+}
+
 const std::vector<Form>& forms()
 {
   static const std::vector<Form> all{
     {EllipseHole::name, {"centre", "radius", "semi-axes", "angle", "corners"}, read_hole},
     {SphereHole::name, {"centre", "radius"}, read_sphere},
     {Slot::name, {"from", "to", "centre", "length", "angle", "width"}, read_slot},
-    {ClosedFlaw::name, {"from", "to", "centre", "length", "angle", "points"}, read_closed_flaw},
-    {DiscFlaw::name, {"centre", "radius", "dip", "dip-direction"}, read_disc_flaw},
-    {JointSet::name, {"angle", "spacing", "persistence", "trace-length", "seed"}, read_joint_set}};
+    {ClosedFlaw::name, and_smooth({"from", "to", "centre", "length", "angle", "points"}), read_closed_flaw},
+    {DiscFlaw::name, and_smooth({"centre", "radius", "dip", "dip-direction"}), read_disc_flaw},
+    {JointSet::name, and_smooth({"angle", "spacing", "persistence", "trace-length", "seed"}), read_joint_set}};
   return all;
 }
 
@@ -370,10 +436,13 @@ std::vector<Entry<Input>> flaw_entries()
      "`closed flaw centre 25, 50 mm length 12 mm angle 45 deg` (or `from`, `to`, or `points`), `joint set angle "
      "30 deg spacing 10 mm persistence 0.7 trace-length 8 mm seed 1`; in three dimensions these run through the "
      "depth, and there are `sphere centre 25, 25, 50 mm radius 5 mm` and `disc flaw centre 25, 25, 50 mm radius "
-     "6 mm dip 45 deg dip-direction 0 deg`; angles are from the first axis towards that of the tests",
+     "6 mm dip 45 deg dip-direction 0 deg`; a closed flaw, joint set or disc flaw may end with `smooth`: its joints "
+     "then have its plane, as section Smooth joint says, or as its own words do, e.g. `smooth friction 0.6 dilation 5 "
+     "deg normal-stiffness 50 GPa/mm shear-stiffness 20 GPa/mm cohesion 1 MPa tensile-strength 0.5 MPa friction-angle "
+     "31 deg`, and are bonded where it has a cohesion or tensile strength; angles are from the first axis towards that of the tests",
      of_rock},
     {"Traces file",
-     Entry<Input>::Text{"", "none, or a file",
+     Entry<Input>::Text{"", std::string(none_or_a_file),
                         [](Input& input, const std::string_view text) {
                           input.flaws.traces.clear();
                           input.flaws.traces_file.clear();

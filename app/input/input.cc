@@ -6,6 +6,7 @@
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
+#include "dem/flaws/smooth_planes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -71,12 +72,54 @@ void check_joint_law(const Input& input, const GivenEntries& values)
       return has_use_for(variant.input, *find_parameter(section, entry));
     });
   };
+  const auto refusal_of = [&](const std::string_view section) {
+    if (section == "Smooth joint")
+      return std::string("has no effect: Mineral grains/Mean size is none and no flaw has the word smooth");
+    return section == "Clumps" ? std::string("has no effect: Clumps/Diameter is none") : refusal;
+  };
   for (const GivenEntry& given : values.all())
     if (!has_use(given.section, given.entry))
-      throw values.error(given.section, given.entry, refusal);
+      throw values.error(given.section, given.entry, refusal_of(given.section));
   for (const std::string& entry : input.variants.entries)
     if (const std::size_t slash = entry.find('/'); !has_use(entry.substr(0, slash), entry.substr(slash + 1)))
-      throw values.error("Variants", input.variants.table.empty() ? "Entry" : "Table", refusal);
+      throw values.error("Variants", input.variants.table.empty() ? "Entry" : "Table",
+                         refusal_of(entry.substr(0, slash)));
+}
+
+void check_smooth_joints(const Input& input, const GivenEntries& values)
+{
+  if (!has_smooth_joints(input))
+    return;
+  const bool of_minerals = input.mineral_grains.mean_size.has_value();
+  if (input.specimen.shape == "periodic")
+    throw values.error(of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
+                       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic");
+  const auto check = [&](const SmoothJointParameters& wanted, const char* section, const char* entry) {
+    if (const std::string what = objection(wanted); !what.empty())
+      throw values.error(section, entry, what);
+  };
+  check(input.smooth_joint, "Smooth joint", "Dilation angle");
+  for (const Shape& shape : input.flaws.shapes)
+    if (const SmoothSides* sides = smooth_sides(shape))
+      check(sides->among(input.smooth_joint), "Flaws", "Shapes");
+}
+
+void check_clumps(const Input& input, const GivenEntries& values)
+{
+  if (!input.clumps.diameter)
+    return;
+  const auto refuse = [&](const std::string& why) { throw values.error("Clumps", "Diameter", why); };
+  if (input.specimen.dimension != 2 || input.specimen.shape != "box")
+    refuse("clumps are of the plane and in a box: set Specimen/Dimension = 2 and Specimen/Shape = box");
+  if (input.mineral_grains.mean_size)
+    refuse("excludes Mineral grains/Mean size, which is given too; keep one of them");
+  if (!input.flaws.all().empty())
+    refuse("excludes section Flaws, which is given too; keep one of them");
+  for (const TestKind& kind : input.test_list)
+    if (kind.name != direct_tension.kind.name && kind.name != uniaxial_compression.kind.name &&
+        kind.name != triaxial_compression.kind.name)
+      throw values.error("Tests", "List",
+                         fmt::format("{} takes no clumps; take it out, or set Clumps/Diameter = none", kind.name));
 }
 
 /// Reads the table, where there is one.
@@ -108,15 +151,21 @@ void check_specimen(const Input& input, const GivenEntries& values)
   const SpecimenParameters& specimen = input.specimen;
   if (specimen.shape == "cylinder" && specimen.dimension != 3)
     throw values.error("Specimen", "Shape", "needs Dimension = 3");
-  if (specimen.cored && specimen.shape == "periodic")
+  if (specimen.is_cored() && specimen.shape == "periodic")
     throw values.error("Specimen", "Coring",
                        "a periodic cell has no sides to be cut free; set Shape = box or cylinder");
-  if (specimen.cored && !specimen.packing_file.empty())
+  if (specimen.is_cored() && !specimen.packing_file.empty())
     throw values.error("Specimen", "Coring", "excludes Packing file, whose grains are not packed as a periodic cell");
+  if (specimen.packed_by_descent && !(specimen.packing_file.empty() && specimen.specimen_file.empty()))
+    throw values.error("Specimen", "Packing relaxation",
+                       "excludes Packing file and Specimen file, whose grains are packed already");
   for (const auto& [entry, n] :
        {std::pair("Cells across", specimen.cells_across), std::pair("Cells along", specimen.cells_along)})
-    if (n > 1 && (!specimen.cored || specimen.dimension != 2))
-      throw values.error("Specimen", entry, "needs Coring = free sides and Dimension = 2");
+    if (n > 1 && (!specimen.is_cored() || specimen.dimension != 2))
+      throw values.error("Specimen", entry, "needs Coring = free sides or sides only, and Dimension = 2");
+  if (specimen.cells_along > 1 && specimen.coring == Coring::sides_only)
+    throw values.error("Specimen", "Cells along",
+                       "needs Coring = free sides; sides only has walls at the ends of a cell");
   if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
     throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
@@ -174,7 +223,7 @@ double expected_grains(const SpecimenParameters& specimen)
   // The means of r² and r³ of radii spread uniformly from r to ρ r are r²(1+ρ+ρ²)/3 and r³(1+ρ)(1+ρ²)/4.
   const double r = specimen.minimum_radius;
   const double ratio = specimen.radius_ratio;
-  const double cylinder_over_box = specimen.shape == "cylinder" && !specimen.cored ? 0.25 * std::numbers::pi : 1.0;
+  const double cylinder_over_box = specimen.shape == "cylinder" && !specimen.is_cored() ? 0.25 * std::numbers::pi : 1.0;
   if (specimen.dimension == 2)
     {
       const double of_grain = std::numbers::pi * r * r * (1.0 + ratio + ratio * ratio) / 3.0;
@@ -211,6 +260,8 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       check_specimen(variant.input, values);
       check_strain_path(variant.input, values);
       check_flaws(variant.input, values);
+      check_smooth_joints(variant.input, values);
+      check_clumps(variant.input, values);
     }
   return input;
 }

@@ -4,6 +4,8 @@
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
+#include "dem/flaws/clumps.h"
+#include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/shapes.h"
 #include "dem/lab/parameters.h"
 #include "dem/lab/protocols/protocols.h"
@@ -28,7 +30,7 @@ struct ContactParameters
   std::string path_file;  ///< CSV of the displacements
 };
 
-/// How a volume is led along its path.
+/// How an RVE is led along its path.
 enum class PathSolver
 {
   event_by_event,
@@ -67,6 +69,9 @@ struct Input
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParallelBondParameters parallel_bond{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParticleContactParameters particle_contact;
+  SmoothJointParameters smooth_joint;
+  MineralGrainParameters mineral_grains;
+  ClumpParameters clumps;
   DynamicsParameters dynamics;
   std::vector<TestKind> test_list{direct_tension.kind, uniaxial_compression.kind};
   TestParameters tests;

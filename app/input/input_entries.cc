@@ -362,7 +362,7 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
                           varies),
           entry::choice("Solver", &P::solver,
                         {{"event by event", PathSolver::event_by_event}, {"explicit", PathSolver::explicit_dynamics}},
-                        "from break to break without a rate, or explicit dynamics as in the laboratory", varies),
+                        "without a rate, or explicit dynamics as in the laboratory", varies),
           entry::integer("Steps per millistrain", &P::steps_per_millistrain, {'[', 1.0, 1e8, ']'},
                          "of explicit dynamics, for 1e-3 of the largest component of the strain", varies)};
 }

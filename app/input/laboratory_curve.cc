@@ -149,6 +149,8 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   test.results = evaluate(test.record);
   const Figure not_counted{std::nullopt, "a measured curve counts no cracks"};
   test.results.crack_initiation_stress = test.results.shear_share_at_peak = not_counted;
+  test.results.n_smooth_tension_cracks_at_peak = test.results.n_smooth_shear_cracks_at_peak =
+    test.results.smooth_tension_share_at_peak = not_counted;
   test.results.n_tension_cracks_at_peak = test.results.n_shear_cracks_at_peak = not_counted;
   const Figure not_known{std::nullopt, "not known of a measured curve"};
   test.results.kinetic_to_strain_energy = test.results.unbalanced_force_ratio = not_known;

@@ -8,6 +8,7 @@
 #include "coupling/rve/entries.h"
 #include "coupling/sample/sample_entries.h"
 #include "dem/dynamics/entries.h"
+#include "dem/flaws/entries.h"
 #include "dem/lab/entries.h"
 #include "dem/laws/entries.h"
 #include "dem/laws/joint_laws.h"
@@ -50,6 +51,9 @@ std::vector<Parameter> make_parameter_table()
   table.add("Flat joint", &Input::flat_joint, flat_joint_entries());
   table.add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
   table.add("Particle contact", &Input::particle_contact, particle_contact_entries());
+  table.add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());
+  table.add("Mineral grains", &Input::mineral_grains, mineral_grain_entries());
+  table.add("Clumps", &Input::clumps, clump_entries());
   table.add("Flaws", flaw_entries());
   table.add("Dynamics", &Input::dynamics, dynamics_entries());
   table.add("Tests", {test_list_entry(), confinements_entry()});
@@ -106,8 +110,19 @@ const Parameter* find_parameter(const std::string_view section, const std::strin
   return nullptr;
 }
 
+bool has_smooth_joints(const Input& input)
+{
+  const auto shapes = input.flaws.all();
+  return input.mineral_grains.mean_size ||
+         std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return smooth_sides(shape) != nullptr; });
+}
+
 bool has_use_for(const Input& input, const Parameter& parameter)
 {
+  if (parameter.section == "Smooth joint" && !has_smooth_joints(input))
+    return false;
+  if (parameter.section == "Clumps" && parameter.entry == "Form" && !input.clumps.diameter)
+    return false;
   const auto laws = JointLaws::names();
   return std::none_of(laws.begin(), laws.end(), [&](const std::string_view law) {
     return parameter.section == section_of(law) && law != input.specimen.joint_law;

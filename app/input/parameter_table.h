@@ -25,6 +25,9 @@ struct Parameter
   std::string default_text() const;
 };
 
+/// The range of every entry that names a file.
+inline constexpr std::string_view none_or_a_file = "none, or a file";
+
 /// Every parameter, in the order of the reference. Reading, checking and the reference walk this.
 const std::vector<Parameter>& parameter_table();
 
@@ -37,7 +40,10 @@ std::vector<std::string_view> entry_names(std::string_view section);
 /// Null if there is none of that name.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
 
-/// False for the sections of joint laws other than the input's own.
+/// Whether a flaw or mineral grains put smooth joints into the rock.
+bool has_smooth_joints(const Input& input);
+
+/// False for the sections of joint laws other than the input's own, and of smooth joints where there are none.
 bool has_use_for(const Input& input, const Parameter& parameter);
 
 /// Refuses entries that have no use on this body, unless they keep their defaults. Throws InputError.

@@ -22,6 +22,7 @@ inline constexpr Dimension stress{"a stress", "Pa", "22 MPa"};
 inline constexpr Dimension length{"a length", "m", "0.62 mm"};
 inline constexpr Dimension angle{"an angle", "rad", "10 deg"};
 inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
+inline constexpr Dimension plane_stiffness{"a stress per displacement", "Pa/m", "50 GPa/mm"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
 
 /// One number, one space and one unit expression; returned in SI.

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace feldspar
 {
@@ -36,6 +37,30 @@ private:
   Clock::time_point next = Clock::time_point::min();
 };
 
+/// The part as the first of these checkpoints that can be used has it, newest first, else as `begin` makes it. `read` puts
+/// it into the state of a file. One that cannot be used is named on standard error, if this process speaks.
+template <typename Begin, typename Read>
+auto last_good(const std::vector<std::filesystem::path>& checkpoints, const Begin& begin, const Read& read,
+               const bool speaks = true)
+{
+  for (std::size_t k = 0; k < checkpoints.size(); ++k)
+    if (std::filesystem::exists(checkpoints[k]))
+      try
+        {
+          auto part = begin();
+          read(part, checkpoints[k]);
+          return part;
+        }
+      catch (const InputError& error)
+        {
+          const bool has_older = k + 1 < checkpoints.size() && std::filesystem::exists(checkpoints[k + 1]);
+          if (speaks)
+            fmt::print(stderr, "feldspar: {}; going back to the {}\n", error.what(),
+                       has_older ? "checkpoint before it" : "start");
+        }
+  return begin();
+}
+
 /// The last two checkpoints of one part of a run: a test, a path.
 class Checkpoints
 {
@@ -57,25 +82,12 @@ public:
     part.write_checkpoint(newest, identity);
   }
 
-  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it. One that cannot be used is
-  /// named on standard error.
+  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it.
   template <typename Begin>
   auto open(const Begin& begin) const
   {
-    for (const auto& file : {newest, one_before})
-      if (std::filesystem::exists(file))
-        try
-          {
-            auto part = begin();
-            part.read_checkpoint(file, identity);
-            return part;
-          }
-        catch (const InputError& error)
-          {
-            fmt::print(stderr, "feldspar: {}; going back to {}\n", error.what(),
-                       file == newest && std::filesystem::exists(one_before) ? "the one before it" : "the start");
-          }
-    return begin();
+    return last_good({newest, one_before}, begin,
+                     [&](auto& part, const std::filesystem::path& file) { part.read_checkpoint(file, identity); });
   }
 
 private:

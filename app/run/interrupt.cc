@@ -20,9 +20,9 @@ std::atomic<bool> is_acknowledged = false;
 void note_interrupt(int)
 {
   was_interrupted = true;
-  constexpr std::string_view answer =
+  constexpr std::string_view message =
     "\nfeldspar: asked to end; what runs is kept first (a second signal ends at once)\n";
-  if (is_acknowledged && write(STDERR_FILENO, answer.data(), answer.size()) < 0)
+  if (is_acknowledged && write(STDERR_FILENO, message.data(), message.size()) < 0)
     is_acknowledged = false; // nobody listens
 }
 } // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <exception>
 
 namespace feldspar
@@ -17,6 +18,21 @@ void watch_for_interrupt(bool acknowledged);
 
 /// Whether the run was asked to end.
 bool interrupted();
+
+/// For work that may take long after an interrupt, such as drawing: whether the run was asked to end and, if that was
+/// before this object was made, some seconds have passed since.
+class EndOfPatience
+{
+public:
+  bool operator()() const
+  {
+    return interrupted() && (!was_interrupted_before || std::chrono::steady_clock::now() > deadline);
+  }
+
+private:
+  bool was_interrupted_before = interrupted();
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+};
 
 /// Throws Interrupted where the run was asked to end.
 void end_if_interrupted();

@@ -82,10 +82,17 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
 
 std::string run_identity(const Input& input, const std::string& part)
 {
+  // A run that is resumed names its files from the root: its input has another folder than it had at first.
+  const auto text_of = [&](const Parameter& parameter) {
+    const std::string value = parameter.write(input);
+    return parameter.range == none_or_a_file && value != "none"
+             ? std::filesystem::absolute(value).lexically_normal().string()
+             : value;
+  };
   std::string text = fmt::format("{} {}\n", version, part);
   for (const Parameter& parameter : parameter_table())
     if (has_use_for(input, parameter))
-      text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+      text += fmt::format("{} = {}\n", parameter.name(), text_of(parameter));
   return text;
 }
 

@@ -1,5 +1,9 @@
 #include "app/screen/print_result.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 
@@ -10,5 +14,68 @@ void write_result(const std::string_view text)
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written && errno == EPIPE && std::freopen("/dev/null", "w", stdout) != nullptr)
     std::clearerr(stdout);
+}
+
+namespace
+{
+/// Bytes that continue a UTF-8 character take no place.
+std::size_t width_of(const std::string_view text)
+{
+  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string wrapped_line(const std::string_view line, const std::size_t width)
+{
+  const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+  if (width_of(line) <= width || line.substr(indent).find("   ") != std::string_view::npos)
+    return std::string(line);
+  std::string text(line.substr(0, indent));
+  std::size_t used = indent;
+  bool is_first = true;
+  for (std::size_t begin = indent; begin < line.size();)
+    {
+      const std::size_t end = std::min(line.find(' ', begin), line.size());
+      const std::string_view word = line.substr(begin, end - begin);
+      if (!is_first && used + 1 + width_of(word) > width)
+        {
+          text += '\n';
+          text.append(indent + 2, ' ');
+          used = indent + 2;
+        }
+      else if (!is_first)
+        {
+          text += ' ';
+          ++used;
+        }
+      text += word;
+      used += width_of(word);
+      is_first = false;
+      begin = end + 1;
+    }
+  return text;
+}
+} // namespace
+
+std::string wrapped(const std::string_view text, const std::size_t width)
+{
+  std::string result;
+  for (std::size_t begin = 0; begin <= text.size();)
+    {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      result += wrapped_line(text.substr(begin, end - begin), width);
+      if (end < text.size())
+        result += '\n';
+      begin = end + 1;
+    }
+  return result;
+}
+
+std::optional<std::size_t> columns_of_terminal()
+{
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 0)
+    return std::nullopt;
+  constexpr std::size_t usual = 80;
+  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > usual / 2 ? size.ws_col : usual;
 }
 } // namespace feldspar

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +13,13 @@ namespace feldspar
 /// Writes results to standard output, and never throws. A reader that has left, as `| head` does, is no mistake and hears
 /// no more; of a full disk the command speaks at its end, when its files are complete.
 void write_result(std::string_view text);
+
+/// Lines of at most so many characters (some tens), broken at spaces and gone on with two spaces more than they begin with.
+/// Rows of tables, which have three spaces or more within, and words that are longer stay as they are.
+std::string wrapped(std::string_view text, std::size_t width);
+
+/// Columns of the terminal that results go to; nothing where they go elsewhere.
+std::optional<std::size_t> columns_of_terminal();
 
 template <typename... T>
 void print_result(fmt::format_string<T...> format, T&&... values)

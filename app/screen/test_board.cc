@@ -52,7 +52,8 @@ void TestBoard::finish(const std::size_t k)
   draw();
 }
 
-/// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess.
+/// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess; 0 where
+/// there is none.
 double TestBoard::strain_at_peak(const Entry& entry) const
 {
   if (entry.strain_at_peak > 0.0 && (entry.has_left_peak || entry.finished))
@@ -62,10 +63,10 @@ double TestBoard::strain_at_peak(const Entry& entry) const
     return other.finished && other.strain_at_peak > 0.0 && other.planned.test.kind == test.kind &&
            other.planned.test.confining_pressure == test.confining_pressure;
   });
-  const double guess =
-    sister != entries.end() ? sister->strain_at_peak : expected_strain_at_peak(test, *entry.planned.input);
+  const std::optional<double> guess = sister != entries.end() ? std::optional(sister->strain_at_peak)
+                                                              : expected_strain_at_peak(test, *entry.planned.input);
   constexpr double beyond = 1.2; // of a curve that still rises
-  return std::max(guess, beyond * test.kind.strain(entry.row));
+  return guess ? std::max(*guess, beyond * test.kind.strain(entry.row)) : 0.0;
 }
 
 double TestBoard::last_strain(const Entry& entry) const

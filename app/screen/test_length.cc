@@ -1,6 +1,7 @@
 #include "app/screen/test_length.h"
 
 #include "app/input/joint_sections.h"
+#include "dem/lab/protocols/protocols.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,27 +10,32 @@
 
 namespace feldspar
 {
-double expected_strain_at_peak(const TestCase& test, const Input& input)
+std::optional<double> expected_strain_at_peak(const TestCase& test, const Input& input)
 {
   // Ratios of a specimen's figures to those of its flat joints, as Beishan granite has them
   // (examples/beishan-granite/README.md): rocks by other parameters lie within a factor of two.
   constexpr double modulus_over_bonds = 0.8;
   constexpr double tension_over_bonds = 0.4;
   constexpr double compression_over_bonds = 7.5;
-  constexpr double disc_strain_over_tension = 4.0; // strain of the loaded diameter over the tension across it
-  constexpr double m = 20.0;                       // of Hoek and Brown
+  constexpr double m = 20.0; // of Hoek and Brown
   const auto [modulus, bonds] = std::visit(
     [](const auto& law) {
       return std::pair(modulus_over_bonds * law.modulus, std::max(law.bond_tensile_strength, 1e-3 * law.bond_cohesion));
     },
     joint_parameters(input));
   const double tension = tension_over_bonds * bonds / modulus;
-  if (test.kind.envelope_role == EnvelopeRole::indirect_tension)
-    return disc_strain_over_tension * tension;
-  if (test.kind.sign > 0.0)
-    return tension;
   const double uniaxial = compression_over_bonds * bonds;
-  return uniaxial > 0.0 ? uniaxial / modulus * std::sqrt(1.0 + m * test.confining_pressure / uniaxial) : tension;
+  const auto [with, factor] = protocol_of(test.kind).forecast;
+  switch (with)
+    {
+    case PeakForecast::With::tension:
+      return factor * tension;
+    case PeakForecast::With::compression:
+      return factor *
+             (uniaxial > 0.0 ? uniaxial / modulus * std::sqrt(1.0 + m * test.confining_pressure / uniaxial) : tension);
+    default:
+      return std::nullopt;
+    }
 }
 
 double expected_last_strain(const double strain_at_peak, const TestParameters& tests)

@@ -89,8 +89,8 @@ private:
 
 /// Of a flat joint, or of a pair without a face.
 template <int dim>
-LinkAnswer<dim> face_answer(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                            const Motion<dim>& motion)
+LinkResponse<dim> face_response(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                                const Motion<dim>& motion)
 {
   const Link<dim>& link = network.links()[active.link];
   const double k_n = link.normal_stiffness;
@@ -99,7 +99,7 @@ LinkAnswer<dim> face_answer(const FlatJoint<dim>& law, const Network<dim>& netwo
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
   const double slope = dim == 2 && link.has_face ? motion[2] : 0.0; // elements of a disk are lumped
 
-  LinkAnswer<dim> result;
+  LinkResponse<dim> result;
   result.segments.resize(link.n_segments);
   for (std::uint32_t i = 0; i < link.n_segments; ++i)
     {
@@ -111,7 +111,7 @@ LinkAnswer<dim> face_answer(const FlatJoint<dim>& law, const Network<dim>& netwo
       const Vector<dim> now = rows * motion;
       const Vector<dim> before = rows * active.motion;
       const SegmentHistory<dim>& old = active.segments[i];
-      SegmentAnswer<dim>& segment = result.segments[i];
+      SegmentResponse<dim>& segment = result.segments[i];
 
       if (old.bonded)
         {
@@ -200,15 +200,15 @@ LinkAnswer<dim> face_answer(const FlatJoint<dim>& law, const Network<dim>& netwo
 
 /// Of a parallel bond: beside it the linear contact, by one return map from the last event.
 template <int dim>
-LinkAnswer<dim> face_answer(const ParallelBond<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                            const Motion<dim>& motion)
+LinkResponse<dim> face_response(const ParallelBond<dim>& law, const Network<dim>& network,
+                                const ActiveLink<dim>& active, const Motion<dim>& motion)
 {
   using Shear = Eigen::Matrix<double, dim - 1, 1>;
   const Link<dim>& link = network.links()[active.link];
   const Face<double> face = link.face(network.thickness());
   const SegmentHistory<dim>& old = active.segments.front();
-  LinkAnswer<dim> result;
-  SegmentAnswer<dim>& segment = result.segments.emplace_back();
+  LinkResponse<dim> result;
+  SegmentResponse<dim>& segment = result.segments.emplace_back();
   if (old.bonded)
     {
       const JointStiffness<dim> stiffness = law.bond_stiffness(face);
@@ -258,13 +258,13 @@ LinkAnswer<dim> face_answer(const ParallelBond<dim>& law, const Network<dim>& ne
 } // namespace
 
 template <int dim>
-LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
+LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
 {
   if (!network.links()[active.link].has_face)
-    return face_answer(FlatJoint<dim>(), network, active, motion);
-  return std::visit([&](const auto& law) { return face_answer(law, network, active, motion); }, network.law());
+    return face_response(FlatJoint<dim>(), network, active, motion);
+  return std::visit([&](const auto& law) { return face_response(law, network, active, motion); }, network.law());
 }
 
-template LinkAnswer<2> answer<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);
-template LinkAnswer<3> answer<3>(const Network<3>&, const ActiveLink<3>&, const Motion<3>&);
+template LinkResponse<2> response<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);
+template LinkResponse<3> response<3>(const Network<3>&, const ActiveLink<3>&, const Motion<3>&);
 } // namespace feldspar

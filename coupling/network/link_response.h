@@ -3,7 +3,7 @@
 #include "coupling/network/network.h"
 #include "dem/laws/flat_joint_law.h"
 
-/// How a link with unbonded segments, or one of a law that is not linear while it holds, answers: the law of dem/, in small
+/// How a link with unbonded segments, or one of a law that is not linear while it holds, responds: the law of dem/, in small
 /// strains and from one event to the next; docs/theory.md §10.3.
 namespace feldspar
 {
@@ -27,7 +27,7 @@ struct ActiveLink
 
 /// One segment now.
 template <int dim>
-struct SegmentAnswer
+struct SegmentResponse
 {
   std::array<double, dim - 1> shear_stress; ///< as in the history
   BondStress bond_stress{};                 ///< of a bonded one
@@ -35,17 +35,17 @@ struct SegmentAnswer
 };
 
 template <int dim>
-struct LinkAnswer
+struct LinkResponse
 {
   Motion<dim> forces = Motion<dim>::Zero();                  ///< work-conjugate to the link's motion
   JointStiffness<dim> tangent = JointStiffness<dim>::Zero(); ///< bonds and open, stick, slip states frozen
   /// Derivative of the forces: what slides drags with its pressure, what closes late sticks late. Not symmetric.
   JointStiffness<dim> derivative = JointStiffness<dim>::Zero();
-  std::vector<SegmentAnswer<dim>> segments;
+  std::vector<SegmentResponse<dim>> segments;
   double stored_energy = 0.0; ///< [J]
 };
 
 /// `motion` of the link now.
 template <int dim>
-LinkAnswer<dim> answer(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion);
+LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion);
 } // namespace feldspar

@@ -23,7 +23,7 @@ struct FirstBreak
   double factor; ///< of the direction; infinity if nothing breaks along it
   std::uint32_t segment;
   bool in_tension;
-  double touch; ///< factor at which a pair without a face comes to touch; no answer is linear beyond it
+  double touch; ///< factor at which a pair without a face comes to touch; no response is linear beyond it
 };
 
 template <int dim>
@@ -52,7 +52,7 @@ public:
   const Tensor<dim>& cell() const { return edges; }
 
   const AnyJointLaw<dim>& law() const { return joint_law; }
-  /// Else joints answer by their law's own response (link_response.h) from the beginning.
+  /// Else joints respond by their law (link_response.h) from the beginning.
   bool is_linear_while_bonded() const
   {
     return std::visit([](const auto& of_joints) { return of_joints.linear_while_bonded; }, joint_law);
@@ -86,8 +86,8 @@ public:
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
   Unknowns lent(const Unknowns& unknowns) const;
 
-  // The intact answer: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
-  // whose faces are not, the answer of the stiffest state: a scale and a first guess.
+  // The intact response: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
+  // whose faces are not, the response of the stiffest state: a scale and a first guess.
 
   /// C_0 [Pa].
   const Stiffness<dim>& intact_stiffness() const { return c_0; }

@@ -16,7 +16,7 @@ struct UnbondedSegment
   std::array<double, dim - 1> shear_stress; ///< [Pa]
 };
 
-/// Since the volume was at rest [J], each summed on its own.
+/// Since the RVE was at rest [J], each summed on its own.
 struct NetworkWork
 {
   double boundary = 0.0; ///< ∫ V σ : dε

@@ -95,7 +95,7 @@ template <int dim>
 double Equilibrium<dim>::slip_energy(const Balance<dim>& from, const Balance<dim>& to) const
 {
   double sum = 0.0;
-  const auto add = [&](const std::uint32_t link, const LinkAnswer<dim>* before, const LinkAnswer<dim>& after) {
+  const auto add = [&](const std::uint32_t link, const LinkResponse<dim>* before, const LinkResponse<dim>& after) {
     for (std::uint32_t i = 0; i < after.segments.size(); ++i)
       {
         const double area = network.segment_area(network.links()[link], i);
@@ -179,12 +179,12 @@ void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, st
     {
       const std::uint32_t link = network.link_of_segment(overload.segment);
       ActiveLink<dim>& broken = history.activate(link);
-      const double stored = answer(network, broken, broken.motion).stored_energy;
+      const double stored = response(network, broken, broken.motion).stored_energy;
       SegmentHistory<dim>& segment = broken.segments[overload.segment - network.links()[link].first_segment];
       segment.bonded = false;
       if (network.is_linear_while_bonded())
         segment.shear_stress = {};
-      const double released = stored - answer(network, broken, broken.motion).stored_energy;
+      const double released = stored - response(network, broken, broken.motion).stored_energy;
       last.work.released += released;
       ++(overload.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
       events.push_back({overload.segment, overload.in_tension, released});

@@ -13,11 +13,11 @@ namespace feldspar
 namespace
 {
 // The servo of given stresses. The error falls by 1/e in 50 steps, some transits of a wave between neighbours; the gain of
-// what it learns is the one without overshoot. Both are shares of the intact volume's answer.
+// what it learns is the one without overshoot. Both are shares of the intact RVE's response.
 constexpr double gain = 0.02;
 constexpr double learning_gain = 0.25 * gain * gain;
 constexpr double largest_correction = 1e-5; // strain per step: some 0.7 MPa in granite
-// A stress counts as beyond what the volume holds where so much of it, over the largest stress there was, has been missing
+// A stress counts as beyond what the RVE holds where so much of it, over the largest stress there was, has been missing
 // for so long or is when a leg ends.
 constexpr double largest_missing_share = 0.05;
 constexpr std::uint64_t most_steps_missing = 1000;

@@ -12,7 +12,7 @@ struct ExplicitParameters
   DynamicsParameters dynamics{};
 };
 
-/// The path of a PathRun gone by explicit dynamics, a fixed number of steps for each strain: the reference for the volume
+/// The path of a PathRun gone by explicit dynamics, a fixed number of steps for each strain: the reference for the RVE
 /// that breaks from event to event. Here the grains turn and move apart as far as they do, and what is not in
 /// equilibrium shows; docs/theory.md §10.6.
 template <int dim>
@@ -52,7 +52,7 @@ private:
 
   std::vector<PathLeg<dim>> legs;
   ExplicitParameters parameters;
-  RepresentativeVolume<dim> intact; ///< never strained: tells how the rock answers at first
+  RepresentativeVolume<dim> intact; ///< never strained: tells how the rock responds at first
   Dynamics<dim> dynamics;
   std::vector<std::uint32_t> joint_of_number; ///< as the network counts joints
   PathRecord<dim> path_record;

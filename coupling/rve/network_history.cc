@@ -87,9 +87,9 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
     ++n_carrying;
     result.carried_stress += force * link.branch.norm() / of.volume();
   };
-  const auto add_answer = [&](const Link<dim>& link, const LinkAnswer<dim>& answer) {
-    add(link, answer.forces);
-    result.stored_energy += answer.stored_energy;
+  const auto add_response = [&](const Link<dim>& link, const LinkResponse<dim>& response) {
+    add(link, response.forces);
+    result.stored_energy += response.stored_energy;
   };
   for (std::uint32_t k = 0; k < links.size(); ++k)
     {
@@ -97,8 +97,8 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
       if (number[k] != none)
         {
           auto& of_link = result.active[number[k]];
-          of_link = answer(of, active_links[number[k]], motion);
-          add_answer(links[k], of_link);
+          of_link = response(of, active_links[number[k]], motion);
+          add_response(links[k], of_link);
         }
       else if (links[k].has_face)
         {
@@ -108,8 +108,8 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
         }
       else if (links[k].opening + motion[0] < 0.0)
         {
-          result.touches.emplace_back(k, answer(of, at_event(k), motion));
-          add_answer(links[k], result.touches.back().second);
+          result.touches.emplace_back(k, response(of, at_event(k), motion));
+          add_response(links[k], result.touches.back().second);
         }
     }
   result.stress = result.forces.template tail<n_voigt<dim>>() / of.volume();

@@ -18,8 +18,8 @@ struct Balance
   double unbalanced_ratio = 0.0;
   double carried_stress = 0.0; ///< Σ |f| |l| / V over the links [Pa]
   double stored_energy = 0.0;
-  std::vector<LinkAnswer<dim>> active;                            ///< of each active link
-  std::vector<std::pair<std::uint32_t, LinkAnswer<dim>>> touches; ///< of pairs without a face that press
+  std::vector<LinkResponse<dim>> active;                            ///< of each active link
+  std::vector<std::pair<std::uint32_t, LinkResponse<dim>>> touches; ///< of pairs without a face that press
 };
 
 /// Where a network stands, and the forces there.

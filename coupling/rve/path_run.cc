@@ -38,8 +38,7 @@ std::string describe(const Control<dim>& control)
 }
 
 template <int dim>
-LegCourse<dim>::LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& from,
-                          const RepresentativeVolume<dim>& volume)
+LegCourse<dim>::LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& from, const RepresentativeVolume<dim>& rve)
   : start(leg.target)
   , target(leg.target)
 {
@@ -47,7 +46,7 @@ LegCourse<dim>::LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& from
   start.stress = from.stress;
   if (leg.counts_from_here)
     target.strain += from.strain;
-  way = volume.intact_strain(target) - volume.intact_strain(start);
+  way = rve.intact_strain(target) - rve.intact_strain(start);
 }
 
 template <int dim>
@@ -134,7 +133,7 @@ void PathRun<dim>::advance()
     }
   auto look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
   // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
-  // through the volume: then the same from a more exact beginning, which takes the place of the last row, to a more exact
+  // through the RVE: then the same from a more exact beginning, which takes the place of the last row, to a more exact
   // end.
   TrialOptions<dim> exacter;
   for (int k = 0; k < 3 && look.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
@@ -191,7 +190,7 @@ typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state
   sample.work = state.work;
   sample.stored_energy = equilibrium.stored_energy();
   sample.unbalanced_ratio = unbalanced_ratio;
-  // A volume that has come apart does no work but round-off.
+  // An RVE that has come apart does no work but round-off.
   constexpr double least_share_of_work = 1e-6;
   sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, look.forces,
                                                      least_share_of_work * std::abs(state.work.boundary));

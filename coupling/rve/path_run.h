@@ -22,19 +22,19 @@ template <int dim>
 struct LegCourse
 {
   LegCourse() = default;
-  /// `start`: strain and stress at which it begins; `volume`: whose path it is.
-  LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& start, const RepresentativeVolume<dim>& volume);
+  /// `start`: strain and stress at which it begins; `rve`: whose path it is.
+  LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& start, const RepresentativeVolume<dim>& rve);
 
   /// What is given where a share of it is behind.
   Control<dim> at(double share) const;
-  /// Largest change of a component of the intact volume's strain, tensor shear.
+  /// Largest change of a component of the intact RVE's strain, tensor shear.
   double size() const { return strain_tensor<dim>(way).cwiseAbs().maxCoeff(); }
   /// So many that none changes by more than `largest_step` in one.
   std::uint64_t n_increments(double largest_step) const;
 
   Control<dim> start;                  ///< what the target gives, where it begins
   Control<dim> target;                 ///< with strains counted from rest
-  Voigt<dim> way = Voigt<dim>::Zero(); ///< strain from start to target of the intact volume
+  Voigt<dim> way = Voigt<dim>::Zero(); ///< strain from start to target of the intact RVE
 };
 
 /// "strain_xx = 1e-4, stress_yy = …", each strain or stress that is given.
@@ -106,7 +106,7 @@ public:
   double progress() const;
 
   const PathRecord<dim>& record() const { return path_record; }
-  const RepresentativeVolume<dim>& volume() const { return body; }
+  const RepresentativeVolume<dim>& rve() const { return body; }
   const NetworkState<dim>& state() const { return body.state(); }
 
   /// A state from which read_checkpoint() of the same run goes on to the same bits.

@@ -113,9 +113,9 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       if (k == most_iterations)
         return ended(error <= tolerance);
       ++iterations;
-      const auto is_symmetric = [](const LinkAnswer<dim>& answer) {
+      const auto is_symmetric = [](const LinkResponse<dim>& response) {
         constexpr double round_off = 1e-12;
-        return answer.derivative.isApprox(answer.derivative.transpose(), round_off);
+        return response.derivative.isApprox(response.derivative.transpose(), round_off);
       };
       const bool symmetric = std::all_of(present.active.begin(), present.active.end(), is_symmetric) &&
                              std::all_of(present.touches.begin(), present.touches.end(),
@@ -123,7 +123,7 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       const Unknowns right = unbalanced(network, present, control);
       const auto apply = [&](const Unknowns& x) {
         Unknowns y =
-          apply_tangent(history, present, x, &LinkAnswer<dim>::derivative) + lent_stiffness * network.lent(x);
+          apply_tangent(history, present, x, &LinkResponse<dim>::derivative) + lent_stiffness * network.lent(x);
         for (int c = 0; c < n_voigt<dim>; ++c)
           if (!control.stress_given[c])
             y[n_own + c] = 0.0;

@@ -16,7 +16,7 @@ struct Tangent
   Stiffness<dim> value; ///< [Pa]
 };
 
-/// What a representative volume would answer.
+/// The response of a representative volume.
 template <int dim>
 struct Trial
 {
@@ -58,7 +58,7 @@ struct TrialOptions
   double share_of_tolerance = 1.0; ///< of the final one, up to which the forces may stay unbalanced
 };
 
-/// A periodic specimen that answers a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
+/// A periodic specimen that responds to a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
 /// network and hold their own state only. Trying is not doing: history changes on accept().
 template <int dim>
 class RepresentativeVolume
@@ -82,7 +82,7 @@ public:
   const NetworkState<dim>& state() const { return current; }
   void restore(NetworkState<dim> state) { current = std::move(state); }
   const Network<dim>& network() const { return *reference; }
-  /// The strain at which the intact volume would meet a control.
+  /// The strain at which the intact RVE would meet a control.
   Voigt<dim> intact_strain(const Control<dim>& control) const;
   /// Energy stored in the contacts [J].
   double stored_energy() const;
@@ -90,7 +90,7 @@ public:
 private:
   Trial<dim> intact_trial(const Voigt<dim>& strain, bool with_tangent) const;
 
-  std::shared_ptr<const Network<dim>> reference; ///< shared: hundreds of volumes refer to one network
+  std::shared_ptr<const Network<dim>> reference; ///< shared: hundreds of RVEs refer to one network
   EquilibriumParameters parameters;
   NetworkState<dim> current;
 };

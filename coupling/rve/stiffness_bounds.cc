@@ -19,7 +19,7 @@ namespace feldspar
 {
 namespace
 {
-/// Of the mean of the diagonal, lent to each motion: grains without joints would move freely.
+/// Of the diagonal, lent to each motion: grains without joints would move freely.
 constexpr double regularity = 1e-10;
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -29,11 +29,12 @@ constexpr Eigen::Index held = -1; // the row of a motion that is not free
 /// The inverse of a stiffness times a few columns.
 Eigen::MatrixXd solved(Entries entries, const Eigen::Index n, const Eigen::MatrixXd& right)
 {
-  double trace = 0.0;
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
   for (const auto& entry : entries)
-    trace += entry.row() == entry.col() ? entry.value() : 0.0;
+    if (entry.row() == entry.col())
+      diagonal[entry.row()] += entry.value();
   for (Eigen::Index i = 0; i < n; ++i)
-    entries.emplace_back(int(i), int(i), regularity * trace / double(n));
+    entries.emplace_back(int(i), int(i), diagonal[i] > 0.0 ? regularity * diagonal[i] : 1.0);
   Sparse stiffness(n, n);
   stiffness.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Sparse> factor(stiffness);

@@ -11,7 +11,7 @@ namespace feldspar
 {
 template <int dim>
 Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
-                       JointStiffness<dim> LinkAnswer<dim>::*const which)
+                       JointStiffness<dim> LinkResponse<dim>::*const which)
 {
   const Network<dim>& network = history.network();
   const auto& links = network.links();
@@ -115,13 +115,13 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
     y.template tail<n_voigt<dim>>().setZero();
     return y;
   };
-  std::array<Unknowns, n_voigt<dim>> answers;
+  std::array<Unknowns, n_voigt<dim>> responses;
   Stiffness<dim> result;
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
       // against what the affine motion would leave.
-      Unknowns& unit = answers[k];
+      Unknowns& unit = responses[k];
       unit = network.intact_unknowns(Voigt<dim>::Unit(k));
       const auto left_by = [&](const Unknowns& motions) {
         Unknowns right = -apply_tangent(history, at, motions);
@@ -139,7 +139,7 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
         unit.head(n_own) += solve(history, at, apply, true, right, {}, tolerance).head(n_own);
       const Unknowns forces = apply_tangent(history, at, unit);
       for (int j = 0; j <= k; ++j)
-        result(j, k) = result(k, j) = answers[j].dot(forces) / network.volume();
+        result(j, k) = result(k, j) = responses[j].dot(forces) / network.volume();
     }
   return result;
 }
@@ -147,9 +147,9 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
 template class TangentSolver<2>;
 template class TangentSolver<3>;
 template Unknowns apply_tangent(const NetworkHistory<2>&, const Balance<2>&, const Unknowns&,
-                                JointStiffness<2> LinkAnswer<2>::*);
+                                JointStiffness<2> LinkResponse<2>::*);
 template Unknowns apply_tangent(const NetworkHistory<3>&, const Balance<3>&, const Unknowns&,
-                                JointStiffness<3> LinkAnswer<3>::*);
+                                JointStiffness<3> LinkResponse<3>::*);
 template std::vector<JointStiffness<2>> link_tangents(const NetworkHistory<2>&, const Balance<2>&);
 template std::vector<JointStiffness<3>> link_tangents(const NetworkHistory<3>&, const Balance<3>&);
 template Stiffness<2> affine_tangent(const NetworkHistory<2>&, const Balance<2>&);

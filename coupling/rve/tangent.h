@@ -15,7 +15,7 @@ constexpr double lent_stiffness = 1e-7;
 /// Forces on grains, and volume × stress, for small motions from where the network stands.
 template <int dim>
 Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
-                       JointStiffness<dim> LinkAnswer<dim>::*which = &LinkAnswer<dim>::tangent);
+                       JointStiffness<dim> LinkResponse<dim>::*which = &LinkResponse<dim>::tangent);
 
 /// Of each link, in its own axes; [n_links].
 template <int dim>

@@ -25,19 +25,19 @@ GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const T
   , at_work(std::move(network), parameters)
 {
   for (int k = 0; k < n_voigt<dim>; ++k)
-    strain_to_volume.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
+    strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
 }
 
 template <int dim>
-Voigt<dim> GrainPoint<dim>::to_volume(const Voigt<dim>& strain) const
+Voigt<dim> GrainPoint<dim>::to_rve(const Voigt<dim>& strain) const
 {
-  return strain_to_volume * strain;
+  return strain_to_rve * strain;
 }
 
 template <int dim>
-fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
+fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
 {
-  const Voigt<dim> wanted = to_volume(strain);
+  const Voigt<dim> wanted = to_rve(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
       TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
@@ -51,10 +51,10 @@ fem::MaterialAnswer<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) const
         last_tangent = tried.tangent;
     }
   if (!tried.in_equilibrium)
-    throw fem::PointFailure("the grains of a volume find no equilibrium");
+    throw fem::PointFailure("the grains of an RVE find no equilibrium");
   // Work is the same in both axes, so stress and stiffness follow from how strain turns.
-  return {strain_to_volume.transpose() * tried.state.stress,
-          strain_to_volume.transpose() * tried.tangent->value * strain_to_volume};
+  return {strain_to_rve.transpose() * tried.state.stress,
+          strain_to_rve.transpose() * tried.tangent->value * strain_to_rve};
 }
 
 /// From where Newton's method was last.
@@ -64,7 +64,7 @@ Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) 
   TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
-  Trial<dim> settled = at_work.trial(strain_control<dim>(to_volume(strain)), options);
+  Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
   factorised = settled.factorised;
   return settled;
 }
@@ -74,12 +74,12 @@ fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bon
 {
   Trial<dim> broken = settle(strain, bonds);
   if (!broken.in_equilibrium)
-    throw fem::PointFailure("the grains of a volume find no equilibrium after a break");
+    throw fem::PointFailure("the grains of an RVE find no equilibrium after a break");
   const std::size_t n_events = broken.breaks.size();
-  const Voigt<dim> stress = strain_to_volume.transpose() * broken.state.stress;
+  const Voigt<dim> stress = strain_to_rve.transpose() * broken.state.stress;
   if (n_events == 0)
     {
-      stable = {to_volume(strain), std::move(broken)};
+      stable = {to_rve(strain), std::move(broken)};
       return {0, stress};
     }
   events_at_work.insert(events_at_work.end(), broken.breaks.begin(), broken.breaks.end());
@@ -92,9 +92,9 @@ template <int dim>
 void GrainPoint<dim>::accept(const Voigt<dim>& strain)
 {
   Trial<dim> found =
-    stable && stable->first == to_volume(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen);
+    stable && stable->first == to_rve(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen);
   if (!found.in_equilibrium)
-    throw fem::PointFailure("the grains of a volume find no equilibrium");
+    throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
   forget_trial();
   factorised.reset();
@@ -222,7 +222,7 @@ std::vector<double> GrainPoint<dim>::fields() const
 
 namespace
 {
-/// A number of its own for each point of each sample; one for all points of a cell where they share their volume.
+/// A number of its own for each point of each sample; one for all points of a cell where they share their RVE.
 std::uint64_t point_seed(const GrainMaterialParameters& parameters, const fem::PointPlace& place)
 {
   Fingerprint print;

@@ -19,7 +19,7 @@ namespace feldspar
 template <int dim>
 struct GrainStructure
 {
-  Tensor<dim> orientation;     ///< turns the axes of the volume into those of the material
+  Tensor<dim> orientation;     ///< turns the axes of the RVE into those of the material
   const Network<dim>* network; ///< of the realisation that was dealt to the point
   NetworkState<dim> state;
 };
@@ -28,11 +28,11 @@ template <int dim>
 class GrainPoint final : public fem::MaterialPoint<dim>
 {
 public:
-  /// orientation: turns the axes of the volume into those of the sample.
+  /// orientation: turns the axes of the RVE into those of the sample.
   GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
              const EquilibriumParameters& parameters);
 
-  fem::MaterialAnswer<dim> trial(const Voigt<dim>& strain) const override;
+  fem::MaterialResponse<dim> trial(const Voigt<dim>& strain) const override;
   std::size_t relax(const Voigt<dim>& strain) override { return relax(strain, Bonds::may_break).n; }
   fem::PointEvents<dim> relax_once(const Voigt<dim>& strain) override { return relax(strain, Bonds::break_once); }
   void accept(const Voigt<dim>& strain) override;
@@ -50,35 +50,35 @@ public:
   }
   std::any structure() const override;
 
-  /// The volume in its accepted state, in its own axes.
-  const RepresentativeVolume<dim>& volume() const { return accepted; }
+  /// The RVE in its accepted state, in its own axes.
+  const RepresentativeVolume<dim>& rve() const { return accepted; }
   const Tensor<dim>& orientation() const { return turn; }
 
 private:
   fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
   Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds) const;
   void forget_trial();
-  Voigt<dim> to_volume(const Voigt<dim>& strain) const;
+  Voigt<dim> to_rve(const Voigt<dim>& strain) const;
 
   Tensor<dim> turn;
-  Stiffness<dim> strain_to_volume; ///< Voigt strain of the sample's axes to that of the volume's
+  Stiffness<dim> strain_to_rve; ///< Voigt strain of the sample's axes to that of the RVE's
   RepresentativeVolume<dim> accepted;
   RepresentativeVolume<dim> at_work; ///< with what broke in this step
   std::vector<BreakEvent<dim>> events_at_work;
   std::vector<BreakEvent<dim>> events_accepted;
-  mutable std::optional<Voigt<dim>> tried_strain; ///< in the volume's axes; what `tried` answers
+  mutable std::optional<Voigt<dim>> tried_strain; ///< in the RVE's axes; of which `tried` is the response
   mutable Trial<dim> tried;
   mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
-  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the volume's axes
+  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the RVE's axes
   std::optional<Tangent<dim>> accepted_tangent;                     ///< the last of the accepted state
-  std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the volume's axes: nothing breaks there
+  std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the RVE's axes: nothing breaks there
 };
 
 struct GrainMaterialParameters
 {
   std::uint64_t seed = 1;         ///< of the dealing
-  bool random_orientation = true; ///< each volume turned by an angle of its own
-  bool to_elements = false;       ///< the points of an element have the same volume, turned alike
+  bool random_orientation = true; ///< each RVE turned by an angle of its own
+  bool to_elements = false;       ///< the points of an element have the same RVE, turned alike
   bool in_turn = false;           ///< none is dealt twice before all are out; else by lot
   unsigned int n_points_of_cell = 1;
   bool in_local_axes = false; ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
@@ -89,7 +89,7 @@ struct GrainMaterialParameters
 template <int dim>
 Specimen<dim> weakened(Specimen<dim> specimen, double share);
 
-/// Cells whose points get weaker twins of the volumes that are dealt to them.
+/// Cells whose points get weaker twins of the RVEs that are dealt to them.
 template <int dim>
 struct WeakCells
 {
@@ -97,7 +97,7 @@ struct WeakCells
   std::vector<std::shared_ptr<const Network<dim>>> twins; ///< one of each realisation
 };
 
-/// Volumes of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
+/// RVEs of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
 /// number of ranks. The material's fields are those of GrainPoint::fields().
 template <int dim>
 fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,

@@ -21,9 +21,19 @@ namespace feldspar::ranks
 {
 namespace mpi = dealii::Utilities::MPI;
 
-unsigned int number() { return mpi::n_mpi_processes(MPI_COMM_WORLD); }
-unsigned int mine() { return mpi::this_mpi_process(MPI_COMM_WORLD); }
-bool any(const bool here) { return mpi::max(int(here), MPI_COMM_WORLD) != 0; }
+namespace
+{
+bool mpi_is_up()
+{
+  int is_up = 0;
+  MPI_Initialized(&is_up);
+  return is_up != 0;
+}
+} // namespace
+
+unsigned int number() { return mpi_is_up() ? mpi::n_mpi_processes(MPI_COMM_WORLD) : 1; }
+unsigned int mine() { return mpi_is_up() ? mpi::this_mpi_process(MPI_COMM_WORLD) : 0; }
+bool any(const bool here) { return mpi_is_up() ? mpi::max(int(here), MPI_COMM_WORLD) != 0 : here; }
 std::uint64_t sum(const std::uint64_t here) { return mpi::sum(here, MPI_COMM_WORLD); }
 
 std::vector<double> sums(const std::vector<double>& here)
@@ -45,7 +55,7 @@ std::string of_rank(const unsigned int rank, std::string text)
 }
 } // namespace
 
-std::string of_first(const std::string& text) { return of_rank(0, text); }
+std::string of_first(const std::string& text) { return number() == 1 ? text : of_rank(0, text); }
 
 std::string gathered(const std::string& text)
 {

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// The processes that run one test together: all that mpirun started. Every function but number() and mine() is
-/// collective, and each wants MPI to be up.
+/// collective. Where MPI is not up there is one process, and only sum(), sums() and gathered() cannot be asked.
 namespace feldspar::ranks
 {
 unsigned int number(); ///< how many there are

@@ -26,12 +26,12 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   bookkeeping.solver_work.emplace();
 }
 
-void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_a_volume)
+void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_per_rve)
 {
   body = std::move(its_body);
   size = body->size();
   standing.n_points = body->n_points();
-  standing.n_segments = standing.n_points * segments_a_volume;
+  standing.n_segments = standing.n_points * segments_per_rve;
   record.size = body->box();
 }
 

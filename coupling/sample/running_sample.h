@@ -43,7 +43,7 @@ struct SampleTest::Parts
   /// Throws InputError for a test that such a sample cannot make.
   Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters);
 
-  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_a_volume);
+  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_per_rve);
   SampleSetUp set_up();
 
   /// Pressure all round, the top plate free to follow.

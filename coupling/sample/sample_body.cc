@@ -127,13 +127,15 @@ SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sam
   for (const auto& cell : mesh.triangulation->active_cell_iterators())
     largest = std::max(largest, std::pow(cell->measure(), 1.0 / dim) / sample.order);
   const double sides = sample.geometry == SampleGeometry::axisymmetric ? 2.0 : 1.0;
-  return {sides * box.side_length(0), box.side_length(dim - 1), largest};
+  return {sides * box.side_length(0), box.side_length(dim - 1), largest, mesh.triangulation->n_global_active_cells()};
 }
 
 /// By their places alone. All ranks know all cells: none is refined.
 template <int dim>
 std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
 {
+  if (seed == WeakSeed::none)
+    return {};
   const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
   const double round_off = 1e-9 * box.side_length(dim - 1);
   const double middle = box.center()[dim - 1] + round_off;
@@ -157,24 +159,16 @@ std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const
   return cells;
 }
 
-std::set<std::string> cells_of_weak_seed(const SampleParameters& sample)
-{
-  if (sample.weak_seed == WeakSeed::none)
-    return {};
-  return sample.geometry == SampleGeometry::cylinder ? cells_of_weak_seed(mesh_of<3>(sample), sample.weak_seed)
-                                                     : cells_of_weak_seed(mesh_of<2>(sample), sample.weak_seed);
-}
-
 template <int dim, int material_dim>
 class FiniteElementBody final : public SampleBody
 {
 public:
-  FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up,
+  FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up, fem::SampleMesh<dim> its_mesh,
                     const fem::Material<material_dim>& material)
     : sample(its_sample)
     , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth,
               set_up.confining_pressure}
-    , mesh(mesh_of<dim>(sample))
+    , mesh(std::move(its_mesh))
     , lower_corner(dealii::GridTools::compute_bounding_box(*mesh.triangulation).get_boundary_points().first)
     , its_size(size_of(mesh, sample))
     , solid(mesh, parameters_of(set_up), material)
@@ -264,7 +258,7 @@ public:
     return ranks::sum(n);
   }
 
-  std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(const std::uint64_t number) const override
+  std::optional<std::variant<SampleRve<2>, SampleRve<3>>> rve(const std::uint64_t number) const override
   {
     std::size_t i = 0;
     while (i < n_points_here() && solid.number_of_point(i) != number)
@@ -275,7 +269,7 @@ public:
     const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
     if (grains == nullptr)
       throw InputError("Sample/Material: the points of this sample have no grains");
-    return SampleVolume<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
+    return SampleRve<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
   }
 
   void write_fields(fem::FieldOutput& output, const double time) const override { output.write(solid, time); }
@@ -335,16 +329,25 @@ private:
   fem::Solid<dim, material_dim> solid;
 };
 
-template <int material_dim>
+/// material_of: the material of a mesh.
+template <int dim, int material_dim, class MaterialOf>
 std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
-                                      const fem::Material<material_dim>& material)
+                                      const MaterialOf& material_of)
 {
-  if constexpr (material_dim == 2)
-    return std::make_unique<FiniteElementBody<2, 2>>(sample, set_up, material);
-  else if (sample.geometry == SampleGeometry::cylinder)
-    return std::make_unique<FiniteElementBody<3, 3>>(sample, set_up, material);
-  else
-    return std::make_unique<FiniteElementBody<2, 3>>(sample, set_up, material);
+  fem::SampleMesh<dim> mesh = mesh_of<dim>(sample);
+  const fem::Material<material_dim> material = material_of(mesh);
+  return std::make_unique<FiniteElementBody<dim, material_dim>>(sample, set_up, std::move(mesh), material);
+}
+
+/// Whose mesh has the dimension that the geometry needs.
+template <int material_dim, class MaterialOf>
+std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
+                                      const MaterialOf& material_of)
+{
+  if constexpr (material_dim == 3)
+    if (sample.geometry == SampleGeometry::cylinder)
+      return make_body<3, 3>(sample, set_up, material_of);
+  return make_body<2, material_dim>(sample, set_up, material_of);
 }
 } // namespace
 
@@ -352,12 +355,6 @@ SampleSize measure(const SampleParameters& sample)
 {
   return sample.geometry == SampleGeometry::cylinder ? size_of(mesh_of<3>(sample), sample)
                                                      : size_of(mesh_of<2>(sample), sample);
-}
-
-std::uint64_t n_cells(const SampleParameters& sample)
-{
-  return sample.geometry == SampleGeometry::cylinder ? mesh_of<3>(sample).triangulation->n_global_active_cells()
-                                                     : mesh_of<2>(sample).triangulation->n_global_active_cells();
 }
 
 namespace
@@ -378,8 +375,8 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
                                                 std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
                                                 const std::uint64_t seed)
 {
-  if (dimension_of_volumes(sample.geometry) != dim)
-    throw std::invalid_argument("volumes of another dimension than the sample's");
+  if (dimension_of_rves(sample.geometry) != dim)
+    throw std::invalid_argument("RVEs of another dimension than the sample's");
   GrainMaterialParameters material;
   material.seed = seed;
   material.random_orientation = sample.random_orientation;
@@ -390,10 +387,11 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   material.equilibrium = equilibrium;
   const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);
   const double unscaled = 0.0; // any element is larger
-  auto volumes = grain_material<dim>(std::move(realisations), material,
-                                     WeakCells<dim>{cells_of_weak_seed(sample), std::move(weak_twins)});
-  return make_body<dim>(sample, set_up,
-                        scaled_softening<dim>(std::move(volumes), sample.scaled_softening ? size : unscaled));
+  return make_body<dim>(sample, set_up, [&](const auto& mesh) {
+    auto rves = grain_material<dim>(std::move(realisations), material,
+                                    WeakCells<dim>{cells_of_weak_seed(mesh, sample.weak_seed), std::move(weak_twins)});
+    return scaled_softening<dim>(std::move(rves), sample.scaled_softening ? size : unscaled);
+  });
 }
 
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
@@ -401,8 +399,8 @@ std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample,
 {
   const Continuum& material = continuum_of(sample.material);
   if (sample.geometry == SampleGeometry::plane)
-    return make_body<2>(sample, set_up, material.in_plane(continuum));
-  return make_body<3>(sample, set_up, material.in_space(continuum));
+    return make_body<2>(sample, set_up, [&](const auto&) { return material.in_plane(continuum); });
+  return make_body<3>(sample, set_up, [&](const auto&) { return material.in_space(continuum); });
 }
 
 template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,

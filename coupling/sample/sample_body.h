@@ -2,7 +2,7 @@
 
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
-#include "coupling/sample/sample_volume.h"
+#include "coupling/sample/sample_rve.h"
 #include "fem/output.h"
 #include "fem/solid/solid.h"
 #include "results/record.h"
@@ -61,7 +61,7 @@ public:
   virtual Energies energies() const = 0;                      ///< NaN where the material does not know them
   virtual std::uint64_t n_damaged_points() const = 0;
   /// None where the point is another rank's. Throws InputError where it has no grains.
-  virtual std::optional<std::variant<SampleVolume<2>, SampleVolume<3>>> volume(std::uint64_t point) const = 0;
+  virtual std::optional<std::variant<SampleRve<2>, SampleRve<3>>> rve(std::uint64_t point) const = 0;
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
   virtual std::vector<std::string> boundaries() const = 0;
@@ -71,7 +71,7 @@ public:
   virtual void restore(const fem::StoredSolid& stored) = 0;
 };
 
-/// With volumes of these realisations dealt to its points by the seed. Throws std::invalid_argument where they
+/// With RVEs of these realisations dealt to its points by the seed. Throws std::invalid_argument where they
 /// are not of the dimension that the geometry needs.
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,

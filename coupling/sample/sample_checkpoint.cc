@@ -32,9 +32,7 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.text("ended_early", record.ended_early);
   transfer_flag(archive, "came_apart", record.came_apart);
   archive.bytes("curve", record.curve);
-  archive.value("peak_deviator", stop_rule.peak.highest);
-  transfer_flag(archive, "fallen", stop_rule.peak.fallen);
-  archive.value("strain_at_peak", stop_rule.strain_at_peak);
+  stop_rule.transfer(archive);
   archive.text("fields_written", fields_written);
   for (const std::string& boundary : body->boundaries())
     archive.value("pressure_" + boundary + "_Pa", solid.pressures[boundary]);
@@ -75,13 +73,13 @@ namespace
 void write_cells(Hdf5Writer& root, const std::vector<fem::StoredCell>& cells)
 {
   std::vector<std::uint64_t> numbers, sizes;
-  std::vector<double> displacement, answers;
+  std::vector<double> displacement, responses;
   std::vector<std::uint8_t> points;
   for (const fem::StoredCell& cell : cells)
     {
       numbers.push_back(cell.number);
       displacement.insert(displacement.end(), cell.displacement.begin(), cell.displacement.end());
-      answers.insert(answers.end(), cell.answers.begin(), cell.answers.end());
+      responses.insert(responses.end(), cell.responses.begin(), cell.responses.end());
       for (const std::string& bytes : cell.points)
         {
           sizes.push_back(bytes.size());
@@ -90,7 +88,7 @@ void write_cells(Hdf5Writer& root, const std::vector<fem::StoredCell>& cells)
     }
   root.array("cells", numbers);
   root.array("displacement_m", displacement);
-  root.array("answers_Pa", answers);
+  root.array("responses_Pa", responses);
   root.array("point_sizes", sizes);
   root.array("points", points);
 }
@@ -98,17 +96,17 @@ void write_cells(Hdf5Writer& root, const std::vector<fem::StoredCell>& cells)
 std::vector<fem::StoredCell> read_cells(Hdf5Reader& root)
 {
   std::vector<std::uint64_t> numbers, sizes;
-  std::vector<double> displacement, answers;
+  std::vector<double> displacement, responses;
   std::vector<std::uint8_t> points;
   root.array("cells", numbers);
   root.array("displacement_m", displacement);
-  root.array("answers_Pa", answers);
+  root.array("responses_Pa", responses);
   root.array("point_sizes", sizes);
   root.array("points", points);
   const std::size_t n = numbers.size();
   if (n == 0)
     return {};
-  if (displacement.size() % n != 0 || answers.size() % n != 0 || sizes.size() % n != 0)
+  if (displacement.size() % n != 0 || responses.size() % n != 0 || sizes.size() % n != 0)
     throw InputError("arrays of cells differ in length");
   const auto row = [=](const auto& values, const std::size_t k) {
     const auto length = std::ptrdiff_t(values.size() / n);
@@ -119,7 +117,7 @@ std::vector<fem::StoredCell> read_cells(Hdf5Reader& root)
   std::size_t begin = 0;
   for (std::size_t k = 0; k < n; ++k)
     {
-      cells.push_back({numbers[k], row(displacement, k), row(answers, k), {}});
+      cells.push_back({numbers[k], row(displacement, k), row(responses, k), {}});
       for (const std::uint64_t size : row(sizes, k))
         {
           if (size > points.size() - begin)

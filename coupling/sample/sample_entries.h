@@ -1,8 +1,12 @@
 #pragma once
 
 #include "base/entries.h"
+#include "coupling/sample/continua/continua.h"
 #include "coupling/sample/sample_parameters.h"
 
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 /// The entries of a sample of finite elements.
@@ -12,6 +16,9 @@ namespace feldspar
 inline std::vector<Entry<SampleParameters>> sample_entries()
 {
   using P = SampleParameters;
+  std::vector<std::pair<std::string_view, std::string>> materials{{"grains", "grains"}};
+  for (const std::string_view name : continuum_names)
+    materials.emplace_back(name, name);
   return {entry::choice(
             "Geometry", &P::geometry,
             {{"plane", SampleGeometry::plane},
@@ -21,10 +28,7 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
             "plane: representative volumes of discs, one metre thick; the others have those of spheres "
             "(Dimension = 3): plane strain lets nothing strain across the plane, axisymmetric is a cylinder by half "
             "of its section, cylinder the whole"),
-          entry::choice("Material", &P::material,
-                        {{"grains", SampleMaterial::grains},
-                         {"linear elasticity", SampleMaterial::linear_elasticity},
-                         {"Mohr-Coulomb", SampleMaterial::mohr_coulomb}},
+          entry::choice("Material", &P::material, materials,
                         "at the points of the sample of `feldspar multiscale`: the representative volume, or, for "
                         "comparison, what Continuum says"),
           entry::file("Mesh file", &P::mesh_file,

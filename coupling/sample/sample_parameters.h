@@ -1,28 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <numbers>
 #include <string>
 
 namespace feldspar
 {
-/// What stands at the points of a sample.
-enum class SampleMaterial
-{
-  grains, ///< a representative volume
-  linear_elasticity,
-  mohr_coulomb
-};
-
 /// What a sample is, and how its mesh stands for it.
 enum class SampleGeometry
 {
-  plane,        ///< volumes of discs, one metre thick
-  plane_strain, ///< volumes of spheres; nothing strains across the plane
+  plane,        ///< RVEs of discs, one metre thick
+  plane_strain, ///< RVEs of spheres; nothing strains across the plane
   axisymmetric, ///< a cylinder of spheres by half of its section, r and z
   cylinder      ///< of spheres, as a whole
 };
 
-/// Which volumes of a sample are weaker than the others.
+/// Which RVEs of a sample are weaker than the others.
 enum class WeakSeed
 {
   none,
@@ -39,8 +32,8 @@ enum class MeshUnit
   millimetre
 };
 
-/// Of the volumes at its points.
-constexpr unsigned int dimension_of_volumes(const SampleGeometry geometry)
+/// Of the RVEs at its points.
+constexpr unsigned int dimension_of_rves(const SampleGeometry geometry)
 {
   return geometry == SampleGeometry::plane ? 2 : 3;
 }
@@ -56,12 +49,12 @@ struct ContinuumParameters
   double dilation_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
 };
 
-/// The sample of a multiscale run: a mesh, and how its points get their volumes.
+/// The sample of a multiscale run: a mesh, and how its points get their RVEs.
 struct SampleParameters
 {
   SampleGeometry geometry = SampleGeometry::plane;
-  SampleMaterial material = SampleMaterial::grains;
-  std::string mesh_file; ///< of Gmsh; empty: a rectangle or a cylinder
+  std::string material = "grains"; ///< an RVE at each point; else the name of a continuum (continua/continua.h)
+  std::string mesh_file;           ///< of Gmsh; empty: a rectangle or a cylinder
   MeshUnit mesh_unit = MeshUnit::not_said;
   double width = 0.050;             ///< of the rectangle, diameter of the cylinder [m]
   double height = 0.100;            ///< along the axis of the test [m]
@@ -71,18 +64,20 @@ struct SampleParameters
   bool reduced_quadrature = false; ///< order instead of order + 1 points a direction
   bool rough_platens = false;
   bool widened_past_peak = false;  ///< a compression test; else its platens go on
-  bool scaled_softening = true;    ///< with the size of the element over that of the volume
-  unsigned int n_realisations = 4; ///< volumes packed, dealt to the points
+  bool scaled_softening = true;    ///< with the size of the element over that of the RVE
+  unsigned int n_realisations = 4; ///< RVEs packed, dealt to the points
   bool random_orientation = true;  ///< each turned by an angle of its own
-  bool dealt_to_elements = false;  ///< the points of an element have the same volume in the same orientation
+  bool dealt_to_elements = false;  ///< the points of an element have the same RVE in the same orientation
   bool dealt_in_turn = false;      ///< from a shuffled stack, none twice before all are out; else by lot
   WeakSeed weak_seed = WeakSeed::none;
-  double weak_seed_strength = 0.9;       ///< share of the strengths that volumes there have
+  double weak_seed_strength = 0.9;       ///< share of the strengths that RVEs there have
   double compression_step = 4e-5;        ///< axial strain between two rows of the curve
   double tension_step = 2e-6;            ///< the same
   double most_broken_share = 0.01;       ///< of all segments in one step; beyond it the step is cut
   double smallest_step_share = 1.0 / 16; ///< of a step, before there is said to be no equilibrium
   double newton_tolerance = 1e-5;        ///< unbalanced over internal force
+
+  bool has_grains() const { return material == "grains"; }
 };
 
 /// What the mesh of a sample measures.
@@ -91,6 +86,7 @@ struct SampleSize
   double width;           ///< of a cylinder the diameter [m]
   double height;          ///< [m]
   double largest_element; ///< as PointPlace::element_size [m]
+  std::uint64_t n_cells;  ///< of all ranks; each needs one at least
 };
 
 /// Reads or makes the mesh. Throws InputError where it cannot be used: no quadrilaterals or hexahedra, inverted, a

@@ -16,16 +16,16 @@ template <int dim>
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
                        const EquilibriumParameters& equilibrium,
                        std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                       std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_volumes,
+                       std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_rves,
                        const std::uint64_t seed)
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
-  const std::uint64_t segments_a_volume = realisations.front()->n_segments();
+  const std::uint64_t segments_per_rve = realisations.front()->n_segments();
   parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations),
                                        std::move(weak_twins), seed),
-              segments_a_volume);
+              segments_per_rve);
   parts->record.seed = seed;
-  parts->record.specimen = of_volumes;
+  parts->record.specimen = of_rves;
 }
 
 SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
@@ -82,20 +82,20 @@ void SampleTest::write_fields(const std::filesystem::path& folder, const std::st
 }
 
 template <int dim>
-SampleVolume<dim> SampleTest::volume_at(const unsigned int cell, const unsigned int point) const
+SampleRve<dim> SampleTest::rve_at(const unsigned int cell, const unsigned int point) const
 {
   const std::size_t n = parts->body->n_points_per_cell();
   if (point >= n || cell >= parts->standing.n_points / n)
     throw InputError(fmt::format("there is no point {} in a cell {}: cells are 0 to {}, their points 0 to {}", point,
                                  cell, parts->standing.n_points / n - 1, n - 1));
-  return std::get<SampleVolume<dim>>(parts->body->volume(n * cell + point).value());
+  return std::get<SampleRve<dim>>(parts->body->rve(n * cell + point).value());
 }
 
 template <int dim>
-std::optional<SampleVolume<dim>> SampleTest::volume_here(const std::uint64_t number) const
+std::optional<SampleRve<dim>> SampleTest::rve_here(const std::uint64_t number) const
 {
-  const auto volume = parts->body->volume(number);
-  return volume ? std::optional(std::get<SampleVolume<dim>>(*volume)) : std::nullopt;
+  const auto rve = parts->body->rve(number);
+  return rve ? std::optional(std::get<SampleRve<dim>>(*rve)) : std::nullopt;
 }
 
 std::size_t SampleTest::n_points_per_cell() const { return parts->body->n_points_per_cell(); }
@@ -122,8 +122,8 @@ template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const 
 template SampleTest::SampleTest(const TestCase&, const SampleParameters&, const TestParameters&,
                                 const EquilibriumParameters&, std::vector<std::shared_ptr<const Network<3>>>,
                                 std::vector<std::shared_ptr<const Network<3>>>, const SpecimenReport&, std::uint64_t);
-template SampleVolume<2> SampleTest::volume_at<2>(unsigned int, unsigned int) const;
-template SampleVolume<3> SampleTest::volume_at<3>(unsigned int, unsigned int) const;
-template std::optional<SampleVolume<2>> SampleTest::volume_here<2>(std::uint64_t) const;
-template std::optional<SampleVolume<3>> SampleTest::volume_here<3>(std::uint64_t) const;
+template SampleRve<2> SampleTest::rve_at<2>(unsigned int, unsigned int) const;
+template SampleRve<3> SampleTest::rve_at<3>(unsigned int, unsigned int) const;
+template std::optional<SampleRve<2>> SampleTest::rve_here<2>(std::uint64_t) const;
+template std::optional<SampleRve<3>> SampleTest::rve_here<3>(std::uint64_t) const;
 } // namespace feldspar

@@ -2,7 +2,7 @@
 
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
-#include "coupling/sample/sample_volume.h"
+#include "coupling/sample/sample_rve.h"
 #include "dem/lab/parameters.h"
 #include "results/test_outcome.h"
 
@@ -26,9 +26,6 @@ struct SampleStanding
   std::uint64_t n_segments = 0; ///< of all points
 };
 
-/// Of the mesh; a rank needs one at least. Throws as measure().
-std::uint64_t n_cells(const SampleParameters& sample);
-
 /// A laboratory test on a sample of finite elements with a representative volume at every point; docs/theory.md
 /// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
@@ -38,13 +35,13 @@ std::uint64_t n_cells(const SampleParameters& sample);
 class SampleTest
 {
 public:
-  /// The volumes of `realisations`, of dimension_of_volumes(sample.geometry), are dealt to the points by the seed; to
+  /// The RVEs of `realisations`, of dimension_of_rves(sample.geometry), are dealt to the points by the seed; to
   /// those of the weak seed, where there is one, their weak twins.
   /// Throws InputError for a test that such a sample cannot make.
   template <int dim>
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<dim>>> realisations,
-             std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_volumes,
+             std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_rves,
              std::uint64_t seed);
   /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
@@ -65,11 +62,11 @@ public:
   /// At the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError
   /// where there is no such point, or no grains.
   template <int dim>
-  SampleVolume<dim> volume_at(unsigned int cell, unsigned int point) const;
+  SampleRve<dim> rve_at(unsigned int cell, unsigned int point) const;
   /// The same of a point by its number, as cracks name it; none where it is another rank's. Not collective; there are
   /// grains.
   template <int dim>
-  std::optional<SampleVolume<dim>> volume_here(std::uint64_t number) const;
+  std::optional<SampleRve<dim>> rve_here(std::uint64_t number) const;
   std::size_t n_points_per_cell() const;
 
   /// Adds the present fields to a time series for ParaView.

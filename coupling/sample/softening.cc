@@ -18,21 +18,21 @@ double total_energy(const fem::MaterialPoint<dim>& point)
 } // namespace
 
 template <int dim>
-SofteningPoint<dim>::SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, const double its_scale)
-  : fem::ForwardingPoint<dim>(std::move(volume))
+SofteningPoint<dim>::SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> rve, const double its_scale)
+  : fem::ForwardingPoint<dim>(std::move(rve))
   , scale(its_scale)
   , compliance(inner->trial(Voigt<dim>::Zero()).tangent.inverse())
 {
 }
 
 template <int dim>
-Voigt<dim> SofteningPoint<dim>::residual(const Voigt<dim>& strain, const Voigt<dim>& volume_strain,
+Voigt<dim> SofteningPoint<dim>::residual(const Voigt<dim>& strain, const Voigt<dim>& rve_strain,
                                          const Voigt<dim>& stress) const
 {
-  return volume_strain - scale * strain - (1.0 - scale) * (compliance * stress + at_work.inelastic_strain);
+  return rve_strain - scale * strain - (1.0 - scale) * (compliance * stress + at_work.inelastic_strain);
 }
 
-/// Newton's method on the strain of the volume, bonds frozen. C is at most C_0, so the gradient lies between κ and 1.
+/// Newton's method on the strain of the RVE, bonds frozen. C is at most C_0, so the gradient lies between κ and 1.
 /// One step at least: what is left of the tolerance from where the search began would stay, however the strain is refined.
 template <int dim>
 auto SofteningPoint<dim>::find(const Voigt<dim>& strain) const -> const Found&
@@ -42,19 +42,19 @@ auto SofteningPoint<dim>::find(const Voigt<dim>& strain) const -> const Found&
   if (!at_work.localised || scale == 1.0)
     return found.emplace(Found{strain, strain, inner->trial(strain)});
 
-  constexpr double tolerance = 1e-7; // of the strain; the stresses of a volume are known to some 1e-6
+  constexpr double tolerance = 1e-7; // of the strain; the stresses of an RVE are known to some 1e-6
   constexpr int most_iterations = 30;
   Voigt<dim> at = nearby;
-  auto answer = inner->trial(at);
-  Voigt<dim> missing = residual(strain, at, answer.stress);
+  auto response = inner->trial(at);
+  Voigt<dim> missing = residual(strain, at, response.stress);
   for (int k = 0; k < most_iterations; ++k)
     {
       if (k > 0 && missing.norm() <= tolerance * std::max(at.norm(), strain.norm()))
         {
           nearby = at;
-          return found.emplace(Found{strain, at, std::move(answer)});
+          return found.emplace(Found{strain, at, std::move(response)});
         }
-      const Voigt<dim> step = gradient(answer.tangent).partialPivLu().solve(missing);
+      const Voigt<dim> step = gradient(response.tangent).partialPivLu().solve(missing);
       double share = 1.0;
       for (;; share *= 0.5) // faces that open, close and slide make kinks
         {
@@ -64,24 +64,24 @@ auto SofteningPoint<dim>::find(const Voigt<dim>& strain) const -> const Found&
           if (left.norm() < missing.norm() || share < 0.1)
             {
               at = next;
-              answer = std::move(there);
+              response = std::move(there);
               missing = left;
               break;
             }
         }
     }
-  throw fem::PointFailure("no strain of a softening volume fits that of its element");
+  throw fem::PointFailure("no strain of a softening RVE fits that of its element");
 }
 
 template <int dim>
-fem::MaterialAnswer<dim> SofteningPoint<dim>::trial(const Voigt<dim>& strain) const
+fem::MaterialResponse<dim> SofteningPoint<dim>::trial(const Voigt<dim>& strain) const
 {
   const Found& at = find(strain);
   if (!at_work.localised || scale == 1.0)
-    return at.answer;
+    return at.response;
   // dσ/dε = C (I - (1 - κ) S_0 C)⁻¹ κ
-  const auto& C = at.answer.tangent;
-  return {at.answer.stress, scale * C * gradient(C).inverse()};
+  const auto& C = at.response.tangent;
+  return {at.response.stress, scale * C * gradient(C).inverse()};
 }
 
 template <int dim>
@@ -93,20 +93,20 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
       if (n_events > 0)
         {
           found.reset();
-          look_whether_localised(strain, find(strain).answer.stress);
+          look_whether_localised(strain, find(strain).response.stress);
         }
       return n_events;
     }
   std::size_t n_events = 0;
-  Voigt<dim> at = find(strain).volume_strain;
-  Stiffness<dim> tangent = found->answer.tangent; // one event changes it little
+  Voigt<dim> at = find(strain).rve_strain;
+  Stiffness<dim> tangent = found->response.tangent; // one event changes it little
   bool relation_holds = true;
   std::optional<Held> first;
   std::optional<Held> last;
   for (;;)
     {
       const bool had_localised = at_work.localised;
-      const Voigt<dim> stress_before = found ? found->answer.stress : Voigt<dim>::Zero();
+      const Voigt<dim> stress_before = found ? found->response.stress : Voigt<dim>::Zero();
       const auto events = inner->relax_once(at);
       n_events += events.n;
       if (events.n == 0 && relation_holds)
@@ -136,23 +136,22 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
         }
       else
         {
-          at = find(strain).volume_strain;
-          tangent = found->answer.tangent;
+          at = find(strain).rve_strain;
+          tangent = found->response.tangent;
           relation_holds = true;
         }
     }
 }
 
-/// What the scaled energies of the piece would gain between two states at one of its strains: those of the volume do, along
+/// What the scaled energies of the piece would gain between two states at one of its strains: those of the RVE do, along
 /// a straight way from its last event, and count 1/κ times but for the elastic one.
 template <int dim>
 double SofteningPoint<dim>::gained(const Held& first, const Held& last, const Found& now) const
 {
-  const Voigt<dim>& stress = now.answer.stress;
-  const double of_volume =
-    last.energy - first.energy + 0.5 * (last.stress + stress).dot(now.volume_strain - last.volume_strain);
+  const Voigt<dim>& stress = now.response.stress;
+  const double of_rve = last.energy - first.energy + 0.5 * (last.stress + stress).dot(now.rve_strain - last.rve_strain);
   const double elastic = elastic_energy(stress) - elastic_energy(first.stress);
-  return elastic + (of_volume - elastic) / scale;
+  return elastic + (of_rve - elastic) / scale;
 }
 
 template <int dim>
@@ -172,10 +171,10 @@ template <int dim>
 void SofteningPoint<dim>::accept(const Voigt<dim>& strain)
 {
   const Found at = find(strain);
-  inner->accept(at.volume_strain);
+  inner->accept(at.rve_strain);
   at_work.strain = strain;
-  at_work.volume_strain = nearby = at.volume_strain;
-  at_work.stress = at.answer.stress;
+  at_work.rve_strain = nearby = at.rve_strain;
+  at_work.stress = at.response.stress;
   accepted = at_work;
   found.reset();
 }
@@ -185,7 +184,7 @@ void SofteningPoint<dim>::reject()
 {
   inner->reject();
   at_work = accepted;
-  nearby = accepted.volume_strain;
+  nearby = accepted.rve_strain;
   found.reset();
 }
 
@@ -193,13 +192,13 @@ template <int dim>
 struct SofteningPoint<dim>::Stored
 {
   State state;
-  std::string volume;
+  std::string rve;
 
   template <typename Archive>
   friend void transfer(Archive& archive, Stored& stored)
   {
     auto& state = stored.state;
-    for (auto* const columns : {&state.strain, &state.volume_strain, &state.stress, &state.inelastic_strain})
+    for (auto* const columns : {&state.strain, &state.rve_strain, &state.stress, &state.inelastic_strain})
       for (double& component : *columns)
         archive.value("strains_and_stress", component);
     transfer_flag(archive, "localised", state.localised);
@@ -207,7 +206,7 @@ struct SofteningPoint<dim>::Stored
     archive.value("elastic_energy", state.elastic_energy);
     archive.value("elastic_strain", state.elastic_strain);
     archive.value("gained_while_held", state.gained_while_held);
-    archive.text("volume", stored.volume);
+    archive.text("volume", stored.rve);
   }
 };
 
@@ -220,8 +219,8 @@ std::string SofteningPoint<dim>::stored() const
 template <int dim>
 void SofteningPoint<dim>::restore(const std::string& stored)
 {
-  auto [state, volume] = from_bytes<Stored>(stored);
-  inner->restore(volume);
+  auto [state, rve] = from_bytes<Stored>(stored);
+  inner->restore(rve);
   accepted = state;
   reject();
 }
@@ -252,12 +251,12 @@ std::optional<fem::PointEnergies> SofteningPoint<dim>::energies() const
 }
 
 template <int dim>
-fem::Material<dim> scaled_softening(const fem::Material<dim>& volumes, const double size)
+fem::Material<dim> scaled_softening(const fem::Material<dim>& rves, const double size)
 {
   fem::Material<dim> material;
-  material.field_names = volumes.field_names;
+  material.field_names = rves.field_names;
   material.field_names.push_back("localised_share");
-  material.make_point = [make = volumes.make_point,
+  material.make_point = [make = rves.make_point,
                          size](const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     return std::make_unique<SofteningPoint<dim>>(make(place), std::min(1.0, place.element_size / size));
   };

@@ -11,25 +11,25 @@
 
 namespace feldspar
 {
-/// A volume of one size as the material of a piece of the sample of another: a band of pieces dissipates per area as the
-/// volume does, whatever their size, as long as it breaks in steps. An avalanche does not: on three meshes of a granite
+/// An RVE of one size as the material of a piece of the sample of another: a band of pieces dissipates per area as the
+/// RVE does, whatever their size, as long as it breaks in steps. An avalanche does not: on three meshes of a granite
 /// the peaks agree within 1.5 %, the work after the peak does not; docs/theory.md §11.
 ///
-/// Until the point localises the strain of the volume is that of the piece. It localises where an event leaves it with
+/// Until the point localises the strain of the RVE is that of the piece. It localises where an event leaves it with
 /// dσ : dε < 0 since the last accepted step. From then on the strain beyond the elastic one is scaled,
 ///
-///     e - S_0 σ - ε_i0 = κ (ε - S_0 σ - ε_i0),        κ = size of the piece / size of the volume,
+///     e - S_0 σ - ε_i0 = κ (ε - S_0 σ - ε_i0),        κ = size of the piece / size of the RVE,
 ///
-/// with e the strain of the volume, ε that of the piece, S_0 the intact compliance and ε_i0 the inelastic strain when it
+/// with e the strain of the RVE, ε that of the piece, S_0 the intact compliance and ε_i0 the inelastic strain when it
 /// localised. The events that follow hold this relation.
 template <int dim>
 class SofteningPoint final : public fem::ForwardingPoint<dim>
 {
 public:
   /// scale: κ in (0, 1].
-  SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> volume, double scale);
+  SofteningPoint(std::unique_ptr<fem::MaterialPoint<dim>> rve, double scale);
 
-  fem::MaterialAnswer<dim> trial(const Voigt<dim>& strain) const override;
+  fem::MaterialResponse<dim> trial(const Voigt<dim>& strain) const override;
   std::size_t relax(const Voigt<dim>& strain) override;
   /// All events at once: the relation holds again only where they have ended.
   fem::PointEvents<dim> relax_once(const Voigt<dim>& strain) override
@@ -42,43 +42,43 @@ public:
   std::string stored() const override;
   void restore(const std::string& stored) override;
   /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
-  /// a break in a small volume may let the stress fall for a moment.
+  /// a break in a small RVE may let the stress fall for a moment.
   std::vector<double> fields() const override;
-  /// Of the piece: what the volume lost after it localised counts 1/κ times. While events run the piece stands still and
+  /// Of the piece: what the RVE lost after it localised counts 1/κ times. While events run the piece stands still and
   /// nothing works on it, so what its energies would gain then is taken from what breaks released; docs/theory.md §11.
   std::optional<fem::PointEnergies> energies() const override;
 
   bool has_localised() const { return at_work.localised; }
-  /// Of the volume, in the accepted state.
-  const Voigt<dim>& volume_strain() const { return accepted.volume_strain; }
+  /// Of the RVE, in the accepted state.
+  const Voigt<dim>& rve_strain() const { return accepted.rve_strain; }
 
 private:
   struct State
   {
     Voigt<dim> strain = Voigt<dim>::Zero();
-    Voigt<dim> volume_strain = Voigt<dim>::Zero();
+    Voigt<dim> rve_strain = Voigt<dim>::Zero();
     Voigt<dim> stress = Voigt<dim>::Zero();
     bool localised = false;
     Voigt<dim> inelastic_strain = Voigt<dim>::Zero(); ///< ε_i0
-    fem::PointEnergies energies{};                    ///< of the volume, when it localised
+    fem::PointEnergies energies{};                    ///< of the RVE, when it localised
     double elastic_energy = 0.0;                      ///< ½ σ S_0 σ then [J/m³]
     double elastic_strain = 0.0;                      ///< |S_0 σ| then
     double gained_while_held = 0.0;                   ///< by the scaled energies of the piece in its events [J/m³]
   };
   struct Stored;
 
-  /// A strain, where the volume is then, and what it answers.
+  /// A strain, where the RVE is then, and its response.
   struct Found
   {
     Voigt<dim> strain;
-    Voigt<dim> volume_strain;
-    fem::MaterialAnswer<dim> answer;
+    Voigt<dim> rve_strain;
+    fem::MaterialResponse<dim> response;
   };
 
-  /// The volume while the piece is held, at an event.
+  /// The RVE while the piece is held, at an event.
   struct Held
   {
-    Voigt<dim> volume_strain;
+    Voigt<dim> rve_strain;
     Voigt<dim> stress;
     double energy; ///< of the volume, stored and lost [J/m³]
   };
@@ -86,8 +86,8 @@ private:
   double elastic_energy(const Voigt<dim>& stress) const { return 0.5 * stress.dot(compliance * stress); }
   double gained(const Held& first, const Held& last, const Found& now) const;
   const Found& find(const Voigt<dim>& strain) const;
-  Voigt<dim> residual(const Voigt<dim>& strain, const Voigt<dim>& volume_strain, const Voigt<dim>& stress) const;
-  /// ∂residual/∂(strain of the volume).
+  Voigt<dim> residual(const Voigt<dim>& strain, const Voigt<dim>& rve_strain, const Voigt<dim>& stress) const;
+  /// ∂residual/∂(strain of the RVE).
   Stiffness<dim> gradient(const Stiffness<dim>& tangent) const
   {
     return Stiffness<dim>::Identity() - (1.0 - scale) * compliance * tangent;
@@ -100,11 +100,11 @@ private:
   State accepted;
   State at_work;                                  ///< but for strains and stress, which are those of the accepted one
   mutable std::optional<Found> found;             ///< with the structure at work
-  mutable Voigt<dim> nearby = Voigt<dim>::Zero(); ///< where the search for a strain of the volume begins
+  mutable Voigt<dim> nearby = Voigt<dim>::Zero(); ///< where the search for a strain of the RVE begins
 };
 
-/// The volumes of a material, of this size [m], at points whose elements may be smaller. Elements that are larger are
+/// The RVEs of a material, of this size [m], at points whose elements may be smaller. Elements that are larger are
 /// taken to be as large.
 template <int dim>
-fem::Material<dim> scaled_softening(const fem::Material<dim>& volumes, double size);
+fem::Material<dim> scaled_softening(const fem::Material<dim>& rves, double size);
 } // namespace feldspar

@@ -1,28 +1,73 @@
 #include "dem/dynamics/contact_stress.h"
 
 #include "dem/laws/flat_joint_law.h"
+#include "dem/specimen/rigid_groups.h"
 
 #include <cmath>
 
 namespace feldspar
 {
-template <int dim>
-Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls)
+namespace
 {
-  const auto& grains = body.grains;
-  Tensor<dim> sum = Tensor<dim>::Zero();
-  const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
-    sum -= force * (at<dim>(grains.position, two) - at<dim>(grains.position, one)).transpose();
-  };
+/// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each touch.
+template <int dim, class Add>
+void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
+{
   for (std::size_t j = 0; j < body.joints.size(); ++j)
     add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
+  for (const auto& joint : body.smooth_joints)
+    add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
   for (const auto& touch : touches.list())
-    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_1, touch.grain_2);
+    add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.force.data())), touch.grain_1, touch.grain_2);
+}
+
+/// Calls add(σV, grain) for each grain that a wall presses: the moment of the wall's force about the centre of the grain,
+/// or of its rigid group, in tension positive [N m].
+template <int dim, class Add>
+void for_each_wall_moment(const Specimen<dim>& body, const Walls<dim>& walls, const BodyCentres<dim>& centres,
+                          const Add& add)
+{
   walls.for_each_touch([&](const Wall& wall, const WallTouch<dim>& touch) {
     const Vector<dim> normal = wall_direction(body, wall, touch.grain);
     const double distance = std::abs(wall_coordinate(body, wall, touch.grain) - wall.position);
-    sum -= walls.stiffness(body, grains.radius[touch.grain]) * touch.overlap * distance * (normal * normal.transpose());
+    const double force = walls.stiffness(body, body.grains.radius[touch.grain]) * touch.overlap;
+    const Vector<dim> from_centre = at<dim>(body.grains.position, touch.grain) - centres.of(touch.grain);
+    add(Tensor<dim>(-(force * distance * (normal * normal.transpose())) +
+                    wall.side * force * normal * from_centre.transpose()),
+        touch.grain);
   });
+}
+
+/// All members of a group get the sums of their group.
+template <int dim>
+void share_among_members(const std::vector<std::uint32_t>& group, std::vector<Tensor<dim>>& stress,
+                         std::vector<double>& volume)
+{
+  std::vector<Tensor<dim>> stress_of(group.size(), Tensor<dim>::Zero());
+  std::vector<double> volume_of(group.size(), 0.0);
+  for (std::size_t i = 0; i < group.size(); ++i)
+    {
+      stress_of[group[i]] += stress[i];
+      volume_of[group[i]] += volume[i];
+    }
+  for (std::size_t i = 0; i < group.size(); ++i)
+    {
+      stress[i] = stress_of[group[i]];
+      volume[i] = volume_of[group[i]];
+    }
+}
+} // namespace
+
+template <int dim>
+Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls)
+{
+  const BodyCentres<dim> centres(body);
+  Tensor<dim> sum = Tensor<dim>::Zero();
+  const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
+    sum -= force * (centres.of(two) - centres.of(one)).transpose();
+  };
+  for_each_contact_force(body, touches, add);
+  for_each_wall_moment(body, walls, centres, [&](const Tensor<dim>& moment, std::size_t) { sum += moment; });
   return sum / body.volume();
 }
 
@@ -31,6 +76,7 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
 {
   const auto& grains = body.grains;
   std::vector<Tensor<dim>> stress(grains.size(), Tensor<dim>::Zero());
+  const BodyCentres<dim> centres(body);
   // f on grain 2, at the middle of the face: as far from grain 1 as `arm`.
   const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
     const Vector<dim> branch = at<dim>(grains.position, two) - at<dim>(grains.position, one);
@@ -38,20 +84,23 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
     const double arm = 0.5 * (distance + grains.radius[one] - grains.radius[two]);
     stress[one] -= force * branch.transpose() * (arm / distance);
     stress[two] -= force * branch.transpose() * (1.0 - arm / distance);
+    if (body.groups_are_rigid)
+      {
+        stress[one] -= force * (at<dim>(grains.position, one) - centres.of(one)).transpose();
+        stress[two] += force * (at<dim>(grains.position, two) - centres.of(two)).transpose();
+      }
   };
-  for (std::size_t j = 0; j < body.joints.size(); ++j)
-    add(at<dim>(body.joints.force, j), body.joints.grain_1[j], body.joints.grain_2[j]);
-  for (const auto& touch : touches.list())
-    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_1, touch.grain_2);
-  walls.for_each_touch([&](const Wall& wall, const WallTouch<dim>& touch) {
-    const Vector<dim> normal = wall_direction(body, wall, touch.grain);
-    const double distance = std::abs(wall_coordinate(body, wall, touch.grain) - wall.position);
-    stress[touch.grain] -=
-      walls.stiffness(body, grains.radius[touch.grain]) * touch.overlap * distance * (normal * normal.transpose());
-  });
+  for_each_contact_force(body, touches, add);
+  for_each_wall_moment(body, walls, centres,
+                       [&](const Tensor<dim>& moment, const std::size_t grain) { stress[grain] += moment; });
   const double solid_share = 1.0 - body.report.porosity;
+  std::vector<double> volume(grains.size());
   for (std::size_t i = 0; i < stress.size(); ++i)
-    stress[i] *= solid_share / grain_volume<dim>(grains.radius[i], body.thickness);
+    volume[i] = grain_volume<dim>(grains.radius[i], body.thickness);
+  if (body.groups_are_rigid)
+    share_among_members<dim>(body.groups, stress, volume);
+  for (std::size_t i = 0; i < stress.size(); ++i)
+    stress[i] *= solid_share / volume[i];
   return stress;
 }
 
@@ -59,30 +108,25 @@ template <int dim>
 Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images)
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
-  const auto add = [&](const Vector<dim>& force, const std::uint32_t two) {
+  const auto add = [&](const Vector<dim>& force, std::uint32_t, const std::uint32_t two) {
     if (two >= images.n_own())
       sum -= force * images.way_to(two).transpose();
   };
-  for (std::size_t j = 0; j < body.joints.size(); ++j)
-    add(at<dim>(body.joints.force, j), body.joints.grain_2[j]);
-  for (const auto& touch : touches.list())
-    add(Eigen::Map<const Vector<dim>>(touch.force.data()), touch.grain_2);
+  for_each_contact_force(body, touches, add);
   return sum / body.volume();
 }
 
 template <int dim>
 double force_across(const Specimen<dim>& body, const Touches<dim>& touches, const double height)
 {
-  const auto& y = body.grains.position[dim - 1];
+  const BodyCentres<dim> centres(body);
+  const auto& y = centres.all()[dim - 1];
   double sum = 0.0;
-  const auto add = [&](const double force, const std::uint32_t one, const std::uint32_t two) {
+  const auto add = [&](const Vector<dim>& force, const std::uint32_t one, const std::uint32_t two) {
     if ((y[one] < height) != (y[two] < height))
-      sum += y[two] < height ? -force : force;
+      sum += y[two] < height ? -force[dim - 1] : force[dim - 1];
   };
-  for (std::size_t j = 0; j < body.joints.size(); ++j)
-    add(body.joints.force[dim - 1][j], body.joints.grain_1[j], body.joints.grain_2[j]);
-  for (const auto& touch : touches.list())
-    add(touch.force[dim - 1], touch.grain_1, touch.grain_2);
+  for_each_contact_force(body, touches, add);
   return sum;
 }
 
@@ -90,9 +134,11 @@ template <int dim>
 double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches)
 {
   double sum = 0.0;
-  std::size_t n_contacts = body.joints.size();
+  std::size_t n_contacts = body.n_joints();
   for (std::size_t j = 0; j < body.joints.size(); ++j)
     sum += std::sqrt(squared_norm<dim>(body.joints.force, j));
+  for (const auto& joint : body.smooth_joints)
+    sum += Eigen::Map<const Vector<dim>>(joint.force.data()).norm();
   for (const auto& touch : touches.list())
     if (touch.touching)
       {

@@ -43,7 +43,7 @@ bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::
       {
         steps_allowed = std::min(steps_allowed, reach / (way_of_a_step + 2.0 * dt * std::abs(wall.velocity)));
         if (walls.way_since_search(w) > 0.5 * widest_gap - reach)
-          missed = missed || walls.smallest_gap_not_listed(body, w) < reach;
+          missed = missed || walls.smallest_gap_not_listed(body, n_own, w) < reach;
       }
   next_look = step + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_looks)));
   return missed;

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "dem/dynamics/contact_stress.h"
+#include "dem/dynamics/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
 #include <fmt/format.h>
@@ -36,9 +37,10 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , parameters(wanted)
   , zero_force(where)
   , images(body)
-  , grips(body.grains.size())
+  , groups(body)
+  , grips(bodies().size())
   , watch(body.grains)
-  , ledger(body.grains.size())
+  , ledger(bodies().size())
 {
   if (body.periodic)
     for (std::size_t j = 0; j < body.joints.size(); ++j)
@@ -47,19 +49,43 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
 }
 
 template <int dim>
-void Dynamics<dim>::push(const std::uint32_t grain, const Vector<dim>& more)
+std::size_t Dynamics<dim>::add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity)
 {
-  const double before = kinetic_energy(grain);
-  set<dim>(body.grains.velocity, grain, at<dim>(body.grains.velocity, grain) + more);
-  if (started)
-    ledger.kinetic_at_start += kinetic_energy(grain) - before;
+  if (!groups.empty())
+    {
+      std::vector<std::uint32_t> n_wanted(groups.size(), 0), n_members(groups.size(), 0);
+      for (const auto i : members)
+        ++n_wanted[groups.body_of(i)];
+      for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+        ++n_members[groups.body_of(i)];
+      members.clear();
+      for (std::uint32_t g = 0; g < groups.size(); ++g)
+        if (2 * n_wanted[g] > n_members[g])
+          members.push_back(g);
+      for (const auto g : members)
+        groups.bodies.spin.front()[g] = 0.0;
+    }
+  return grips.add(std::move(members), velocity, bodies());
 }
 
-/// Of a free grain at the last half step [J].
+template <int dim>
+void Dynamics<dim>::push(const std::uint32_t grain, const Vector<dim>& more)
+{
+  const std::uint32_t pushed = groups.empty() ? grain : groups.body_of(grain);
+  const double before = kinetic_energy(pushed);
+  if (groups.empty())
+    set<dim>(body.grains.velocity, grain, at<dim>(body.grains.velocity, grain) + more);
+  else
+    groups.push(body.grains, grain, more);
+  if (started)
+    ledger.kinetic_at_start += kinetic_energy(pushed) - before;
+}
+
+/// Of a free body at the last half step [J].
 template <int dim>
 double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 {
-  const auto& grains = body.grains;
+  const auto& grains = bodies();
   return grips.holds(i) ? 0.0
                         : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
                             0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
@@ -83,6 +109,7 @@ void Dynamics<dim>::apply_forces(const Components<dim>& forces)
     for (std::size_t i = 0; i < forces[c].size(); ++i)
       body.grains.force[c][i] += forces[c][i] - (applied_force[c].empty() ? 0.0 : applied_force[c][i]);
   applied_force = forces;
+  groups.gather(body.grains);
 }
 
 template <int dim>
@@ -92,7 +119,7 @@ std::vector<Break> Dynamics<dim>::step()
     start();
   else if (watch_is_over() || faces_have_gone)
     {
-      remove_torn_faces();
+      remove_lost_contacts();
       find_contacts();
       choose_time_step();
     }
@@ -143,7 +170,7 @@ void Dynamics<dim>::start()
   update_contacts(0.0);
   choose_time_step();
   previous_dt = 0.0; // the first kick is half a step
-  position_at_start = body.grains.position;
+  position_at_start = bodies().position;
   watch.begin_at(steps);
   started = true;
   const Energies initial = energies();
@@ -165,7 +192,7 @@ void Dynamics<dim>::number_joints()
 
 /// The grains of a joint that has lost its face may touch again.
 template <int dim>
-void Dynamics<dim>::remove_torn_faces()
+void Dynamics<dim>::remove_lost_contacts()
 {
   auto& joints = body.joints;
   std::vector<std::size_t> kept;
@@ -184,6 +211,16 @@ void Dynamics<dim>::remove_torn_faces()
           touches.add(touch);
         }
     }
+  // Their grains may have rolled into each other while the sides were open: they touch from where they stand.
+  for (const auto& [ends, energy] : remove_ended_smooth_joints(body))
+    {
+      ledger.slip_of_lost_contacts += energy;
+      Touch<dim> touch = make_touch(body, ends.first, ends.second);
+      touch.zero_distance =
+        std::min(touch.zero_distance,
+                 (at<dim>(body.grains.position, ends.second) - at<dim>(body.grains.position, ends.first)).norm());
+      touches.add(touch);
+    }
   if (kept.size() < joints.size())
     {
       joints.keep(kept);
@@ -199,14 +236,14 @@ void Dynamics<dim>::find_contacts()
   if (body.periodic)
     images.add_within(watch.skin(), body.grains);
   touches.search(body, images, joints_of, watch.skin(), zero_force, ledger);
-  wall_set.search(body, watch.skin(), zero_force, ledger);
+  wall_set.search(body, images.n_own(), watch.skin(), zero_force, ledger);
   watch.note_search(body.grains);
 }
 
 template <int dim>
 void Dynamics<dim>::choose_time_step()
 {
-  const double largest = largest_stiffness_over_inertia(body, images.n_own(), joints_of, touches, wall_set);
+  const double largest = largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set);
   dt = parameters.time_step_safety / std::sqrt(largest);
   if (!(std::isnormal(dt) && current_time + dt > current_time))
     throw Runaway(
@@ -241,7 +278,7 @@ Circumstances Dynamics<dim>::circumstances() const
     fastest = std::max(fastest, std::abs(wall.velocity));
   for (std::size_t g = 0; g < grips.size(); ++g)
     fastest = std::max(fastest, grips.velocity(g).norm());
-  const double largest = largest_stiffness_over_inertia(body, images.n_own(), joints_of, touches, wall_set);
+  const double largest = largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set);
   return {steps, dt, dt * std::sqrt(largest), fastest,
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
@@ -249,9 +286,9 @@ Circumstances Dynamics<dim>::circumstances() const
 template <int dim>
 void Dynamics<dim>::integrate()
 {
-  auto& grains = body.grains;
+  auto& grains = bodies();
   const double kick = 0.5 * (previous_dt + dt);
-  // Of a pack of neighbouring grains, or of one.
+  // Of a pack of neighbouring grains or groups, or of one.
   const auto advance = [&]<typename Real>(Real, const std::size_t i, const Real& force,
                                           const std::vector<double>& inertia, std::vector<double>& velocity) {
     const Real old_velocity = simd::load<Real>(&velocity[i]);
@@ -274,13 +311,14 @@ void Dynamics<dim>::integrate()
     for (int c = 0; c < n_rotations<dim>; ++c)
       advance(real, i, simd::load<Real>(&grains.couple[c][i]), grains.moment_of_inertia, grains.spin[c]);
   };
-  for_each_block(images.n_own(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
+  for_each_block(n_bodies(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
     std::size_t i = begin;
     for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
       advance_all(simd::Pack(), i);
     for (; i < end; ++i)
       advance_all(double(), i);
   });
+  groups.carry_members(body.grains, dt);
 }
 
 template <int dim>
@@ -289,6 +327,12 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
   auto breaks = sweep_joints(body.joints, body.grains, step, sweep_memory);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step) || contact_made;
   sum_forces(body, sum_order, touches);
+  if (!body.smooth_joints.empty())
+    {
+      const auto smooth_breaks = sweep_smooth_joints(body, step);
+      breaks.insert(breaks.end(), smooth_breaks.begin(), smooth_breaks.end());
+      add_smooth_forces(body);
+    }
   contact_made = wall_set.press(step, body) || contact_made;
   for (int c = 0; c < dim; ++c)
     for (std::size_t i = 0; i < applied_force[c].size(); ++i)
@@ -296,6 +340,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step)
         body.grains.force[c][i] += applied_force[c][i];
         ledger.boundary_work += step * applied_force[c][i] * body.grains.velocity[c][i];
       }
+  groups.gather(body.grains);
   return breaks;
 }
 
@@ -314,12 +359,12 @@ void Dynamics<dim>::add_boundary_work(const double step, const double share)
 template <int dim>
 Energies Dynamics<dim>::energies() const
 {
-  const auto& grains = body.grains;
+  const auto& grains = bodies();
   const auto& joints = body.joints;
   Energies sum;
   if (steps == 0 && !started)
     {
-      for (std::uint32_t i = 0; i < images.n_own(); ++i)
+      for (std::uint32_t i = 0; i < n_bodies(); ++i)
         sum.kinetic += kinetic_energy(i);
       sum.kinetic_at_start = sum.kinetic;
       return sum;
@@ -335,7 +380,7 @@ Energies Dynamics<dim>::energies() const
       sum.slip += joints.slip_energy[j];
       sum.strain += joint_energy(joints, j);
     }
-  sum = wall_set.added_to(touches.added_to(sum), body);
+  sum = with_smooth_joints(wall_set.added_to(touches.added_to(sum), body), body);
 
   // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
   const double kick = 0.5 * (previous_dt + dt);
@@ -344,7 +389,7 @@ Energies Dynamics<dim>::energies() const
     sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
     sum.damping -= 0.5 * damping_force * previous_dt * velocity;
   };
-  for (std::size_t i = 0; i < images.n_own(); ++i)
+  for (std::size_t i = 0; i < n_bodies(); ++i)
     {
       sum.damping += ledger.damping_work[i];
       sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
@@ -363,10 +408,10 @@ double Dynamics<dim>::unbalanced_force_ratio() const
 {
   double unbalanced = 0.0;
   std::size_t n_free = 0;
-  for (std::size_t i = 0; i < images.n_own(); ++i)
+  for (std::size_t i = 0; i < n_bodies(); ++i)
     if (!grips.holds(i))
       {
-        unbalanced += std::sqrt(squared_norm<dim>(body.grains.force, i));
+        unbalanced += std::sqrt(squared_norm<dim>(bodies().force, i));
         ++n_free;
       }
   const double carried = mean_contact_force(body, touches);
@@ -377,8 +422,8 @@ template <int dim>
 double Dynamics<dim>::largest_unbalanced_force_ratio() const
 {
   double largest = 0.0;
-  for (std::size_t i = 0; i < images.n_own(); ++i)
-    largest = std::max(largest, squared_norm<dim>(body.grains.force, i));
+  for (std::size_t i = 0; i < n_bodies(); ++i)
+    largest = std::max(largest, squared_norm<dim>(bodies().force, i));
   const double carried = mean_contact_force(body, touches);
   return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
 }
@@ -432,6 +477,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   all_of("applied_force", applied_force);
   all_of("position_at_start", position_at_start);
   images.transfer(archive, grains);
+  groups.transfer(archive);
 
   auto& joints = body.joints;
   archive.array("grain_1", joints.grain_1);
@@ -450,6 +496,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   pass_all("joint_couple_1", joints.couple_1);
   pass_all("joint_couple_2", joints.couple_2);
 
+  archive.bytes("smooth_joints", body.smooth_joints);
   touches.transfer(archive);
   wall_set.transfer(archive);
   watch.transfer(archive);

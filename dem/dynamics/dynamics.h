@@ -13,6 +13,7 @@
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
 #include "dem/dynamics/zero_force.h"
+#include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
@@ -35,11 +36,8 @@ public:
 
   /// Both before the first step; the number identifies the wall or grip.
   std::size_t add_wall(const Wall& wall) { return wall_set.add(wall); }
-  /// A set of grains that moves as one, without turning.
-  std::size_t add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity)
-  {
-    return grips.add(std::move(members), velocity, body.grains);
-  }
+  /// A set of grains that moves as one, without turning; of a rigid group it holds all or none, as most of them wish.
+  std::size_t add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity);
   /// Body acceleration [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }
 
@@ -83,7 +81,7 @@ public:
   /// Sum of the grains' pressure on a wall [N], compression positive.
   double wall_force(std::size_t wall) const { return wall_set.force(wall); }
   /// Sum of contact forces on a grip's grains [N].
-  Vector<dim> grip_force(const std::size_t grip) const { return grips.force(grip, body.grains); }
+  Vector<dim> grip_force(const std::size_t grip) const { return grips.force(grip, bodies()); }
 
   /// Since the start; kinetic energy and works centred at the current time, so that they balance (theory.md §2.3).
   Energies energies() const;
@@ -110,9 +108,13 @@ public:
 
 private:
   void start();
-  double kinetic_energy(std::uint32_t grain) const;
+  /// What moves: the rigid groups, or else the grains (and the images of these behind them).
+  const Grains<dim>& bodies() const { return groups.empty() ? body.grains : groups.bodies; }
+  Grains<dim>& bodies() { return groups.empty() ? body.grains : groups.bodies; }
+  std::size_t n_bodies() const { return groups.empty() ? images.n_own() : groups.size(); }
+  double kinetic_energy(std::uint32_t one_body) const;
   bool watch_is_over();
-  void remove_torn_faces();
+  void remove_lost_contacts();
   void number_joints();
   void find_contacts();
   void choose_time_step();
@@ -128,6 +130,7 @@ private:
   Components<dim> applied_force; ///< [N]; empty where none is
 
   Images<dim> images;
+  RigidGroups<dim> groups;
   Touches<dim> touches;
   Walls<dim> wall_set;
   Grips<dim> grips;
@@ -136,7 +139,7 @@ private:
   SweepMemory<dim> sweep_memory;
   ContactWatch<dim> watch;
   EnergyLedger ledger;
-  Components<dim> position_at_start;
+  Components<dim> position_at_start; ///< of the bodies
 
   bool started = false;
   bool contact_made = false;    ///< since the time step was chosen

@@ -24,14 +24,14 @@ struct Load
   std::array<double, n_rotations<dim>> couple;
 };
 
-/// What answers give a grain that are its joints' first grain, or their second. Answers are records that are added four
-/// numbers at a time; JointTables::answer has their order.
+/// What responses give a grain that are its joints' first grain, or their second. Responses are records that are added four
+/// numbers at a time; JointTables::response has their order.
 struct LoadInPlane
 {
   Four one{}, two{};
 
-  void add_as_one(const double* const answer) { one += simd::load_four(answer); }
-  void add_as_two(const double* const answer) { two += simd::load_four(answer); }
+  void add_as_one(const double* const response) { one += simd::load_four(response); }
+  void add_as_two(const double* const response) { two += simd::load_four(response); }
   Load<2> sum() const { return {{two[0] - one[0], two[1] - one[1]}, {one[2] + two[3]}}; }
 };
 
@@ -39,15 +39,15 @@ struct LoadInSpace
 {
   Four force_one{}, force_two{}, couple_one{}, couple_two{};
 
-  void add_as_one(const double* const answer)
+  void add_as_one(const double* const response)
   {
-    force_one += simd::load_four(answer);
-    couple_one += simd::load_four(answer + JointTables<3>::first_couple_1);
+    force_one += simd::load_four(response);
+    couple_one += simd::load_four(response + JointTables<3>::first_couple_1);
   }
-  void add_as_two(const double* const answer)
+  void add_as_two(const double* const response)
   {
-    force_two += simd::load_four(answer);
-    couple_two += simd::load_four(answer + JointTables<3>::first_couple_2 - 1); // the last four
+    force_two += simd::load_four(response);
+    couple_two += simd::load_four(response + JointTables<3>::first_couple_2 - 1); // the last four
   }
   Load<3> sum() const
   {
@@ -60,13 +60,13 @@ struct LoadInSpace
 template <int dim>
 Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
 {
-  constexpr std::size_t size = JointTables<dim>::n_answer_rows, ahead = 32;
-  const double* const answers = joints.answer.at(0, 0);
+  constexpr std::size_t size = JointTables<dim>::n_response_rows, ahead = 32;
+  const double* const responses = joints.response.at(0, 0);
   const std::uint32_t* const joint = order.joint.data();
   const std::uint32_t middle = order.first_as_one[place], end = order.first_as_two[place + 1];
-  // Answers lie far from each other: asked for some grains ahead.
+  // Responses lie far from each other: asked for some grains ahead.
   const auto ask = [&](const std::uint32_t e) {
-    const double* const later = answers + size * joint[std::min<std::size_t>(e + ahead, order.joint.size() - 1)];
+    const double* const later = responses + size * joint[std::min<std::size_t>(e + ahead, order.joint.size() - 1)];
     __builtin_prefetch(later);
     __builtin_prefetch(later + size - 1);
   };
@@ -74,12 +74,12 @@ Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, con
   for (std::uint32_t e = order.first_as_two[place]; e < middle; ++e)
     {
       ask(e);
-      load.add_as_two(answers + size * joint[e]);
+      load.add_as_two(responses + size * joint[e]);
     }
   for (std::uint32_t e = middle; e < end; ++e)
     {
       ask(e);
-      load.add_as_one(answers + size * joint[e]);
+      load.add_as_one(responses + size * joint[e]);
     }
   return load.sum();
 }
@@ -98,7 +98,7 @@ void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_
 SumOrder::SumOrder(const Incidence& joints_of)
   : grain(joints_of.first.size() - 1)
 {
-  // As many as keep their answers in the cache while they are gone through in this order.
+  // As many as keep their responses in the cache while they are gone through in this order.
   constexpr std::size_t n_neighbours = 64;
   const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
   const auto entries_of = [&](const std::uint32_t i) {

@@ -66,7 +66,7 @@ struct FaceBefore
 {
   std::array<Real, n_rotations<dim>> rotation;
   std::array<Real, dim - 1> slip;
-  decltype(Real() < Real()) is_whole; ///< all its bonds hold, and its law answers for it as for one
+  decltype(Real() < Real()) is_whole; ///< all its bonds hold, and its law responds for it as for one
 };
 
 /// The segments of one joint, or of a pack of neighbouring ones, in the tables of all joints.
@@ -105,7 +105,7 @@ struct StoredSegments
     if constexpr (Law::n_more > 0)
       for (std::size_t k = 0; k < Law::n_more; ++k)
         state.more[k] = simd::load<Real>(joints.more(k).pack(i, first));
-    if constexpr (AnswersAsOne<Law, dim, Real>)
+    if constexpr (RespondsAsOne<Law, dim, Real>)
       {
         const State whole = Law::whole_state(face, joints.elements[i], before.rotation, before.slip);
         for (int c = 0; c < dim - 1; ++c)
@@ -136,7 +136,7 @@ struct StoredSegments
   }
 };
 
-/// The segments one by one; a face whose bonds still hold all answers as one.
+/// The segments one by one; a face whose bonds still hold all responds as one.
 template <typename Real, typename Law, int dim>
 [[FELDSPAR_OF_ONE_PIECE, gnu::noinline]] FaceResultants<dim, Real> update_segments(
   const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const Face<Real>& face,
@@ -185,9 +185,9 @@ GrainMotion<dim, Real> gather(const SweepMemory<dim>& memory, const std::uint32_
     }
 }
 
-/// Asks for the answers of a pack some way on, to be written.
+/// Asks for the responses of a pack some way on, to be written.
 template <typename Real, std::size_t n_rows>
-void ask_for_answers(double* const here)
+void ask_for_responses(double* const here)
 {
   constexpr std::size_t n_numbers = n_rows * simd::width<Real>, line = 8;
   if constexpr (simd::width < Real >> 1)
@@ -195,17 +195,17 @@ void ask_for_answers(double* const here)
       __builtin_prefetch(here + packs_ahead * n_numbers + k, 1);
 }
 
-/// Joint by joint, as Joints<dim>::answer has them.
+/// Joint by joint, as Joints<dim>::response has them.
 template <typename Real>
-void store_answer(const ContactForce<2, Real>& answer, double* const to)
+void store_response(const ContactForce<2, Real>& response, double* const to)
 {
-  simd::store_records<Real>({answer.force[0], answer.force[1], answer.couple_1[0], answer.couple_2[0]}, to, 4);
+  simd::store_records<Real>({response.force[0], response.force[1], response.couple_1[0], response.couple_2[0]}, to, 4);
 }
 
 template <typename Real>
-void store_answer(const ContactForce<3, Real>& answer, double* const to)
+void store_response(const ContactForce<3, Real>& response, double* const to)
 {
-  const auto& [force, couple_1, couple_2] = answer;
+  const auto& [force, couple_1, couple_2] = response;
   simd::store_records<Real>({force[0], force[1], force[2], couple_1[0]}, to, 9);
   simd::store_records<Real>({couple_1[1], couple_1[2], couple_2[0], couple_2[1]}, to + 4, 9);
   for (std::size_t j = 0; j < simd::width<Real>; ++j)
@@ -265,7 +265,7 @@ template <typename Real, typename Law, int dim>
   const Face<Real> face{rows.take(Row::normal_stiffness), rows.take(Row::shear_stiffness), rows.take(Row::half_length),
                         joints.thickness, joints.friction};
   FaceResultants<dim, Real> resultants;
-  if constexpr (AnswersAsOne<Law, dim, Real>)
+  if constexpr (RespondsAsOne<Law, dim, Real>)
     {
       const RowsOfPack<Real, SweepMemory<dim>::n_weakest> weakest{memory.weakest.at(0, j)};
       const Bond<Real> least{weakest.take(memory.tensile_strength), weakest.take(memory.cohesion),
@@ -280,10 +280,10 @@ template <typename Real, typename Law, int dim>
   else
     resultants =
       update_segments<Real>(law, joints, memory, face, motion, before, FaceResultants<dim, Real>{}, j, breaks);
-  ask_for_answers<Real, JointTables<dim>::n_answer_rows>(joints.answer.at(0, j));
-  store_answer(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
-                          resultants.moment),
-               joints.answer.at(0, j));
+  ask_for_responses<Real, JointTables<dim>::n_response_rows>(joints.response.at(0, j));
+  store_response(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
+                            resultants.moment),
+                 joints.response.at(0, j));
 }
 
 /// x, y, φ, or x, y, z, -, φ_x, φ_y, φ_z, - of every grain.
@@ -342,7 +342,7 @@ typename Law::template State<double> segment_state(const Law&, const Joints<dim>
   if constexpr (Law::n_more > 0)
     for (std::size_t k = 0; k < Law::n_more; ++k)
       state.more[k] = *joints.more_state.at(i * Law::n_more + k, j);
-  if constexpr (AnswersAsOne<Law, dim, double>)
+  if constexpr (RespondsAsOne<Law, dim, double>)
     if (joints.holds_wholly(j))
       {
         std::array<double, n_rotations<dim>> rotation;

@@ -9,18 +9,35 @@
 namespace feldspar
 {
 template <int dim>
-double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size_t n_own, const Incidence& joints_of,
-                                      const Touches<dim>& touches, const Walls<dim>& walls)
+double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGroups<dim>& groups,
+                                      const std::size_t n_own, const Incidence& joints_of, const Touches<dim>& touches,
+                                      const Walls<dim>& walls)
 {
   const auto& grains = body.grains;
   const auto& joints = body.joints;
   const Incidence& touches_of = touches.incidence();
+  const Grains<dim>& bodies = groups.empty() ? grains : groups.bodies;
+  const std::size_t n_bodies = groups.empty() ? n_own : groups.size();
   Components<dim> k;
-  resize<dim>(k, n_own);
+  resize<dim>(k, n_bodies);
   Components<n_rotations<dim>> k_turning;
-  resize<n_rotations<dim>>(k_turning, n_own);
-  const auto add = [&](const std::uint32_t i, const auto& normal, const double k_n, const double k_s, const double arm,
-                       const double k_bending, const double k_twist) {
+  resize<n_rotations<dim>>(k_turning, n_bodies);
+  // At `arm` from the centre of a grain along the normal; negative: against it.
+  const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
+                       const double arm, const double k_bending, const double k_twist) {
+    std::uint32_t i = grain;
+    if constexpr (dim == 2)
+      if (!groups.empty())
+        {
+          // Turning a group moves the contact across its arm from the centre of the group, which does not lie along the
+          // normal.
+          i = groups.body_of(grain);
+          const Vector<2> from_centre =
+            at<2>(grains.position, grain) - at<2>(bodies.position, i) + arm * Vector<2>(normal[0], normal[1]);
+          const double along = from_centre[0] * normal[0] + from_centre[1] * normal[1];
+          const double across = from_centre[1] * normal[0] - from_centre[0] * normal[1];
+          k_turning[0][i] += (k_n * across * across + k_s * along * along) - k_s * arm * arm;
+        }
     for (int c = 0; c < dim; ++c)
       k[c][i] += k_n * normal[c] * normal[c] + k_s * (1.0 - normal[c] * normal[c]);
     for (int c = 0; c < n_rotations<dim>; ++c)
@@ -38,8 +55,8 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
             const bool is_second = joints_of.entries[e] % 2;
             const FaceSprings springs = law.stiffest(joints.face(j));
             const auto a = arms(joints.rest_distance[j] + joints.opening[j], joints.half_radius_difference[j]);
-            add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? a.two : a.one, springs.bending,
-                springs.twist);
+            add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? -a.two : a.one,
+                springs.bending, springs.twist);
           }
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
           {
@@ -49,28 +66,44 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
               continue;
             const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
             const auto a = arms(touch.frame.distance, touch.half_radius_difference);
-            add(i, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? a.two : a.one, 0.0, 0.0);
+            add(i, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
           }
       }
   };
-  for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    std::visit([&](const auto& law) { add_contacts(law, begin, end); }, joints.law);
-  });
+  if (groups.empty())
+    for_each_block(n_own, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+      std::visit([&](const auto& law) { add_contacts(law, begin, end); }, joints.law);
+    });
+  else // members of one group may be of several blocks
+    std::visit([&](const auto& law) { add_contacts(law, 0, n_own); }, joints.law);
+  for (const SmoothJoint<dim>& joint : body.smooth_joints)
+    for (const std::uint32_t i : {joint.grain_1, joint.grain_2})
+      {
+        const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
+        const double share = share_of_grain_1(joint, branch);
+        const double arm = (i == joint.grain_1 ? share : 1.0 - share) * branch.norm();
+        // Turning moves the sides across the line of centres, whichever way that lies to the plane.
+        const double turning =
+          joint.area * arm * arm * std::max(joint.face.normal_stiffness, joint.face.shear_stiffness);
+        add(i, joint.normal, joint.area * joint.face.normal_stiffness, joint.area * joint.face.shear_stiffness, 0.0,
+            turning, turning);
+      }
   walls.for_each_touch([&](const Wall& wall, const WallTouch<dim>& touch) {
     if (!(touch.overlap > 0.0))
       return;
     const double k_n = walls.stiffness(body, grains.radius[touch.grain]);
     const double k_s = wall.friction > 0.0 ? k_n / body.particle_contact.stiffness_ratio : 0.0;
-    add(touch.grain, wall_direction(body, wall, touch.grain), k_n, k_s, touch.zero_distance - touch.overlap, 0.0, 0.0);
+    add(touch.grain, wall_direction(body, wall, touch.grain), k_n, k_s,
+        -wall.side * (touch.zero_distance - touch.overlap), 0.0, 0.0);
   });
 
   double largest = 0.0;
-  for (std::size_t i = 0; i < n_own; ++i)
+  for (std::size_t i = 0; i < n_bodies; ++i)
     {
       for (int c = 0; c < dim; ++c)
-        largest = std::max(largest, k[c][i] / grains.mass[i]);
+        largest = std::max(largest, k[c][i] / bodies.mass[i]);
       for (int c = 0; c < n_rotations<dim>; ++c)
-        largest = std::max(largest, k_turning[c][i] / grains.moment_of_inertia[i]);
+        largest = std::max(largest, k_turning[c][i] / bodies.moment_of_inertia[i]);
     }
   if (largest == 0.0)
     for (std::size_t i = 0; i < n_own; ++i)
@@ -82,8 +115,8 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const std::size
   return largest;
 }
 
-template double largest_stiffness_over_inertia<2>(const Specimen<2>&, std::size_t, const Incidence&, const Touches<2>&,
-                                                  const Walls<2>&);
-template double largest_stiffness_over_inertia<3>(const Specimen<3>&, std::size_t, const Incidence&, const Touches<3>&,
-                                                  const Walls<3>&);
+template double largest_stiffness_over_inertia<2>(const Specimen<2>&, const RigidGroups<2>&, std::size_t,
+                                                  const Incidence&, const Touches<2>&, const Walls<2>&);
+template double largest_stiffness_over_inertia<3>(const Specimen<3>&, const RigidGroups<3>&, std::size_t,
+                                                  const Incidence&, const Touches<3>&, const Walls<3>&);
 } // namespace feldspar

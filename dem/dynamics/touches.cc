@@ -23,6 +23,22 @@ Touch<dim> make_touch(const Specimen<dim>& body, const std::uint32_t grain_1, co
   return touch;
 }
 
+namespace
+{
+/// Whether a smooth plane lies between them, along which they pass over one another, or they are of one rigid body.
+template <int dim>
+bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
+{
+  const auto& joints = body.smooth_joints;
+  const auto found =
+    std::lower_bound(joints.begin(), joints.end(), pair,
+                     [](const SmoothJoint<dim>& joint, const GrainPair& wanted) { return joint.ends() < wanted; });
+  return (body.groups_are_rigid && body.groups[pair.first] == body.groups[pair.second]) ||
+         (found != joints.end() && found->ends() == pair) ||
+         std::binary_search(body.kept_apart.begin(), body.kept_apart.end(), pair);
+}
+} // namespace
+
 /// Where a pair stands, or would stand.
 template <int dim>
 auto Touches<dim>::find(const GrainPair& pair) const
@@ -74,6 +90,8 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
       if (jointed_to[two] == one)
         continue;
       const GrainPair pair(one, two);
+      if (never_touch(body, pair))
+        continue;
       if (const auto known = find(pair); known != touches.end() && known->ends() == pair)
         found.push_back(*known);
       else
@@ -157,11 +175,11 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         touch.normal_force = response.normal_force;
         touch.shear_force = response.shear_force;
         touch.slip_energy += response.slip_energy;
-        const auto answer = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
-                                          response.shear_force, std::array<double, n_rotations<dim>>{});
-        touch.force = answer.force;
-        touch.couple_1 = answer.couple_1;
-        touch.couple_2 = answer.couple_2;
+        const auto on_grains = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
+                                             response.shear_force, std::array<double, n_rotations<dim>>{});
+        touch.force = on_grains.force;
+        touch.couple_1 = on_grains.couple_1;
+        touch.couple_2 = on_grains.couple_2;
       }
   });
   touching_ones.clear();

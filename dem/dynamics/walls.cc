@@ -122,7 +122,8 @@ double Walls<dim>::stiffness_in_touch(const Specimen<dim>& body, const std::size
 }
 
 template <int dim>
-void Walls<dim>::search(const Specimen<dim>& body, const double skin, const ZeroForce zero_force, EnergyLedger& ledger)
+void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, const double skin,
+                        const ZeroForce zero_force, EnergyLedger& ledger)
 {
   const auto& radius = body.grains.radius;
   for (std::size_t w = 0; w < walls.size(); ++w)
@@ -130,7 +131,7 @@ void Walls<dim>::search(const Specimen<dim>& body, const double skin, const Zero
       const auto& before = touches[w]; // ascending, as `near` will be
       auto known = before.begin();
       std::vector<WallTouch<dim>> near;
-      for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+      for (std::uint32_t i = 0; i < n_own; ++i)
         {
           const double distance = distance_from(body, walls[w], i);
           if (distance > radius[i] + skin || !is_above(body, walls[w], i))
@@ -168,11 +169,12 @@ double Walls<dim>::way_since_search(const std::size_t wall) const
 }
 
 template <int dim>
-double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std::size_t wall) const
+double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std::size_t n_own,
+                                           const std::size_t wall) const
 {
   double smallest = std::numeric_limits<double>::max();
   auto listed = touches[wall].begin(); // in the order of the grains
-  for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+  for (std::uint32_t i = 0; i < n_own; ++i)
     if (listed != touches[wall].end() && listed->grain == i)
       ++listed;
     else if (is_above(body, walls[wall], i) && !is_past(body, walls[wall], i))

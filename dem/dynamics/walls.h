@@ -91,14 +91,14 @@ public:
         visit(walls[w], touch);
   }
 
-  /// Notes the grains within `skin` [m] of each wall.
-  void search(const Specimen<dim>& body, double skin, ZeroForce zero_force, EnergyLedger& ledger);
+  /// Notes the grains within `skin` [m] of each wall; images, which stand behind the body's own, are none of them.
+  void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
   /// Forgets them.
   void clear();
   /// How far a wall has gone since the last search [m].
   double way_since_search(std::size_t wall) const;
   /// Of the gaps between a wall and the grains that were not near it at the last search, the smallest [m].
-  double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t wall) const;
+  double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t n_own, std::size_t wall) const;
 
   void move(const double dt)
   {

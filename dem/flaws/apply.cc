@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/input_error.h"
+#include "dem/flaws/smooth_planes.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <numbers>
 #include <utility>
 
 namespace feldspar
@@ -32,6 +33,8 @@ struct Effect
 {
   std::function<bool(const Vector<dim>&)> takes_out;
   std::function<bool(const Vector<dim>&, const Vector<dim>&)> cuts;
+  /// Of a closed flaw, where it cuts, the normal of its plane there.
+  std::function<Vector<dim>(const Vector<dim>&, const Vector<dim>&)> normal = {};
 };
 
 template <int dim>
@@ -84,12 +87,22 @@ Effect<dim> effect_of(const Slot& slot)
 template <int dim>
 Effect<dim> effect_of(const ClosedFlaw& flaw)
 {
+  // The part of the line that is met first in its order; as many as parts where none is.
+  const auto part_across = [=](const Vector<dim>& a, const Vector<dim>& b) {
+    std::size_t k = 0;
+    while (k + 1 < flaw.points.size() && !cross(in_plane<dim>(a), in_plane<dim>(b), flaw.points[k], flaw.points[k + 1]))
+      ++k;
+    return k;
+  };
   return {[](const Vector<dim>&) { return false; },
+          [=](const Vector<dim>& a, const Vector<dim>& b) { return part_across(a, b) + 1 < flaw.points.size(); },
           [=](const Vector<dim>& a, const Vector<dim>& b) {
-            for (std::size_t k = 0; k + 1 < flaw.points.size(); ++k)
-              if (cross(in_plane<dim>(a), in_plane<dim>(b), flaw.points[k], flaw.points[k + 1]))
-                return true;
-            return false;
+            const std::size_t k = part_across(a, b);
+            const Vector<2> along = (flaw.points[k + 1] - flaw.points[k]).normalized();
+            Vector<dim> normal = Vector<dim>::Zero();
+            normal[0] = -along[1];
+            normal[dim - 1] = along[0];
+            return normal;
           }};
 }
 
@@ -108,6 +121,12 @@ Effect<dim> effect_of(const DiscFlaw& disc)
               }
             else
               return false;
+          },
+          [=](const Vector<dim>&, const Vector<dim>&) {
+            if constexpr (dim == 3)
+              return disc.normal;
+            else
+              return Vector<dim>(Vector<dim>::Zero());
           }};
 }
 
@@ -143,6 +162,8 @@ DisjointSets pieces(const Specimen<dim>& specimen)
   DisjointSets sets(specimen.grains.size());
   for (std::size_t j = 0; j < specimen.joints.size(); ++j)
     sets.merge(specimen.joints.grain_1[j], specimen.joints.grain_2[j]);
+  for (const auto& joint : specimen.smooth_joints)
+    sets.merge(joint.grain_1, joint.grain_2);
   return sets;
 }
 
@@ -168,8 +189,8 @@ void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
     if (!dropped[j])
       kept.push_back(j);
   specimen.joints.keep(kept);
-  specimen.report.n_joints = specimen.joints.size();
-  specimen.report.coordination_number = 2.0 * double(specimen.joints.size()) / double(specimen.grains.size());
+  specimen.report.n_joints = specimen.n_joints();
+  specimen.report.coordination_number = 2.0 * double(specimen.n_joints()) / double(specimen.grains.size());
 }
 
 /// Takes grains and faces out; what hung together with the body and is left alone goes too where it is a crumb.
@@ -232,8 +253,51 @@ void unbond(Specimen<dim>& specimen, const Effect<dim>& effect, Flaw<dim>& flaw)
       }
 }
 
+/// Of the plane of a closed flaw within the specimen [m²].
 template <int dim>
-void put_in(Specimen<dim>& specimen, const Shape& shape)
+double area_of(const Shape& shape, const Specimen<dim>& specimen)
+{
+  if (const auto* disc = std::get_if<DiscFlaw>(&shape))
+    return std::numbers::pi * disc->radius * disc->radius;
+  const std::vector<Vector<2>> points = outline(shape);
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    length += (points[k + 1] - points[k]).norm();
+  return length * (dim == 2 ? specimen.thickness : specimen.size[1]);
+}
+
+/// The faces that it crosses share its area; beside it no grain hooks on another.
+template <int dim>
+void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>& effect, const SmoothSides& sides,
+                 const SmoothJointParameters& all, Flaw<dim>& flaw)
+{
+  if (specimen.periodic)
+    throw InputError("has smooth joints, which a periodic specimen cannot have; leave out its word smooth");
+  const SmoothJointParameters wanted = sides.among(all);
+  if (const std::string what = objection(wanted); !what.empty())
+    throw InputError(what);
+  const auto& joints = specimen.joints;
+  const std::vector<bool> cut = joints_cut(specimen, effect);
+  std::vector<SmoothPlace<dim>> places;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (cut[j])
+      {
+        const Vector<dim> one = at<dim>(specimen.grains.position, joints.grain_1[j]);
+        const Vector<dim> two = at<dim>(specimen.grains.position, joints.grain_2[j]);
+        places.push_back({j, effect.normal(one, two), joints.face_area(j)});
+        sum += places.back().area;
+      }
+  if (!specimen.round) // of a cylinder the faces keep their own areas
+    for (auto& place : places)
+      place.area *= area_of(shape, specimen) / sum;
+  flaw.n_joints = places.size();
+  put_smooth_joints(specimen, places, wanted, sides.are_bonded());
+  keep_apart<dim>(specimen, effect.cuts);
+}
+
+template <int dim>
+void put_in(Specimen<dim>& specimen, const Shape& shape, const SmoothJointParameters& smooth)
 {
   Flaw<dim> flaw{std::string(name(shape)), is_open(shape), {}, 0, 0};
   for (const Vector<2>& point : outline(shape))
@@ -246,6 +310,8 @@ void put_in(Specimen<dim>& specimen, const Shape& shape)
   const auto effect = std::visit([](const auto& one) { return effect_of<dim>(one); }, shape);
   if (flaw.open)
     open(specimen, effect, std::holds_alternative<Slot>(shape), flaw);
+  else if (const SmoothSides* sides = smooth_sides(shape))
+    make_smooth(specimen, shape, effect, *sides, smooth, flaw);
   else
     unbond(specimen, effect, flaw);
   specimen.flaws.push_back(std::move(flaw));
@@ -258,7 +324,7 @@ std::string title(const std::vector<Shape>& shapes, const std::size_t k)
 } // namespace
 
 template <int dim>
-void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes)
+void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, const SmoothJointParameters& smooth)
 {
   if (shapes.empty())
     return;
@@ -272,7 +338,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes)
             std::uint64_t n_joints = 0;
             for (const ClosedFlaw& flaw : traces(*set, in_plane<dim>(specimen.size)))
               {
-                put_in(specimen, Shape(flaw));
+                put_in(specimen, Shape(flaw), smooth);
                 specimen.flaws.back().name = JointSet::name;
                 n_joints += specimen.flaws.back().n_joints;
               }
@@ -281,7 +347,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes)
           }
         else
           {
-            put_in(specimen, shapes[k]);
+            put_in(specimen, shapes[k], smooth);
             if (const auto& flaw = specimen.flaws.back(); !flaw.open && flaw.n_joints == 0)
               throw InputError("crosses no joint: it is smaller than the grains, or lies between them");
           }
@@ -291,7 +357,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes)
         throw InputError(fmt::format("Flaws: {}: {}", title(shapes, k), error.what()));
       }
   // Numbers of joints are places in lists; those of the ones taken out are free.
-  std::iota(specimen.joints.number.begin(), specimen.joints.number.end(), 0u);
+  number_joints(specimen);
 }
 
 template <int dim>
@@ -303,8 +369,8 @@ std::string objection(const std::vector<Shape>& shapes, const Vector<dim>& size)
   return "";
 }
 
-template void put_in_flaws<2>(Specimen<2>&, const std::vector<Shape>&);
-template void put_in_flaws<3>(Specimen<3>&, const std::vector<Shape>&);
+template void put_in_flaws<2>(Specimen<2>&, const std::vector<Shape>&, const SmoothJointParameters&);
+template void put_in_flaws<3>(Specimen<3>&, const std::vector<Shape>&, const SmoothJointParameters&);
 template std::string objection<2>(const std::vector<Shape>&, const Vector<2>&);
 template std::string objection<3>(const std::vector<Shape>&, const Vector<3>&);
 } // namespace feldspar

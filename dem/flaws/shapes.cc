@@ -80,6 +80,31 @@ std::string_view name(const Shape& shape)
   return std::visit([](const auto& one) { return one.name; }, shape);
 }
 
+SmoothJointParameters SmoothSides::among(const SmoothJointParameters& all) const
+{
+  SmoothJointParameters one = all;
+  one.normal_stiffness = normal_stiffness.value_or(all.normal_stiffness);
+  one.shear_stiffness = shear_stiffness.value_or(all.shear_stiffness);
+  one.friction = friction.value_or(all.friction);
+  one.dilation_angle = dilation_angle.value_or(all.dilation_angle);
+  one.tensile_strength = tensile_strength.value_or(0.0);
+  one.cohesion = cohesion.value_or(0.0);
+  one.friction_angle = friction_angle;
+  return one;
+}
+
+const SmoothSides* smooth_sides(const Shape& shape)
+{
+  return std::visit(
+    [](const auto& one) -> const SmoothSides* {
+      if constexpr (requires { one.smooth; })
+        return one.smooth ? &*one.smooth : nullptr;
+      else
+        return nullptr;
+    },
+    shape);
+}
+
 bool is_open(const Shape& shape)
 {
   return !std::holds_alternative<ClosedFlaw>(shape) && !std::holds_alternative<DiscFlaw>(shape) &&
@@ -183,7 +208,7 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
         {
           const auto [low, high] = clipped(start, s, s + (through ? period : set.trace_length));
           if (high > low)
-            flaws.push_back({{start + low * along, start + high * along}});
+            flaws.push_back({{start + low * along, start + high * along}, set.smooth});
         }
     }
   return flaws;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
+#include "dem/laws/parameters.h"
 
 #include <cstdint>
 #include <optional>
@@ -45,11 +46,28 @@ struct Slot
   double width;       ///< [m]
 };
 
-/// A crack without width whose sides touch: the joints across it are unbonded.
+/// What is special of the smooth joints of one flaw. Without a strength of its own it is not bonded.
+struct SmoothSides
+{
+  std::optional<double> normal_stiffness; ///< [Pa/m]
+  std::optional<double> shear_stiffness;  ///< [Pa/m]
+  std::optional<double> friction;
+  std::optional<double> dilation_angle;   ///< [rad]
+  std::optional<double> tensile_strength; ///< [Pa]
+  std::optional<double> cohesion;         ///< [Pa]
+  std::optional<double> friction_angle;   ///< of the bond; none: that of the friction [rad]
+
+  bool are_bonded() const { return tensile_strength.value_or(0.0) > 0.0 || cohesion.value_or(0.0) > 0.0; }
+  /// The rest as of all smooth joints.
+  SmoothJointParameters among(const SmoothJointParameters& all) const;
+};
+
+/// A crack without width whose sides touch: the joints across it are unbonded, or smooth.
 struct ClosedFlaw
 {
   static constexpr std::string_view name = "closed flaw";
   std::vector<Vector<2>> points; ///< of a line, two at least [m]
+  std::optional<SmoothSides> smooth = std::nullopt;
 };
 
 /// The same as a disc; in space only.
@@ -59,6 +77,7 @@ struct DiscFlaw
   Vector<3> centre; ///< [m]
   double radius;    ///< [m]
   Vector<3> normal; ///< unit
+  std::optional<SmoothSides> smooth = std::nullopt;
 };
 
 /// Parallel lines through the whole specimen, each of which is a closed flaw over a share of its length.
@@ -70,6 +89,7 @@ struct JointSet
   double persistence = 1.0;  ///< share of a line that is flaw, (0, 1]
   double trace_length = 0.0; ///< of each flaw, where persistence < 1 [m]
   std::uint64_t seed = 1;    ///< of where the lines and their flaws begin
+  std::optional<SmoothSides> smooth = std::nullopt;
 };
 
 using Shape = std::variant<EllipseHole, PolygonHole, SphereHole, Slot, ClosedFlaw, DiscFlaw, JointSet>;
@@ -94,6 +114,9 @@ std::string_view name(const Shape& shape);
 
 /// Whether grains are taken out.
 bool is_open(const Shape& shape);
+
+/// Of a flaw whose sides slide on a plane; else null.
+const SmoothSides* smooth_sides(const Shape& shape);
 
 /// The points of the line or, closed, of the outline, for what lies in the plane of the picture; of a sphere its equator
 /// there; of a joint set none.

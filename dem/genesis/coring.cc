@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "dem/genesis/joint_installation.h"
+#include "dem/specimen/specimen_part.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,28 +57,6 @@ void turn_round(Joints<dim>& joints, const std::size_t j, const std::vector<unsi
     for (unsigned int i = 0; i < joints.n_segments; ++i)
       row[joints.segment(i, j)] = before[mirrored[i]];
   });
-}
-
-/// The grains among them, in the same order.
-template <int dim>
-Grains<dim> selected(const Grains<dim>& grains, const std::vector<std::size_t>& kept)
-{
-  std::vector<double> radii;
-  Components<dim> positions;
-  for (const std::size_t i : kept)
-    {
-      radii.push_back(grains.radius[i]);
-      for (int c = 0; c < dim; ++c)
-        positions[c].push_back(grains.position[c][i]);
-    }
-  Grains<dim> left;
-  left.place(radii, positions);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    {
-      left.mass[k] = grains.mass[kept[k]];
-      left.moment_of_inertia[k] = grains.moment_of_inertia[kept[k]];
-    }
-  return left;
 }
 } // namespace
 
@@ -173,6 +152,7 @@ Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
 {
   Specimen<dim> core = cell;
   core.periodic = false;
+  core.walled_ends = false;
   core.round = round;
   const std::size_t n = cell.grains.size();
   std::vector<bool> lies_inside(n);
@@ -207,35 +187,19 @@ Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
       has_cut[groups.root(i)] = true;
   const auto sizes = groups.sizes();
   const auto body = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  std::vector<std::size_t> kept;
-  std::vector<std::uint32_t> new_number(n, 0);
+  std::vector<bool> stays(n, false);
   std::size_t n_removed = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (lies_inside[i])
       {
         const std::uint32_t group = groups.root(i);
-        if (group != body && has_cut[group])
-          {
-            ++n_removed;
-            continue;
-          }
-        new_number[i] = std::uint32_t(kept.size());
-        kept.push_back(i);
+        stays[i] = group == body || !has_cut[group];
+        n_removed += !stays[i];
       }
-  const auto stays = [&](const std::size_t joint) {
-    const std::uint32_t group = groups.root(cell.joints.grain_1[joint]);
-    return group == body || !has_cut[group];
-  };
-  std::vector<std::size_t> kept_joints;
-  std::copy_if(whole.begin(), whole.end(), std::back_inserter(kept_joints), stays);
-  core.joints.keep(kept_joints);
+  core.joints.keep(whole);
+  core = part_of(std::move(core), stays);
   for (std::size_t j = 0; j < core.joints.size(); ++j)
-    {
-      core.joints.grain_1[j] = new_number[core.joints.grain_1[j]];
-      core.joints.grain_2[j] = new_number[core.joints.grain_2[j]];
-      core.joints.number[j] = std::uint32_t(j);
-    }
-  core.grains = selected(cell.grains, kept);
+    core.joints.number[j] = std::uint32_t(j);
   installation::fill_report(core, installation::pair_gaps(core, 0.0));
   core.report.n_cut_joints = n_cut;
   core.report.n_removed_grains = n_removed;

@@ -6,6 +6,7 @@
 #include "dem/genesis/coring.h"
 #include "dem/genesis/joint_installation.h"
 #include "dem/genesis/packing_file.h"
+#include "dem/genesis/static_packing.h"
 #include "dem/specimen/neighbours.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 namespace feldspar
@@ -70,6 +72,16 @@ double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int
   return ratio;
 }
 
+/// The grains of a packing; those that have left a periodic cell come in again from the other side.
+template <int dim>
+void place_in_box(Specimen<dim>& specimen, const std::vector<double>& radii, Components<dim> positions)
+{
+  for (int c = 0; c < dim; ++c)
+    for (double& x : positions[c])
+      x -= specimen.repeats(c) ? specimen.size[c] * std::floor(x / specimen.size[c]) : 0.0;
+  specimen.grains.place(radii, positions);
+}
+
 /// Grains thrown in at random, let calm down without friction, then scaled until the mean stress is reached.
 template <int dim>
 void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const GenesisMonitor& monitor,
@@ -83,11 +95,13 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   Components<dim> positions;
   for (const double radius : radii)
     {
-      const double margin = specimen.periodic ? 0.0 : radius;
       Vector<dim> position;
       do
         for (int c = 0; c < dim; ++c)
-          position[c] = random.uniform(margin, specimen.size[c] - margin);
+          {
+            const double margin = specimen.repeats(c) ? 0.0 : radius;
+            position[c] = random.uniform(margin, specimen.size[c] - margin);
+          }
       while (specimen.round && specimen.distance_from_axis(position) > 0.5 * specimen.size[0] - radius);
       for (int c = 0; c < dim; ++c)
         positions[c].push_back(position[c]);
@@ -97,12 +111,22 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   loose.particle_contact.friction = 0.0;
   loose.grains.place(radii, positions);
   loose.grains.set_density(wanted.bulk_density / (1.0 - wanted.porosity), loose.thickness);
-  Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
-  for (int axis = specimen.round ? dim - 1 : 0; axis < dim && !specimen.periodic; ++axis)
+  if (wanted.packed_by_descent)
     {
-      dynamics.add_wall({axis, 1.0, 0.0, 0.0});
-      dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
+      const auto packing =
+        pack_by_descent(loose, wanted.packing_stress_ratio * specimen.particle_contact.modulus, check);
+      specimen.report.packing_stress = packing.stress;
+      specimen.report.radius_multiplier = packing.multiplier;
+      place_in_box<dim>(specimen, loose.grains.radius, loose.grains.position);
+      return;
     }
+  Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
+  for (int axis = specimen.round ? dim - 1 : 0; axis < dim; ++axis)
+    if (!specimen.repeats(axis))
+      {
+        dynamics.add_wall({axis, 1.0, 0.0, 0.0});
+        dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
+      }
   if (specimen.round)
     dynamics.add_wall(round_wall(specimen));
 
@@ -150,13 +174,8 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   const auto own = std::ptrdiff_t(radii.size());
   Components<dim> final_positions;
   for (int c = 0; c < dim; ++c)
-    {
-      final_positions[c].assign(packed.position[c].begin(), packed.position[c].begin() + own);
-      if (specimen.periodic)
-        for (double& x : final_positions[c])
-          x -= specimen.size[c] * std::floor(x / specimen.size[c]);
-    }
-  specimen.grains.place({packed.radius.begin(), packed.radius.begin() + own}, final_positions);
+    final_positions[c].assign(packed.position[c].begin(), packed.position[c].begin() + own);
+  place_in_box<dim>(specimen, {packed.radius.begin(), packed.radius.begin() + own}, std::move(final_positions));
 }
 
 template <int dim>
@@ -194,13 +213,14 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
   specimen.size[dim - 1] = wanted.height;
-  if (wanted.cored) // a cell of the body that it is put together from
+  if (wanted.is_cored()) // a cell of the body that it is put together from
     {
       specimen.size[0] /= wanted.cells_across;
       specimen.size[dim - 1] /= wanted.cells_along;
     }
-  specimen.periodic = wanted.shape == "periodic" || wanted.cored;
-  specimen.round = wanted.shape == "cylinder" && !wanted.cored;
+  specimen.periodic = wanted.shape == "periodic" || wanted.is_cored();
+  specimen.walled_ends = wanted.coring == Coring::sides_only;
+  specimen.round = wanted.shape == "cylinder" && !wanted.is_cored();
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
@@ -212,7 +232,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   const double porosity = 1.0 - specimen.grains.volume(specimen.thickness) / specimen.volume();
   specimen.grains.set_density(wanted.bulk_density / (1.0 - porosity), specimen.thickness);
   install_joints(specimen, joint);
-  if (!wanted.cored)
+  if (!wanted.is_cored())
     return specimen;
   std::array<unsigned int, dim> n_cells;
   n_cells.fill(1);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/lab/laboratory_test.h"
+#include "dem/lab/running_test.h"
 
 namespace feldspar
 {

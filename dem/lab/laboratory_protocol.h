@@ -20,10 +20,27 @@ template <int dim>
 using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure, const TestParameters&,
                                  const DynamicsParameters&);
 
+/// What the strain at the peak of a test goes with, for the time left before its curve has told more.
+struct PeakForecast
+{
+  enum class With
+  {
+    nothing, ///< no forecast
+    tension,
+    compression ///< at the pressure of the test
+  };
+
+  With with = With::nothing;
+  double factor = 1.0; ///< over the strain at the peak of that test
+};
+
 /// A laboratory test: all there is to know about it. docs/theory.md §4.
 struct LaboratoryProtocol
 {
   TestKind kind;
+  double TestParameters::*strain_rate = nullptr; ///< the magnitude of the rate of CurveSample::axial_strain [1/s]
+  PeakForecast forecast = {};
+  bool takes_cylinders = false; ///< in space; boxes are taken by all
   // Optional instead of null: the sanitizers' null checks keep an address from being compared in a constant.
   std::optional<SetUp<2>> set_up_2d = {}; ///< none where the test is not made in the plane
   std::optional<SetUp<3>> set_up_3d = {};
@@ -46,6 +63,8 @@ constexpr LaboratoryProtocol complete(const LaboratoryProtocol& protocol)
     throw std::logic_error("a laboratory test needs a name, a title and a name of its strength");
   if (kind.sign != 1.0 && kind.sign != -1.0)
     throw std::logic_error("a laboratory test pulls, sign = 1, or presses, sign = -1");
+  if (protocol.strain_rate == nullptr)
+    throw std::logic_error("a laboratory test needs the entry of its strain rate");
   if (!protocol.set_up_2d && !protocol.set_up_3d)
     throw std::logic_error("a laboratory test needs a set-up");
   return protocol;

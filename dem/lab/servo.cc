@@ -1,6 +1,11 @@
 #include "dem/lab/servo.h"
 
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace feldspar
 {
@@ -20,6 +25,33 @@ void hold_pressure(Dynamics<dim>& dynamics, const std::size_t wall, const double
   moved.velocity = moved.side * within(proportional + moved.servo_integral);
 }
 
+template <int dim>
+double wave_speed(const Specimen<dim>& specimen)
+{
+  return std::sqrt(specimen.particle_contact.modulus / specimen.bulk_density);
+}
+
+template <int dim>
+void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const std::function<void()>& check)
+{
+  constexpr double tolerance = 0.005;
+  constexpr double most_ramps = 20.0;
+  do
+    {
+      check();
+      ramp.hold(std::min(1.0, dynamics.time() / ramp.duration));
+      dynamics.step();
+      if (dynamics.time() > most_ramps * ramp.duration)
+        throw InputError(
+          fmt::format("Tests/Confinements: the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6));
+    }
+  while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= tolerance);
+}
+
+template double wave_speed<2>(const Specimen<2>&);
+template double wave_speed<3>(const Specimen<3>&);
+template void raise_pressures<2>(Dynamics<2>&, const PressureRamp&, const std::function<void()>&);
+template void raise_pressures<3>(Dynamics<3>&, const PressureRamp&, const std::function<void()>&);
 template void hold_pressure<2>(Dynamics<2>&, std::size_t, double, double, double);
 template void hold_pressure<3>(Dynamics<3>&, std::size_t, double, double, double);
 } // namespace feldspar

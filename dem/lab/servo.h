@@ -2,10 +2,31 @@
 
 #include "dem/dynamics/dynamics.h"
 
+#include <functional>
+
 namespace feldspar
 {
 /// Moves a wall so that its pressure comes to a target: v = e + I with e = G (P_0 - P), I += 0.05 e, both within
 /// ±largest_speed; docs/theory.md §4.3. The proportional part alone lags behind a specimen that widens steadily.
 template <int dim>
 void hold_pressure(Dynamics<dim>& dynamics, std::size_t wall, double area, double target, double largest_speed);
+
+/// Pressures on walls that are raised together.
+struct PressureRamp
+{
+  double pressure;                           ///< compression positive, for the words of an error [Pa]
+  double duration;                           ///< of the rise [s]
+  std::function<void(double)> hold;          ///< this share of the pressures, for one step
+  std::function<double()> largest_deviation; ///< of a wall's pressure from its target, relative
+};
+
+/// Of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].
+template <int dim>
+double wave_speed(const Specimen<dim>& specimen);
+
+/// Raises the pressures in proportion to time, so as not to hit the specimen, and goes on until half a ramp more has passed
+/// and all are held within 0.5 %. `check` is called before each step and may throw. Throws InputError where they are not
+/// held after 20 ramps.
+template <int dim>
+void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const std::function<void()>& check);
 } // namespace feldspar

@@ -14,8 +14,11 @@ bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure
   constexpr double but_for_round_off = 1.0 - 1e-9;
   if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_strain))
     return true;
+  const bool is_whole = row.n_tension_cracks + row.n_shear_cracks == 0;
+  if (needs_crack && is_whole && !wanted.stop_strain)
+    return false;
   // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
-  if (row.n_tension_cracks + row.n_shear_cracks == 0 && deviator > 0.9 * peak.highest)
+  if (is_whole && deviator > 0.9 * peak.highest)
     return false;
   if (wanted.stop_stress_over_peak)
     return deviator <= *wanted.stop_stress_over_peak * peak.highest;

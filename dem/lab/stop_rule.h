@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/byte_archive.h"
 #include "dem/lab/parameters.h"
 #include "results/record.h"
 
@@ -14,8 +15,20 @@ struct StopRule
   {
   }
 
+  /// Of a body that swings at first: its test does not end before a bond has broken, unless at a strain that is wanted.
+  bool needs_crack = false;
+
   /// Whether this row is the last. confining_pressure in Pa, compression positive.
   bool is_met_by(const CurveSample& row, double confining_pressure, const TestParameters& wanted);
+
+  /// Into or out of a checkpoint.
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    archive.value("peak_deviator", peak.highest);
+    transfer_flag(archive, "fallen", peak.fallen);
+    archive.value("strain_at_peak", strain_at_peak);
+  }
 
   TestKind kind;
   PeakWatch peak; ///< of the deviator

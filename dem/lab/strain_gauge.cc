@@ -36,13 +36,13 @@ StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const bool round, const C
 }
 
 template <int dim>
-Tensor<dim> StrainGauge<dim>::displacement_gradient(const Grains<dim>& grains) const
+Tensor<dim> StrainGauge<dim>::displacement_gradient(const Components<dim>& position) const
 {
   if (members.size() <= dim)
     return Tensor<dim>::Constant(std::numeric_limits<double>::quiet_NaN());
   Tensor<dim> sum = Tensor<dim>::Zero();
   for (std::size_t k = 0; k < members.size(); ++k)
-    sum += (at<dim>(grains.position, members[k]) - start[k]) * (start[k] - mean_start).transpose();
+    sum += (at<dim>(position, members[k]) - start[k]) * (start[k] - mean_start).transpose();
   return sum * inverse_moment;
 }
 

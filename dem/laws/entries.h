@@ -102,6 +102,30 @@ inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
   return and_installation(entries, of_rock);
 }
 
+/// Of section Smooth joint.
+inline std::vector<Entry<SmoothJointParameters>> smooth_joint_entries()
+{
+  using P = SmoothJointParameters;
+  const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  return {
+    entry::quantity("Normal stiffness", &P::normal_stiffness, Measure::stiffness, "GPa/mm", ranges::above_zero,
+                    "normal stress over what the sides close", of_rock),
+    entry::quantity("Shear stiffness", &P::shear_stiffness, Measure::stiffness, "GPa/mm", ranges::above_zero,
+                    "shear stress over the way along the plane", of_rock),
+    entry::number("Friction", &P::friction, ranges::from_zero, "coefficient, of sides without a bond", of_rock),
+    entry::quantity("Dilation angle", &P::dilation_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
+                    "by which sides that slide move apart; at most the angle of the friction", of_rock),
+    entry::quantity("Tensile strength", &P::tensile_strength, Measure::stress, "MPa", ranges::from_zero,
+                    "of the bond at the boundaries of mineral grains; flaws have the strengths that their own words "
+                    "give, and none without",
+                    of_rock),
+    entry::quantity("Cohesion", &P::cohesion, Measure::stress, "MPa", ranges::from_zero,
+                    "of the same: shear strength without normal stress", of_rock),
+    entry::optional_quantity("Friction angle", &P::friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
+                             "of the same: by which compression adds to the shear strength; none: that of the friction",
+                             of_rock)};
+}
+
 /// Of section Particle contact.
 inline std::vector<Entry<ParticleContactParameters>> particle_contact_entries()
 {

@@ -5,7 +5,7 @@
 
 #include <array>
 
-/// The flat-joint law: how one segment of a joint's face answers a motion of its two grains. In three dimensions a
+/// The flat-joint law: how one segment of a joint's face responds to a motion of its two grains. In three dimensions a
 /// segment is an element of a disk, its stress that at its centroid; all else is the same.
 ///
 /// Force: normal stress by gap, shear stress by accumulated slip, bending by the gap's slope over the segment.
@@ -65,7 +65,7 @@ struct SegmentMotion
   std::array<Real, dim - 1> shear_increment; ///< ΔU_s at the centroid [m]
 };
 
-/// Normal answer of a segment to its gap.
+/// Normal response of a segment to its gap.
 template <typename Real>
 struct NormalResponse
 {
@@ -73,7 +73,7 @@ struct NormalResponse
   Real moment; ///< M_i [N m] about the segment's centroid
 };
 
-/// New state, answer and event of one update.
+/// New state, response and event of one update.
 template <int dim, typename Real>
 struct SegmentUpdate
 {
@@ -212,7 +212,7 @@ Real magnitude(const std::array<Real, 2>& shear)
   return simd::square_root(shear[0] * shear[0] + shear[1] * shear[1]);
 }
 
-/// One update of one segment, in this order: tension, trial shear, friction or shear strength, answer.
+/// One update of one segment, in this order: tension, trial shear, friction or shear strength, response.
 template <int dim, typename Real>
 SegmentUpdate<dim, Real> update(const Segment<dim, Real>& segment, const Bond<Real>& bond,
                                 const SegmentState<dim, Real>& old, const SegmentMotion<dim, Real>& motion)

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a joint law is: how the face between two grains answers a motion of theirs, from its installation to its last
+/// What a joint law is: how the face between two grains responds to a motion of theirs, from its installation to its last
 /// piece. The grains' dynamics (dem/dynamics) and the network of a representative volume (coupling/rve) ask the same law.
 ///
 /// To add one:
@@ -23,8 +23,8 @@
 ///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
 /// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. How a face
-/// answers there that has broken, or that is not linear while it holds, stands in coupling/network: a function
-/// face_answer() for each law.
+/// responds there that has broken, or that is not linear while it holds, stands in coupling/network: a function
+/// face_response() for each law.
 ///
 /// Every element of every law has a bond (bond_strength.h), a shear stress and a mark whether the bond holds; `n_more`
 /// numbers of the law's own may go with them. A law with numbers of its own that are the same for all faces also has
@@ -92,12 +92,13 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
     } -> std::same_as<FaceResultants<dim, Real>>;
 };
 
-/// A law may know the answer of a face whose elements are all bonded from its motion since installation. The sweep then
+/// A law may know the response of a face whose elements are all bonded from its motion since installation. The sweep then
 /// looks at elements one by one only where a bond may break or one has broken, and their shear stress need not be stored.
 template <typename Law, int dim, typename Real>
-concept AnswersAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
-                                const FaceElement<dim> element, const Real opening,
-                                const std::array<Real, n_rotations<dim>> rotation, const std::array<Real, dim - 1> slip)
+concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
+                                 const FaceElement<dim> element, const Real opening,
+                                 const std::array<Real, n_rotations<dim>> rotation,
+                                 const std::array<Real, dim - 1> slip)
 {
   // Whether it is certain that no bond breaks; the bond has the least strengths of the face.
   {
@@ -160,7 +161,7 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     law.stiffest(face)
     } -> std::same_as<FaceSprings>;
 
-  // In small strains: whether a face answers linearly as long as all its bonds hold, with the stiffness below, and none of
+  // In small strains: whether a face responds linearly as long as all its bonds hold, with the stiffness below, and none of
   // its elements has a shear stress to remember.
   {
     Law::linear_while_bonded

@@ -13,7 +13,7 @@ struct Stiffness
   double shear;  ///< k_s [N/m]
 };
 
-/// Answer of a contact.
+/// Response of a contact.
 template <int dim>
 struct Response
 {

@@ -43,7 +43,7 @@ struct Update : Verdict<Real>
 
 /// Of the linear contact beside a bond.
 template <int dim, typename Real>
-struct ContactAnswer
+struct ContactResponse
 {
   Real normal_force;                     ///< compression positive [N]
   std::array<Real, dim - 1> shear_force; ///< [N]
@@ -176,7 +176,7 @@ struct ParallelBond : CarriedPlane<dim>
     state.bonded = old.bonded && !(result.tension_break || result.shear_break);
     const auto if_bonded = [&](const Real& value) { return simd::select(state.bonded, value, Real(0.0)); };
 
-    const auto contact = contact_answer(face, motion, old.more);
+    const auto contact = contact_response(face, motion, old.more);
     const Real area = face_area<dim>(face.half_length, face.thickness);
     const Real bending_stiffness = face.normal_stiffness * face_second_moment<dim>(face.half_length, face.thickness);
     FaceResultants<dim, Real> sum;
@@ -321,22 +321,23 @@ private:
   }
 
   template <typename Real>
-  parallel_bond::ContactAnswer<dim, Real> contact_answer(const Face<Real>& face, const FaceMotion<dim, Real>& motion,
-                                                         const std::array<Real, dim - 1>& old_shear_force) const
+  parallel_bond::ContactResponse<dim, Real> contact_response(const Face<Real>& face,
+                                                             const FaceMotion<dim, Real>& motion,
+                                                             const std::array<Real, dim - 1>& old_shear_force) const
   {
     const Real normal_stiffness = contact_stiffness(face);
     const Real shear_stiffness = normal_stiffness * (1.0 / contact_stiffness_ratio);
-    parallel_bond::ContactAnswer<dim, Real> answer{normal_stiffness * simd::larger(Real(0.0), -motion.opening),
-                                                   {},
-                                                   Real(0.0)};
-    auto& force = answer.shear_force;
+    parallel_bond::ContactResponse<dim, Real> response{normal_stiffness * simd::larger(Real(0.0), -motion.opening),
+                                                       {},
+                                                       Real(0.0)};
+    auto& force = response.shear_force;
     for (int c = 0; c < dim - 1; ++c)
       force[c] = old_shear_force[c] - shear_stiffness * motion.slip_increment[c];
-    const Real limit = face.friction * answer.normal_force;
+    const Real limit = face.friction * response.normal_force;
     const Real size = parallel_bond::magnitude(force);
     const auto slides = size > limit;
     if (!simd::any(slides))
-      return answer;
+      return response;
     // Slip is the shear that the force did not follow, under the mean of the forces before and after.
     const Real kept = simd::select(slides, limit / simd::select(slides, size, Real(1.0)), Real(1.0));
     Real slip_work(0.0);
@@ -346,8 +347,8 @@ private:
         force[c] = kept * trial;
         slip_work += 0.5 * (old_shear_force[c] + force[c]) * (trial - force[c]);
       }
-    answer.slip_energy = slip_work / shear_stiffness;
-    return answer;
+    response.slip_energy = slip_work / shear_stiffness;
+    return response;
   }
 
   double modulus_ratio = 1.0;           ///< E_c/E_b

@@ -56,6 +56,18 @@ struct ParallelBondParameters
   double initial_gap = 0.0; ///< [m]
 };
 
+/// A plane in the rock along which grains slide past one another: a flaw, or the boundary of a mineral grain.
+struct SmoothJointParameters
+{
+  double normal_stiffness = 50e12; ///< k_n [Pa/m]
+  double shear_stiffness = 20e12;  ///< k_s [Pa/m]
+  double friction = 0.5;
+  double dilation_angle = 0.0;          ///< ψ, below the angle of friction [rad]
+  double tensile_strength = 0.0;        ///< σ_c of the bond [Pa]
+  double cohesion = 0.0;                ///< c of the bond [Pa]
+  std::optional<double> friction_angle; ///< φ of the bond; none: that of the friction [rad]
+};
+
 /// Pairs that touch without a face, grains at walls, and the contact beside a parallel bond.
 struct ParticleContactParameters
 {

@@ -46,11 +46,20 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                     "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
     entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
                   "mean stress in the packing over Particle contact/Modulus, before the joints are installed", of_rock),
-    entry::choice("Coring", &P::cored, {{"none", false}, {"free sides", true}},
-                  "none: the grains are packed between walls, which take some of the joints beside them; free sides: "
-                  "packed as a periodic cell, joined everywhere and then cut free, at the sides and where the platens "
-                  "touch. Coordination number is then that of the rock before it is cut",
-                  of_rock),
+    entry::choice(
+      "Packing relaxation", &P::packed_by_descent, {{"dynamics", false}, {"static", true}},
+      "how the grains come to rest. dynamics: by damped motion, radii scaled in steps between; static: by "
+      "descent of grains and radii together, some ten times as fast. The same seed gives another packing of "
+      "the same rock",
+      of_rock),
+    entry::choice(
+      "Coring", &P::coring,
+      {{"none", Coring::none}, {"free sides", Coring::free_sides}, {"sides only", Coring::sides_only}},
+      "none: the grains are packed between walls, which take some of the joints beside them; free sides: packed as a "
+      "periodic cell, joined everywhere and then cut free, at the sides and where the platens touch; sides only: packed "
+      "between walls at the ends and periodic sideways, joined everywhere and cut free at the sides, so that the platens "
+      "touch the ends of a walled specimen. Coordination number is then that of the rock before it is cut",
+      of_rock),
     entry::integer("Cells across", &P::cells_across, {'[', 1.0, 1000.0, ']'},
                    "of a cored specimen in the plane: it is put together from so many equal cells, each with the same "
                    "grains, joints and strengths as a representative volume of that size and seed",

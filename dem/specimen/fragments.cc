@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace feldspar
 {
+namespace
+{
 template <int dim>
-std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
+DisjointSets held_together(const Joints<dim>& joints, const std::size_t n_grains)
 {
   DisjointSets sets(n_grains);
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (joints.holds(j))
       sets.merge(joints.grain_1[j], joints.grain_2[j]);
+  return sets;
+}
 
+std::vector<std::uint32_t> numbers_by_size(DisjointSets sets, const std::size_t n_grains)
+{
   const std::vector<std::uint32_t> n_members = sets.sizes();
   std::vector<std::uint32_t> by_size(n_grains);
   std::iota(by_size.begin(), by_size.end(), 0u);
@@ -29,7 +36,36 @@ std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_
     number[i] = rank[sets.root(i)];
   return number;
 }
+} // namespace
 
+template <int dim>
+std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
+{
+  return numbers_by_size(held_together(joints, n_grains), n_grains);
+}
+
+template <int dim>
+std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
+{
+  const std::size_t n_grains = specimen.grains.size();
+  DisjointSets sets = held_together(specimen.joints, n_grains);
+  for (const auto& joint : specimen.smooth_joints)
+    if (joint.state.bonded)
+      sets.merge(joint.grain_1, joint.grain_2);
+  if (specimen.groups_are_rigid)
+    {
+      std::vector<std::uint32_t> member(n_grains, std::uint32_t(n_grains));
+      for (std::uint32_t i = 0; i < n_grains; ++i)
+        if (auto& known = member[specimen.groups[i]]; known == n_grains)
+          known = i;
+        else
+          sets.merge(known, i);
+    }
+  return numbers_by_size(std::move(sets), n_grains);
+}
+
+template std::vector<std::uint32_t> fragments<2>(const Specimen<2>&);
+template std::vector<std::uint32_t> fragments<3>(const Specimen<3>&);
 template std::vector<std::uint32_t> fragments<2>(const Joints<2>&, std::size_t);
 template std::vector<std::uint32_t> fragments<3>(const Joints<3>&, std::size_t);
 } // namespace feldspar

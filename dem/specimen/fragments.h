@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/storage/joints.h"
+#include "dem/specimen/specimen.h"
 
 #include <cstdint>
 #include <vector>
@@ -11,4 +11,8 @@ namespace feldspar
 /// bonded segment; the largest fragment is 0, equal ones are ordered by their first grain.
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_grains);
+
+/// Of a specimen, whose smooth joints hold as well.
+template <int dim>
+std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen);
 } // namespace feldspar

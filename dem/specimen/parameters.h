@@ -6,6 +6,14 @@
 /// input in the plane; in space an input without a porosity means 0.36.
 namespace feldspar
 {
+/// Whether a specimen is cut out of a body that repeats itself; docs/theory.md §3.
+enum class Coring
+{
+  none,       ///< packed between walls
+  free_sides, ///< packed as a periodic cell, then cut at the sides and at the ends
+  sides_only  ///< packed between the walls of its ends and periodic sideways, then cut at the sides
+};
+
 /// The body of grains to be made (or read).
 struct SpecimenParameters
 {
@@ -18,11 +26,14 @@ struct SpecimenParameters
   double porosity = 0.16;
   double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
   double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
+  bool packed_by_descent = false;     ///< grains come to rest by descent, not by damped dynamics
   std::string joint_law = "flat joint";
-  bool cored = false;            ///< packed without walls, joined everywhere, then cut free
+  Coring coring = Coring::none;
   unsigned int cells_across = 1; ///< of a cored specimen: equal cells that it is put together from
   unsigned int cells_along = 1;  ///< the same along the axis of the test
   std::string packing_file;      ///< lines `x y [z] radius` in metres; empty: make a packing
   std::string specimen_file;     ///< a finished specimen.h5; empty: make one
+
+  bool is_cored() const { return coring != Coring::none; }
 };
 } // namespace feldspar

@@ -2,11 +2,13 @@
 
 #include "dem/laws/parameters.h"
 #include "dem/specimen/flaw.h"
+#include "dem/specimen/neighbours.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/periodic_images.h"
 #include "dem/specimen/specimen_report.h"
 #include "dem/storage/grains.h"
 #include "dem/storage/joints.h"
+#include "dem/storage/smooth_joints.h"
 
 #include <cmath>
 #include <cstdint>
@@ -21,6 +23,7 @@ struct Specimen
 {
   Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
   bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
+  bool walled_ends = false;               ///< of a periodic body while it is packed: along the last axis it does not
   bool round = false;                     ///< a cylinder about the last axis, in space; the box is around it
   double thickness = 1.0;                 ///< of the plane [m]
   double bulk_density = 0.0;              ///< [kg/m³]
@@ -28,14 +31,29 @@ struct Specimen
   ParticleContactParameters particle_contact;
   Grains<dim> grains;
   Joints<dim> joints;
+  std::vector<SmoothJoint<dim>> smooth_joints; ///< by their grains; where one stands no joint of the law does
+  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, they never touch
+  std::vector<std::uint32_t> groups;           ///< the mineral grain or clump that each grain is a part of; or empty
+  bool groups_are_rigid = false;               ///< they are clumps: each moves as one body; numbered without gaps
   SpecimenReport report;
   std::vector<Flaw<dim>> flaws; ///< that have been put in
 
-  /// The edges of the box as columns [m].
-  Tensor<dim> cell() const { return size.asDiagonal(); }
+  /// Along an axis; where it does not, the body has ends.
+  bool repeats(const int axis) const { return periodic && !(walled_ends && axis == dim - 1); }
+
+  /// The edges of the cell as columns [m]: those of the box; along walled ends so long that no image comes near the body.
+  Tensor<dim> cell() const
+  {
+    Tensor<dim> edges = size.asDiagonal();
+    if (walled_ends)
+      edges(dim - 1, dim - 1) *= 4.0;
+    return edges;
+  }
 
   /// The grain, or image of a grain, that a joint leads to.
   PeriodicImage<dim> second_of(std::size_t joint) const;
+
+  std::size_t n_joints() const { return joints.size() + smooth_joints.size(); }
 
   double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0) * (round ? 0.25 * std::numbers::pi : 1.0); }
 

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -90,6 +93,86 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
     }
 }
 
+/// As transfer_flaws(): nothing of a specimen without any.
+template <int dim, typename Archive>
+void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
+{
+  if constexpr (Archive::reads)
+    {
+      if (!root.has("smooth_joints"))
+        return;
+    }
+  else if (specimen.smooth_joints.empty() && specimen.kept_apart.empty())
+    return;
+  constexpr std::size_t most_neighbours = 1000; // before a list is made for so many
+  auto archive = root.subgroup("smooth_joints");
+  auto& joints = specimen.smooth_joints;
+  // A column of all of them, one number each.
+  const auto pass = [&](const std::string& name, const auto& part) {
+    using Number = std::remove_cvref_t<decltype(part(std::declval<SmoothJoint<dim>&>()))>;
+    std::vector<std::conditional_t<std::is_floating_point_v<Number>, double, std::uint32_t>> column;
+    column.reserve(joints.size());
+    for (auto& joint : joints)
+      column.push_back(part(joint));
+    archive.array(name, column);
+    if constexpr (Archive::reads)
+      {
+        if (joints.empty() && column.size() <= most_neighbours * specimen.grains.size())
+          joints.resize(column.size());
+        if (joints.size() != column.size())
+          throw InputError("smooth joints are incomplete");
+        for (std::size_t k = 0; k < joints.size(); ++k)
+          part(joints[k]) = Number(column[k]);
+      }
+  };
+  pass(
+    "grain_1", [](auto& joint) -> auto& { return joint.grain_1; });
+  pass(
+    "grain_2", [](auto& joint) -> auto& { return joint.grain_2; });
+  pass(
+    "number", [](auto& joint) -> auto& { return joint.number; });
+  pass(
+    "area_m2", [](auto& joint) -> auto& { return joint.area; });
+  pass(
+    "half_radius_difference_m", [](auto& joint) -> auto& { return joint.half_radius_difference; });
+  for (int c = 0; c < dim; ++c)
+    {
+      pass(
+        fmt::format("normal_{}", "xyz"[c]), [c](auto& joint) -> auto& { return joint.normal[c]; });
+      pass(
+        fmt::format("branch_{}_m", "xyz"[c]), [c](auto& joint) -> auto& { return joint.branch[c]; });
+    }
+  pass(
+    "normal_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.normal_stiffness; });
+  pass(
+    "shear_stiffness_Pa_per_m", [](auto& joint) -> auto& { return joint.face.shear_stiffness; });
+  pass(
+    "friction", [](auto& joint) -> auto& { return joint.face.friction; });
+  pass(
+    "dilation_slope", [](auto& joint) -> auto& { return joint.face.dilation_slope; });
+  pass(
+    "tensile_strength_Pa", [](auto& joint) -> auto& { return joint.face.bond.tensile_strength; });
+  pass(
+    "cohesion_Pa", [](auto& joint) -> auto& { return joint.face.bond.cohesion; });
+  pass(
+    "friction_slope", [](auto& joint) -> auto& { return joint.face.bond.friction_slope; });
+  pass(
+    "gap_m", [](auto& joint) -> auto& { return joint.state.gap; });
+  pass(
+    "bonded", [](auto& joint) -> auto& { return joint.state.bonded; });
+
+  std::vector<std::uint32_t> ends;
+  for (const auto& [one, two] : specimen.kept_apart)
+    {
+      ends.push_back(one);
+      ends.push_back(two);
+    }
+  archive.array("kept_apart", ends);
+  specimen.kept_apart.resize(ends.size() / 2);
+  for (std::size_t k = 0; k < specimen.kept_apart.size(); ++k)
+    specimen.kept_apart[k] = {ends[2 * k], ends[2 * k + 1]};
+}
+
 /// The layout of the file.
 template <int dim, typename Archive>
 void transfer(Archive& root, Specimen<dim>& specimen)
@@ -120,6 +203,16 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   report.value("radius_multiplier", specimen.report.radius_multiplier);
   report.value("packing_stress_Pa", specimen.report.packing_stress);
   report.value("mean_radius_m", specimen.report.mean_radius);
+  bool has_smooth_joints = specimen.report.n_smooth_joints > 0;
+  if constexpr (Archive::reads)
+    has_smooth_joints = report.has_attribute("n_smooth_joints");
+  if (has_smooth_joints)
+    report.value("n_smooth_joints", specimen.report.n_smooth_joints);
+  bool has_clumps = specimen.groups_are_rigid;
+  if constexpr (Archive::reads)
+    has_clumps = specimen.groups_are_rigid = report.has_attribute("n_clumps");
+  if (has_clumps)
+    report.value("n_clumps", specimen.report.n_clumps);
   bool knows_coring = true; // a file may be older
   if constexpr (Archive::reads)
     knows_coring = report.has_attribute("n_cut_joints");
@@ -141,6 +234,12 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   for (int c = 0; c < dim; ++c)
     grains.array(component("position", c), specimen.grains.position[c]);
   grains.array("mass_kg", specimen.grains.mass);
+  const std::string group_name = has_clumps ? "clump" : "mineral_grain";
+  bool has_groups = !specimen.groups.empty();
+  if constexpr (Archive::reads)
+    has_groups = grains.has(group_name);
+  if (has_groups)
+    grains.array(group_name, specimen.groups);
 
   auto joints = root.subgroup("joints");
   auto& stored = specimen.joints;
@@ -172,6 +271,7 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(joints, name, values); };
   stored.visit_per_joint(pass);
   stored.visit_per_segment(pass);
+  transfer_smooth_joints(root, specimen);
 }
 
 void require(const bool holds, const char* otherwise)
@@ -223,7 +323,7 @@ void check_joints(const Specimen<dim>& specimen)
             joints.law),
           "a parameter of its joint law is not possible");
   const std::size_t n = joints.size();
-  require(n == specimen.report.n_joints && joints.grain_2.size() == n && joints.number.size() == n,
+  require(specimen.n_joints() == specimen.report.n_joints && joints.grain_2.size() == n && joints.number.size() == n,
           "joints are missing");
   std::vector<bool> is_taken(n, false);
   for (std::size_t j = 0; j < n; ++j)
@@ -250,6 +350,58 @@ void check_joints(const Specimen<dim>& specimen)
           "a segment has a negative strength");
 }
 
+template <int dim>
+void check_clumps(const Specimen<dim>& specimen)
+{
+  const auto& group = specimen.groups;
+  if (!specimen.groups_are_rigid)
+    return;
+  require(dim == 2 && !specimen.periodic && specimen.smooth_joints.empty(), "it has clumps, which it cannot have");
+  std::vector<bool> has_members(group.size(), false);
+  for (const auto g : group)
+    {
+      require(g < group.size(), "a clump is not there");
+      has_members[g] = true;
+    }
+  require(group.size() == specimen.grains.size() && specimen.report.n_clumps <= group.size() &&
+            std::size_t(std::count(has_members.begin(), has_members.end(), true)) == specimen.report.n_clumps &&
+            std::size_t(std::find(has_members.begin(), has_members.end(), false) - has_members.begin()) ==
+              specimen.report.n_clumps,
+          "clumps are missing");
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    require(group[specimen.joints.grain_1[j]] != group[specimen.joints.grain_2[j]], "a joint lies inside a clump");
+}
+
+template <int dim>
+void check_smooth_joints(const Specimen<dim>& specimen)
+{
+  const std::size_t n_grains = specimen.grains.size();
+  const auto is_pair = [&](const GrainPair& pair) { return pair.first < pair.second && pair.second < n_grains; };
+  require(specimen.groups.empty() || specimen.groups.size() == n_grains, "mineral grains are missing");
+  require(std::all_of(specimen.kept_apart.begin(), specimen.kept_apart.end(), is_pair) &&
+            std::is_sorted(specimen.kept_apart.begin(), specimen.kept_apart.end()),
+          "grains are kept apart that are not there");
+  const double edge = specimen.size.maxCoeff();
+  GrainPair last{0, 0};
+  for (const auto& joint : specimen.smooth_joints)
+    {
+      require(is_pair(joint.ends()) && joint.ends() > last && joint.number >= specimen.joints.size(),
+              "a smooth joint names a grain that is not there, or comes twice");
+      last = joint.ends();
+      const auto& [k_n, k_s, friction, dilation, bond] = joint.face;
+      require(lies(k_n, smallest, largest) && lies(k_s, smallest, largest) && lies(friction, 0.0, largest) &&
+                lies(dilation, 0.0, friction) && lies(bond.tensile_strength, 0.0, largest) &&
+                lies(bond.cohesion, 0.0, largest) && lies(bond.friction_slope, 0.0, largest) &&
+                lies(joint.area, smallest, largest) && lies(joint.state.gap, -edge, edge) &&
+                lies(std::abs(joint.half_radius_difference), 0.0, edge),
+              "a smooth joint has no possible stiffness, strength or size");
+      const Vector<dim> normal = Eigen::Map<const Vector<dim>>(joint.normal.data());
+      const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
+      require(lies(normal.norm(), 1.0 - 1e-6, 1.0 + 1e-6) && lies(branch.norm(), smallest, 2.0 * edge),
+              "a smooth joint has no direction");
+    }
+}
+
 /// What types alone do not tell, of a file whose bytes may be anybody's.
 template <int dim>
 void check(const Specimen<dim>& specimen)
@@ -264,6 +416,8 @@ void check(const Specimen<dim>& specimen)
           "a parameter of its contacts is negative or not a number");
   check_grains(specimen);
   check_joints(specimen);
+  check_smooth_joints(specimen);
+  check_clumps(specimen);
 }
 } // namespace
 

@@ -2,10 +2,23 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace feldspar
 {
+namespace
+{
+/// In the order in which they come; how many there are.
+std::uint32_t number_without_gaps(std::vector<std::uint32_t>& groups)
+{
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (auto& group : groups)
+    group = number.emplace(group, std::uint32_t(number.size())).first->second;
+  return std::uint32_t(number.size());
+}
+} // namespace
+
 template <int dim>
 Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept)
 {
@@ -40,9 +53,31 @@ Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept)
     for (auto& grain : *ends)
       grain = new_number[grain];
 
+  const auto leaves = [&](const auto& pair) { return !kept[pair.first] || !kept[pair.second]; };
+  std::erase_if(specimen.smooth_joints, [&](const SmoothJoint<dim>& joint) { return leaves(joint.ends()); });
+  for (auto& joint : specimen.smooth_joints)
+    {
+      joint.grain_1 = new_number[joint.grain_1];
+      joint.grain_2 = new_number[joint.grain_2];
+    }
+  std::erase_if(specimen.kept_apart, leaves);
+  for (auto& [one, two] : specimen.kept_apart)
+    {
+      one = new_number[one];
+      two = new_number[two];
+    }
+  std::vector<std::uint32_t> groups;
+  for (std::size_t i = 0; i < specimen.groups.size(); ++i)
+    if (kept[i])
+      groups.push_back(specimen.groups[i]);
+  specimen.groups = groups;
+  if (specimen.groups_are_rigid)
+    specimen.report.n_clumps = number_without_gaps(specimen.groups);
+
   auto& report = specimen.report;
   report.n_grains = specimen.grains.size();
-  report.n_joints = joints.size();
+  report.n_joints = specimen.n_joints();
+  report.n_smooth_joints = specimen.smooth_joints.size();
   if (report.n_grains == 0)
     return specimen;
   report.mean_radius = specimen.grains.mean_radius();
@@ -81,6 +116,9 @@ Specimen<dim> laid_on_side(Specimen<dim> specimen)
         z += width;
       turn(specimen.joints.normal);
       turn(specimen.joints.tangent);
+      for (auto& joint : specimen.smooth_joints)
+        for (auto* vector : {&joint.normal, &joint.branch})
+          (*vector)[2] = -std::exchange((*vector)[1], (*vector)[2]);
       for (auto& flaw : specimen.flaws)
         for (auto& point : flaw.outline)
           point[2] = width - std::exchange(point[1], point[2]);
@@ -105,6 +143,9 @@ Specimen<dim> quarter_turned(Specimen<dim> specimen)
   turn(specimen.joints.normal);
   if constexpr (dim == 3)
     turn(specimen.joints.tangent);
+  for (auto& joint : specimen.smooth_joints)
+    for (auto* vector : {&joint.normal, &joint.branch})
+      (*vector)[last] = -std::exchange((*vector)[0], (*vector)[last]);
   for (auto& flaw : specimen.flaws)
     for (auto& point : flaw.outline)
       point[last] = width - std::exchange(point[0], point[last]);

@@ -8,7 +8,9 @@ namespace feldspar
 struct SpecimenReport
 {
   std::uint64_t n_grains = 0;
-  std::uint64_t n_joints = 0;
+  std::uint64_t n_joints = 0;        ///< the smooth ones among them
+  std::uint64_t n_smooth_joints = 0; ///< of flaws and of the boundaries of mineral grains
+  std::uint64_t n_clumps = 0; ///< rigid groups of grains, single grains among them; 0: grains move each for itself
   double coordination_number = 0.0;
   double coordination_number_core = 0.0; ///< of grains more than three mean diameters from the walls; NaN if none
   double installation_gap_ratio = 0.0;   ///< over the mean radius

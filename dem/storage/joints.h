@@ -23,7 +23,7 @@ struct JointTables
   // Copies of the tables; the rows below name their own.
   JointTables(const JointTables& other)
     : state(other.state)
-    , answer(other.answer)
+    , response(other.response)
     , segment_state(other.segment_state)
     , strength(other.strength)
     , more_state(other.more_state)
@@ -31,7 +31,7 @@ struct JointTables
   }
   JointTables(JointTables&& other) noexcept
     : state(std::move(other.state))
-    , answer(std::move(other.answer))
+    , response(std::move(other.response))
     , segment_state(std::move(other.segment_state))
     , strength(std::move(other.strength))
     , more_state(std::move(other.more_state))
@@ -40,7 +40,7 @@ struct JointTables
   JointTables& operator=(JointTables other) noexcept
   {
     std::swap(state, other.state);
-    std::swap(answer, other.answer);
+    std::swap(response, other.response);
     std::swap(segment_state, other.segment_state);
     std::swap(strength, other.strength);
     std::swap(more_state, other.more_state);
@@ -49,7 +49,7 @@ struct JointTables
   ~JointTables() = default;
 
   PackedRows state;         ///< what a joint is and remembers
-  PackedTable<1> answer;    ///< its force and couples, those of a joint together: grains gather them
+  PackedTable<1> response;  ///< its force and couples, those of a joint together: grains gather them
   PackedRows segment_state; ///< what its segments remember; all rows of a segment, then all of the next
   PackedRows strength;      ///< of the segments' bonds
   PackedRows more_state;    ///< what else the law has its segments remember; in the order of segment_state
@@ -92,23 +92,23 @@ struct JointTables
   static constexpr std::size_t n_strength_rows = 2;
 
   /// τ of each segment [Pa]. Of a face whose segments are all bonded it is left as it was: its law may know it from the
-  /// motion of the face (AnswersAsOne in dem/laws/joint_law.h).
+  /// motion of the face (RespondsAsOne in dem/laws/joint_law.h).
   PackedComponents<n_shear> shear_stress = packed_components<n_shear>(segment_state, 0, n_segment_rows);
   PackedRow bonded{segment_state, n_shear, n_segment_rows}; ///< 1 bonded, 0 not (a double: it is a mask in the sweep)
   PackedRow tensile_strength{strength, 0, n_strength_rows}; ///< σ_b of each segment [Pa]
   PackedRow cohesion{strength, 1, n_strength_rows};         ///< c_b of each segment [Pa]
 
-  static constexpr std::size_t n_answer_rows = dim + 2 * n_rotations<dim>;
+  static constexpr std::size_t n_response_rows = dim + 2 * n_rotations<dim>;
 
   static constexpr std::size_t first_couple_1 = dim;
   static constexpr std::size_t first_couple_2 = first_couple_1 + n_rotations<dim>;
 
   /// On grain 2 [N].
-  PackedComponents<dim, 1> force = packed_components<dim>(answer, 0);
+  PackedComponents<dim, 1> force = packed_components<dim>(response, 0);
   /// On grain 1 [N m].
-  PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(answer, first_couple_1);
+  PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(response, first_couple_1);
   /// On grain 2 [N m].
-  PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(answer, first_couple_2);
+  PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(response, first_couple_2);
 };
 
 /// The joints of a specimen and their law, ordered in space. Per segment (in space: element of the disk): [segment * size()
@@ -173,7 +173,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return true;
   }
 
-  /// What each joint is and remembers, but for its grains, its number and its answer; for whoever stores or permutes.
+  /// What each joint is and remembers, but for its grains, its number and its response; for whoever stores or permutes.
   template <typename Visitor>
   void visit_per_joint(Visitor&& visit)
   {
@@ -225,7 +225,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     grain_2.resize(n);
     number.resize(n);
     this->state.resize(JointTables<dim>::Row::count, n);
-    this->answer.resize(this->n_answer_rows, n);
+    this->response.resize(this->n_response_rows, n);
     this->segment_state.resize(n_segments * this->n_segment_rows, n);
     this->strength.resize(n_segments * this->n_strength_rows, n);
     this->more_state.resize(n_segments * n_more, n);
@@ -236,7 +236,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   {
     for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
       table->keep(kept);
-    this->answer.keep(kept);
+    this->response.keep(kept);
     for (auto* values : {&grain_1, &grain_2, &number})
       {
         for (std::size_t to = 0; to < kept.size(); ++to)

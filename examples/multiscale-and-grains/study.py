@@ -9,6 +9,7 @@ volumes it also has what follows the peak (after_peak), read off the curves. Pri
 """
 
 import csv
+import itertools
 import json
 import math
 import os
@@ -145,7 +146,8 @@ def difference(one, other):
 BODIES = (
     ("walled, gap 0.0237", "laboratory", "0.0237"),
     ("walled, gap 0.0457", "laboratory", "0.0457"),
-    ("cored, gap 0.0457", "cored", None),
+    ("cored, gap 0.0457", "cored", "= free sides"),
+    ("cored at the sides only, gap 0.0457", "cored", "= sides only"),
     ("sample, gap 0.0457", "sample", None),
 )
 
@@ -208,7 +210,7 @@ def draw():
         "unset key",
         "set bmargin 5",
     ]
-    short = ("walled\\n0.0237", "walled\\n0.0457", "cored\\n0.0457", "sample\\n0.0457")
+    short = ("walled\\n0.0237", "walled\\n0.0457", "cut all\\nround", "cut at\\nsides", "sample\\n0.0457")
     bars = []
     for label, (_, name, variant) in zip(short, BODIES):
         values = peaks(name, "uniaxial_compression", variant)
@@ -258,11 +260,12 @@ def main():
     for name in names:
         run(feldspar, name)
     print_bodies()
-    for one, other in (("sample", "laboratory"), ("cored", "laboratory"), ("sample", "cored")):
+    bodies = {label: (name, variant) for label, name, variant in BODIES if label.endswith("gap 0.0457")}
+    for (one, of_one), (other, of_other) in itertools.combinations(bodies.items(), 2):
         for kind in ("direct_tension", "uniaxial_compression"):
-            values = [peaks(n, kind, "0.0457" if n == "laboratory" else None) for n in (one, other)]
+            values = [peaks(name, kind, variant) for name, variant in (of_other, of_one)]
             if all(len(v) > 1 for v in values):
-                print(f"{one} from {other}, {kind}: {difference(*values)}")
+                print(f"{other} from {one}, {kind}: {difference(*values)}")
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")

@@ -38,10 +38,10 @@ public:
   {
   }
 
-  MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override
+  MaterialResponse<dim> trial(const StrainVector<dim>& strain) const override
   {
-    const auto answer = inner->trial(Axes::strain_within(strain));
-    return {Axes::stress_without(answer.stress), Axes::tangent_without(answer.tangent)};
+    const auto response = inner->trial(Axes::strain_within(strain));
+    return {Axes::stress_without(response.stress), Axes::tangent_without(response.tangent)};
   }
   std::size_t relax(const StrainVector<dim>& strain) override { return inner->relax(Axes::strain_within(strain)); }
   PointEvents<dim> relax_once(const StrainVector<dim>& strain) override

@@ -30,7 +30,7 @@ struct ElasticConstants
   double poissons_ratio;
 };
 
-/// With which plane strain answers in the plane as a thin plate, free of stress across it, does with these.
+/// With which plane strain responds in the plane as a thin plate, free of stress across it, does with these.
 inline ElasticConstants plane_strain_equal_to_plate(const ElasticConstants& plate)
 {
   const auto [E, nu] = plate;
@@ -47,7 +47,10 @@ public:
   {
   }
 
-  MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override { return {stiffness * strain, stiffness}; }
+  MaterialResponse<dim> trial(const StrainVector<dim>& strain) const override
+  {
+    return {stiffness * strain, stiffness};
+  }
   void accept(const StrainVector<dim>& strain) override { stored_energy = 0.5 * strain.dot(stiffness * strain); }
   std::string stored() const override
   {

@@ -33,13 +33,13 @@ using StiffnessMatrix = Eigen::Matrix<double, n_components<dim>, n_components<di
 
 /// Stress and its derivative by strain.
 template <int dim>
-struct MaterialAnswer
+struct MaterialResponse
 {
   StressVector<dim> stress;
   StiffnessMatrix<dim> tangent;
 };
 
-/// What happened in a volume, and its stress then [Pa].
+/// The events in a point, and its stress after them [Pa].
 template <int dim>
 struct PointEvents
 {
@@ -47,7 +47,7 @@ struct PointEvents
   StressVector<dim> stress;
 };
 
-/// Per volume since the start [J/m³], each summed on its own.
+/// Per cubic metre since the start [J/m³], each summed on its own.
 struct PointEnergies
 {
   double stored = 0.0;
@@ -67,7 +67,7 @@ struct PointCrack
   double released_energy; ///< [J]
 };
 
-/// A point has no answer to the strain asked: the step is cut, not the run ended.
+/// A point has no response to the strain asked: the step is cut, not the run ended.
 struct PointFailure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -89,10 +89,10 @@ class MaterialPoint
 public:
   virtual ~MaterialPoint() = default;
 
-  /// The answer to a strain from the accepted state, with the structure at work frozen. No history comes from what was
-  /// tried before, though a search may begin where the last one ended; an answer may be kept for the accept() that
+  /// The response to a strain from the accepted state, with the structure at work frozen. No history comes from what was
+  /// tried before, though a search may begin where the last one ended; a response may be kept for the accept() that
   /// follows. May throw PointFailure.
-  virtual MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const = 0;
+  virtual MaterialResponse<dim> trial(const StrainVector<dim>& strain) const = 0;
 
   /// Lets the structure at work change (break) at this strain until it is stable. Returns the number of events.
   /// May throw PointFailure.
@@ -105,7 +105,7 @@ public:
     return {n, trial(strain).stress};
   }
 
-  /// Makes the answer to this strain and the structure at work history. Cannot fail at a strain at which relax() has just
+  /// Makes the response to this strain and the structure at work history. Cannot fail at a strain at which relax() has just
   /// found nothing, so that no point of a sample is left behind by the others; elsewhere it may throw PointFailure, and the
   /// point keeps its state.
   virtual void accept(const StrainVector<dim>& /*strain*/) {}

@@ -151,9 +151,9 @@ public:
   {
   }
 
-  MaterialAnswer<3> trial(const StrainVector<3>& strain) const override
+  MaterialResponse<3> trial(const StrainVector<3>& strain) const override
   {
-    return update(parameters, state, strain).answer;
+    return update(parameters, state, strain).response;
   }
   void accept(const StrainVector<3>& strain) override { state = update(parameters, state, strain).state; }
   std::string stored() const override { return to_bytes(state); }
@@ -195,12 +195,12 @@ MohrCoulombUpdate update(const MohrCoulombParameters& parameters, const MohrCoul
     return {{s, C}, {old.plastic_strain, old.dissipated, 0.5 * s.dot(strain - old.plastic_strain)}};
   const Eigen::Matrix<double, 6, 6> rotation = stress_rotation(axes);
   MohrCoulombUpdate result;
-  result.answer.stress = rotation.leftCols<3>() * updated.stress;
-  result.answer.tangent = rotation * tangent_in_principal_axes(updated, trial, C(3, 3)) * rotation.transpose();
-  const StrainVector<3> flow = C.ldlt().solve(s - result.answer.stress);
+  result.response.stress = rotation.leftCols<3>() * updated.stress;
+  result.response.tangent = rotation * tangent_in_principal_axes(updated, trial, C(3, 3)) * rotation.transpose();
+  const StrainVector<3> flow = C.ldlt().solve(s - result.response.stress);
   result.state.plastic_strain = old.plastic_strain + flow;
-  result.state.dissipated = old.dissipated + result.answer.stress.dot(flow);
-  result.state.stored = 0.5 * result.answer.stress.dot(strain - result.state.plastic_strain);
+  result.state.dissipated = old.dissipated + result.response.stress.dot(flow);
+  result.state.stored = 0.5 * result.response.stress.dot(strain - result.state.plastic_strain);
   return result;
 }
 

@@ -30,11 +30,11 @@ struct MohrCoulombState
 
 struct MohrCoulombUpdate
 {
-  MaterialAnswer<3> answer;
+  MaterialResponse<3> response;
   MohrCoulombState state;
 };
 
-/// Answer and new state at a strain. Throws PointFailure if the strain is not finite.
+/// Response and new state at a strain. Throws PointFailure if the strain is not finite.
 MohrCoulombUpdate update(const MohrCoulombParameters& parameters, const MohrCoulombState& old,
                          const StrainVector<3>& strain);
 

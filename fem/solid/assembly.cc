@@ -51,7 +51,7 @@ NodalForces assemble_forces(const Discretisation<dim>& elements, const std::vect
             for (const unsigned int i : values.dof_indices())
               internal[i] += strain_of<dim, material_dim>(elements.kinematics, fe.system_to_component_index(i).first,
                                                           values.shape_value(i, q), values.shape_grad(i, q), radius)
-                               .dot(state.answers[point].stress) *
+                               .dot(state.responses[point].stress) *
                              volumes[point];
             ++point;
           }
@@ -121,7 +121,7 @@ void assemble_tangent(const Discretisation<dim>& elements, const std::vector<dou
             for (const unsigned int i : values.dof_indices())
               B.col(i) = strain_of<dim, material_dim>(elements.kinematics, fe.system_to_component_index(i).first,
                                                       values.shape_value(i, q), values.shape_grad(i, q), radius);
-            stiffness.noalias() += B.transpose() * (state.answers[point].tangent * B) * volumes[point];
+            stiffness.noalias() += B.transpose() * (state.responses[point].tangent * B) * volumes[point];
             ++point;
           }
         for (const unsigned int i : values.dof_indices())

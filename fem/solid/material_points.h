@@ -20,7 +20,7 @@ class MaterialPoints
 {
 public:
   using Strains = std::vector<StrainVector<dim>>;
-  using Answers = std::vector<MaterialAnswer<dim>>;
+  using Responses = std::vector<MaterialResponse<dim>>;
 
   void add(std::unique_ptr<MaterialPoint<dim>> point)
   {
@@ -33,11 +33,11 @@ public:
   /// What each point took of a processor since it was added, whatever else runs there [s].
   const std::vector<double>& seconds() const { return times; }
 
-  Answers trial(const Strains& strains) const
+  Responses trial(const Strains& strains) const
   {
-    Answers answers(points.size());
-    for_each([&](const std::size_t i) { answers[i] = points[i]->trial(strains[i]); });
-    return answers;
+    Responses responses(points.size());
+    for_each([&](const std::size_t i) { responses[i] = points[i]->trial(strains[i]); });
+    return responses;
   }
 
   /// Returns the number of events of all points.

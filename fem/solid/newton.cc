@@ -78,7 +78,7 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
           if (report.n_cascades >= parameters.most_cascades)
             return failed(fmt::format("still unstable after {} cascades", report.n_cascades));
           if (!update_points())
-            return failed("a material point has no answer to its strain");
+            return failed("a material point has no response to its strain");
           n_iterations_left = parameters.most_iterations;
           parameters.watch(report);
           continue;
@@ -92,7 +92,7 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
       ++report.n_iterations;
       const double share = correct(*correction);
       if (share == 0.0)
-        return failed("a material point has no answer to its strain");
+        return failed("a material point has no response to its strain");
       if (boundary_moves)
         {
           for (const auto& line : constraints.standing.get_lines())
@@ -123,14 +123,14 @@ std::vector<bool> NewtonSearch<dim, material_dim>::held_by(const AffineConstrain
   return held;
 }
 
-/// False where a point of any rank has no answer.
+/// False where a point of any rank has no response.
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::update_points()
 {
   bool failed = false;
   try
     {
-      tried.answers = points.materials.trial(tried.strains);
+      tried.responses = points.materials.trial(tried.strains);
     }
   catch (const PointFailure&)
     {
@@ -163,15 +163,15 @@ std::optional<std::uint64_t> NewtonSearch<dim, material_dim>::relax_points()
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::tangents_are_symmetric() const
 {
-  const bool symmetric = std::all_of(tried.answers.begin(), tried.answers.end(), [](const auto& answer) {
+  const bool symmetric = std::all_of(tried.responses.begin(), tried.responses.end(), [](const auto& response) {
     constexpr double round_off = 1e-10;
-    const auto& C = answer.tangent;
+    const auto& C = response.tangent;
     return (C - C.transpose()).cwiseAbs().maxCoeff() <= round_off * C.cwiseAbs().maxCoeff();
   });
   return Utilities::MPI::min(int(symmetric), elements.communicator()) == 1;
 }
 
-/// As much of a correction as all points have an answer to, halved down to a sixteenth; 0 where there is none.
+/// As much of a correction as all points have a response to, halved down to a sixteenth; 0 where there is none.
 template <int dim, int material_dim>
 double NewtonSearch<dim, material_dim>::correct(const NodalVector& correction)
 {

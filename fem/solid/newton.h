@@ -12,7 +12,7 @@ namespace feldspar::fem
 {
 /// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §9.3.
 ///
-/// Between two cascades the structure of every point is frozen. Its answers come from the points' accepted states, which
+/// Between two cascades the structure of every point is frozen. Its responses come from the points' accepted states, which
 /// the search leaves as they are; their structure at work it changes.
 template <int dim, int material_dim>
 class NewtonSearch

@@ -210,7 +210,7 @@ template <int dim, int material_dim>
 StressVector<material_dim> Solid<dim, material_dim>::mean_stress() const
 {
   return mean<material_dim>(
-    volumes(), [&](const std::size_t i) { return answers()[i].stress; }, communicator());
+    volumes(), [&](const std::size_t i) { return responses()[i].stress; }, communicator());
 }
 
 template <int dim, int material_dim>

@@ -86,7 +86,7 @@ public:
   const std::vector<PointPlace>& places() const { return points.places; }
   const std::vector<double>& volumes() const { return points.volumes; } ///< [m³]
   const std::vector<StrainVector<material_dim>>& strains() const { return accepted->strains; }
-  const std::vector<MaterialAnswer<material_dim>>& answers() const { return accepted->answers; }
+  const std::vector<MaterialResponse<material_dim>>& responses() const { return accepted->responses; }
 
 private:
   void set_up();

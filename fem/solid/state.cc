@@ -46,7 +46,7 @@ SolidState<material_dim> state_at_rest(const Discretisation<dim>& elements,
   SolidState<material_dim> state{
     elements.ghosted_vector(), elements.owned_vector(), elements.owned_vector(), {}, {}, {}, {}};
   state.strains.assign(materials.size(), StrainVector<material_dim>::Zero());
-  state.answers = materials.trial(state.strains);
+  state.responses = materials.trial(state.strains);
   return state;
 }
 

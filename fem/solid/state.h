@@ -18,7 +18,7 @@ struct SolidState
   NodalVector internal_force; ///< on all nodes, as if nothing were held [N]
   NodalVector external_force; ///< of the pressures [N]
   std::vector<StrainVector<material_dim>> strains;
-  std::vector<MaterialAnswer<material_dim>> answers;
+  std::vector<MaterialResponse<material_dim>> responses;
   std::map<std::string, double> pressures; ///< on boundaries by their names [Pa]
   BoundaryWork work{};                     ///< on the way here from rest, the same on every rank
 };
@@ -35,7 +35,7 @@ struct SolidPoints
 template <int dim, int material_dim>
 SolidPoints<material_dim> make_points(const Discretisation<dim>& elements, const Material<material_dim>& material);
 
-/// At rest, with the answers of the points to no strain. Collective.
+/// At rest, with the responses of the points to no strain. Collective.
 template <int dim, int material_dim>
 SolidState<material_dim> state_at_rest(const Discretisation<dim>& elements,
                                        const MaterialPoints<material_dim>& materials);

@@ -30,9 +30,9 @@ std::vector<StoredCell> stored_cells(const Discretisation<dim>& elements, const 
           stored.displacement.push_back(state.displacement(dof));
         for (unsigned int q = 0; q < elements.n_points_per_cell(); ++q, ++point)
           {
-            const auto& [stress, tangent] = state.answers[point];
-            stored.answers.insert(stored.answers.end(), stress.begin(), stress.end());
-            stored.answers.insert(stored.answers.end(), tangent.data(), tangent.data() + tangent.size());
+            const auto& [stress, tangent] = state.responses[point];
+            stored.responses.insert(stored.responses.end(), stress.begin(), stress.end());
+            stored.responses.insert(stored.responses.end(), tangent.data(), tangent.data() + tangent.size());
             stored.points.push_back(materials[point].stored());
           }
         cells.push_back(std::move(stored));
@@ -84,7 +84,7 @@ SolidState<material_dim> restored(const Discretisation<dim>& elements, SolidPoin
   bool whole = true;
   for (const StoredCell& cell : cells)
     whole = by_number.emplace(cell.number, &cell).second && cell.displacement.size() == elements.fe.n_dofs_per_cell() &&
-            cell.answers.size() == (n + n * n) * n_of_cell && cell.points.size() == n_of_cell && whole;
+            cell.responses.size() == (n + n * n) * n_of_cell && cell.points.size() == n_of_cell && whole;
   for (const PointPlace& place : points.places)
     whole = whole && by_number.count(place.cell_number) == 1;
   check_everywhere(whole, elements.communicator());
@@ -103,10 +103,10 @@ SolidState<material_dim> restored(const Discretisation<dim>& elements, SolidPoin
             displacement(dofs[i]) = stored.displacement[i];
         for (std::size_t q = 0; q < n_of_cell; ++q)
           {
-            const double* const answer = &stored.answers[q * (n + n * n)];
-            auto& [stress, tangent] = state.answers[stored_points.size()];
-            std::copy_n(answer, n, stress.data());
-            std::copy_n(answer + n, n * n, tangent.data());
+            const double* const response = &stored.responses[q * (n + n * n)];
+            auto& [stress, tangent] = state.responses[stored_points.size()];
+            std::copy_n(response, n, stress.data());
+            std::copy_n(response + n, n * n, tangent.data());
             stored_points.push_back(stored.points[q]);
           }
       }

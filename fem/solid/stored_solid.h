@@ -14,13 +14,13 @@ struct StoredCell
 {
   std::uint64_t number;             ///< PointPlace::cell_number
   std::vector<double> displacement; ///< of its degrees of freedom, in the order of its element
-  std::vector<double> answers;      ///< of its points one after another: stress, then tangent
+  std::vector<double> responses;    ///< of its points one after another: stress, then tangent
   std::vector<std::string> points;  ///< MaterialPoint::stored()
 
   template <typename Archive>
   void serialize(Archive& archive, unsigned int /*version*/)
   {
-    archive& number& displacement& answers& points;
+    archive& number& displacement& responses& points;
   }
 };
 
@@ -41,7 +41,7 @@ std::vector<StoredCell> stored_cells(const Discretisation<dim>& elements, const 
 template <int dim>
 std::vector<StoredCell> brought_home(const Discretisation<dim>& elements, const std::vector<StoredCell>& cells);
 
-/// The state at rest with displacement, strains and answers of the cells of this rank, and the points put back to theirs;
+/// The state at rest with displacement, strains and responses of the cells of this rank, and the points put back to theirs;
 /// forces and pressures stay. Collective. Throws std::invalid_argument, on every rank, where these are not all cells, or
 /// of another mesh or material; the points are then unusable.
 template <int dim, int material_dim>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -15,13 +16,16 @@
 
 namespace feldspar
 {
-extern const std::string_view page_template; // report/page/page.html
+extern const std::string_view page_template;   // report/page/page.html
+extern const std::string_view figure_template; // report/page/figure.html
+extern const std::string_view page_script;     // third_party/*/*.js and report/page/page.js
+extern const std::string_view script_sha_256;  // of it, hexadecimal
 
 namespace
 {
 using kainjow::mustache::data;
 
-constexpr std::size_t most_picture_bytes = 9'000'000; // of a page of 10 MB, the rest is text
+constexpr std::size_t most_picture_bytes = 8'700'000; // of a page of 10 MB, the rest is text and the script
 constexpr int wide_picture = 900;                     // from here on a picture takes the width of the page [px]
 
 std::string base64(const std::string& bytes)
@@ -31,6 +35,15 @@ std::string base64(const std::string& bytes)
   std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
   text.append((3 - bytes.size() % 3) % 3, '=');
   return text;
+}
+
+/// As a policy names the one script that may run: no other does, whatever text comes into the page.
+std::string hash_of_script()
+{
+  std::string bytes;
+  for (std::size_t k = 0; k + 1 < script_sha_256.size(); k += 2)
+    bytes += char(std::stoi(std::string(script_sha_256.substr(k, 2)), nullptr, 16));
+  return "sha256-" + base64(bytes);
 }
 
 data list(const std::vector<std::string>& texts)
@@ -46,14 +59,32 @@ void set_unless_empty(data& object, const std::string& name, const std::string& 
   object.set(name, text.empty() ? data(data::type::bool_false) : data(text));
 }
 
+/// Columns that say something; the files have all.
+std::vector<std::size_t> columns_with_contents(const Table& table)
+{
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 1; c < table.header.size(); ++c)
+    if (std::any_of(table.rows.begin(), table.rows.end(), [c](const std::vector<std::string>& row) {
+          return c < row.size() && !row[c].empty() && row[c] != "–";
+        }))
+      columns.push_back(c);
+  return columns;
+}
+
 data describe(const Table& table)
 {
+  const std::vector<std::size_t> columns = columns_with_contents(table);
+  std::vector<std::string> header{table.header.front()};
+  for (const std::size_t c : columns)
+    header.push_back(table.header[c]);
   data rows = data::type::list;
   for (const auto& row : table.rows)
     {
       data cells = data::type::list;
-      for (std::size_t c = 1; c < row.size(); ++c)
+      for (const std::size_t c : columns)
         {
+          if (c >= row.size())
+            break;
           data cell = data::type::object;
           cell.set("text", row[c]);
           set_unless_empty(cell, "class", row[c].starts_with("✗") ? "bad" : row[c].starts_with("✓") ? "good" : "");
@@ -67,8 +98,10 @@ data describe(const Table& table)
   data result = data::type::object;
   result.set("id", "table_" + table.name);
   result.set("caption", table.caption);
-  result.set("file", fmt::format("{}/{}.csv", result_file::tables, table.name));
-  result.set("header", list(table.header));
+  // In the page itself: a link into its folder would be lost where it is mailed.
+  result.set("csv", "data:text/csv;charset=utf-8;base64," + base64(as_csv(table)));
+  result.set("file", table.name + ".csv");
+  result.set("header", list(header));
   result.set("rows", rows);
   return result;
 }
@@ -113,11 +146,15 @@ public:
           data file = data::type::object;
           file.set("file", file_of(picture.name + "." + small));
           file.set("ending", std::string(ending));
+          file.set("shown", data(picture.shown_file().ends_with(small)));
           files << file;
         }
     data result = data::type::object;
     set_unless_empty(result, "source", source);
     set_unless_empty(result, "absent", problem);
+    const bool has_room = n_bytes + picture.live.size() <= most_picture_bytes;
+    set_unless_empty(result, "live", has_room ? picture.live : "");
+    n_bytes += has_room ? picture.live.size() : 0;
     result.set("alternative", picture.alternative);
     result.set("caption", picture.caption);
     result.set("width", std::to_string(picture.width));
@@ -153,6 +190,11 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   result.set("has_warnings", data(!block.warnings.empty()));
   result.set("warnings", list(block.warnings));
   result.set("tables", tables);
+  result.set("has_lead", data(!block.lead.empty()));
+  data lead = data::type::list;
+  for (const auto& picture : block.lead)
+    lead << shelf.describe(picture);
+  result.set("lead", lead);
   result.set("has_figures", data(!block.pictures.empty()));
   result.set("figures", figures);
   return result;
@@ -179,6 +221,9 @@ void write_page(const Page& page, const std::filesystem::path& file, const std::
   whole.set("title", page.title);
   whole.set("subtitle", page.subtitle);
   whole.set("sections", sections);
+  whole.set("script_hash", hash_of_script());
+  whole.set("script", std::string(page_script));
+  whole.set("figure", kainjow::mustache::partial([] { return std::string(figure_template); }));
 
   kainjow::mustache::mustache filled{std::string(page_template)};
   if (!filled.is_valid())

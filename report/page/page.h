@@ -28,6 +28,7 @@ struct PageBlock
   std::vector<std::string> warnings;
   std::vector<Table> tables;
   std::vector<PagePicture> pictures;
+  std::vector<PagePicture> lead; ///< beside the words above, where the screen is wide enough; at most one
 };
 
 struct PageSection
@@ -46,6 +47,6 @@ struct Page
 };
 
 /// Writes the page as one file that needs no other and no network, at most 10 MB: pictures stand in it as data, those
-/// that would make it larger are named instead. `figures` is where they were drawn, beside the page.
+/// that would make it larger are named instead; a script shows curves and cracks so that they answer to the pointer. `figures` is where they were drawn, beside the page.
 void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures);
 } // namespace feldspar

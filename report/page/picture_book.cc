@@ -26,16 +26,18 @@ void PictureBook::keep_as_files(std::vector<Picture> pictures)
       all.push_back(std::move(picture));
 }
 
-std::string PictureBook::draw_into(const std::filesystem::path& folder, Page& page) const
+std::string PictureBook::draw_into(const std::filesystem::path& folder, Page& page,
+                                   const std::function<bool()>& is_over) const
 {
-  const auto problems = draw(all, folder);
+  const auto problems = draw(all, folder, std::chrono::minutes(5), is_over);
   std::map<std::string, std::string> problem_of;
   for (std::size_t k = 0; k < all.size(); ++k)
     problem_of[all[k].name] = problems[k];
   for (auto& section : page.sections)
     for (auto& block : section.blocks)
-      for (auto& picture : block.pictures)
-        picture.problem = problem_of[picture.picture.name];
+      for (auto* pictures : {&block.lead, &block.pictures})
+        for (auto& picture : *pictures)
+          picture.problem = problem_of[picture.picture.name];
   const auto first = std::find_if(problems.begin(), problems.end(), [](const auto& text) { return !text.empty(); });
   return first == problems.end() ? "" : *first;
 }

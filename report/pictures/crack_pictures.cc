@@ -1,5 +1,7 @@
 #include "report/pictures/crack_pictures.h"
 
+#include "report/live/crack_story.h"
+#include "report/pictures/flaw_outlines.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -21,7 +23,6 @@ namespace
 using namespace plot;
 
 constexpr double pi = std::numbers::pi;
-constexpr const char* flaw_colour = "#202020";
 
 /// The axis of the tests: the last one.
 std::size_t vertical(const TestRecord& record) { return record.size[2] > 0.0 ? 2 : 1; }
@@ -48,32 +49,99 @@ struct Frame
   }
 };
 
-/// Around the specimen, with room for what bulges but not for what flew away.
-Frame frame_of(const FinishedTest& test)
+/// Around all grains as they lay at the start and where they came to. What flew farther than half the specimen's size is
+/// left out, for it would make the specimen small.
+struct MapFrame
+{
+  Frame frame;
+  std::size_t n_outside = 0;
+
+  std::string remark() const
+  {
+    return n_outside == 0 ? ""
+                          : fmt::format("; {} grain{} flew out of the picture", n_outside, n_outside == 1 ? "" : "s");
+  }
+};
+
+MapFrame frame_of(const FinishedTest& test)
 {
   const TestRecord& record = test.record;
-  Frame frame;
+  const auto axis_of = [&](const std::size_t c) { return c == 0 ? 0 : vertical(record); };
+  Frame start;
   for (const auto& grain : test.appearance.grains_at_end)
     for (std::size_t c = 0; c < 2; ++c)
       {
-        const double centre = grain.start[c == 0 ? 0 : vertical(record)];
-        frame.low[c] = std::min(frame.low[c], centre - grain.radius);
-        frame.high[c] = std::max(frame.high[c], centre + grain.radius);
+        start.low[c] = std::min(start.low[c], grain.start[axis_of(c)] - grain.radius);
+        start.high[c] = std::max(start.high[c], grain.start[axis_of(c)] + grain.radius);
       }
-  const std::array<double, 2> size{frame.width(), frame.height()};
-  const std::array<double, 2> room{0.12, 0.02};
+  const std::array<double, 2> size{start.width(), start.height()};
+  MapFrame result{start};
+  for (const auto& grain : test.appearance.grains_at_end)
+    {
+      bool is_inside = true;
+      for (std::size_t c = 0; c < 2; ++c)
+        is_inside &= grain.position[axis_of(c)] > start.low[c] - 0.5 * size[c] &&
+                     grain.position[axis_of(c)] < start.high[c] + 0.5 * size[c];
+      result.n_outside += !is_inside;
+      for (std::size_t c = 0; c < 2 && is_inside; ++c)
+        {
+          result.frame.low[c] = std::min(result.frame.low[c], grain.position[axis_of(c)] - grain.radius);
+          result.frame.high[c] = std::max(result.frame.high[c], grain.position[axis_of(c)] + grain.radius);
+        }
+    }
   for (std::size_t c = 0; c < 2; ++c)
     {
-      frame.low[c] -= room[c] * size[c];
-      frame.high[c] += room[c] * size[c];
+      result.frame.low[c] -= 0.02 * size[c];
+      result.frame.high[c] += 0.02 * size[c];
     }
-  return frame;
+  return result;
 }
 
-std::string map_set_up(const Frame& frame)
+/// Cracks where they came to: moved as the two grains whose surfaces were the nearest moved on the mean.
+std::vector<Crack> carried(const FinishedTest& test)
 {
-  return "set size ratio -1\nset xlabel 'x [mm]'; set ylabel 'y [mm]'\nset xtics nomirror out; set ytics nomirror out; "
-         "set border 3\n" +
+  std::vector<Crack> cracks = test.record.cracks;
+  std::map<std::uint64_t, std::array<double, 3>> of_joints;
+  for (Crack& crack : cracks)
+    {
+      auto found = of_joints.find(crack.joint);
+      if (found == of_joints.end())
+        {
+          std::array<std::pair<double, const GrainPicture*>, 2> nearest{
+            std::pair{std::numeric_limits<double>::infinity(), nullptr},
+            std::pair{std::numeric_limits<double>::infinity(), nullptr}};
+          for (const auto& grain : test.appearance.grains_at_end)
+            {
+              const double distance = std::hypot(grain.start[0] - crack.centroid[0], grain.start[1] - crack.centroid[1],
+                                                 grain.start[2] - crack.centroid[2]) -
+                                      grain.radius;
+              if (distance < nearest[0].first)
+                {
+                  nearest[1] = nearest[0];
+                  nearest[0] = {distance, &grain};
+                }
+              else if (distance < nearest[1].first)
+                nearest[1] = {distance, &grain};
+            }
+          std::array<double, 3> moved{};
+          for (const auto& [distance, grain] : nearest)
+            for (std::size_t c = 0; c < 3 && grain != nullptr; ++c)
+              moved[c] += 0.5 * (grain->position[c] - grain->start[c]);
+          found = of_joints.emplace(crack.joint, moved).first;
+        }
+      for (std::size_t c = 0; c < 3; ++c)
+        crack.centroid[c] += found->second[c];
+    }
+  return cracks;
+}
+
+std::string map_set_up(const Frame& frame, const TestRecord& record)
+{
+  // Large letters: a phone shows the map at half its size or less.
+  return fmt::format("set size ratio -1\nset xlabel 'x [mm]' font ',15'; set ylabel '{} [mm]' font ',15'\n"
+                     "set xtics nomirror out font ',14'; set ytics nomirror out font ',14'; set border 3\n"
+                     "set title font ',16'\nset key font ',14'\nset bmargin 7.5\n",
+                     record.dimension() == 2 ? 'y' : 'z') +
          frame.ranges() + "set key below center horizontal maxcols 2 Left reverse samplen 1.5 width 1 noenhanced\n";
 }
 
@@ -110,20 +178,25 @@ std::vector<Stage> stages(const TestRecord& record)
   return result;
 }
 
-std::string stage_rows(const TestRecord& record, const CrackKind kind, const Stage& stage)
+/// At which stages: "at the peak and at the end".
+std::string in_words(const std::vector<Stage>& all)
 {
-  const std::size_t axis = vertical(record);
+  std::string text;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    text += (k == 0                ? ""
+             : k + 1 == all.size() ? " and "
+                                   : ", ") +
+            (all[k].title == "crack initiation" ? "at " + all[k].title : "at the " + all[k].title);
+  return text;
+}
+
+std::string stage_rows(const std::vector<Crack>& cracks, const std::size_t axis, const CrackKind kind,
+                       const Stage& stage)
+{
   std::string rows;
-  for (const auto& crack : record.cracks)
+  for (const auto& crack : cracks)
     if (crack.kind == kind && crack.step <= stage.last_step)
-      {
-        // The trace of its face in the plane of the picture.
-        const double dx = -crack.normal[axis] * crack.size;
-        const double dy = crack.normal[0] * crack.size;
-        fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g} {:.6g} {:.6g}\n",
-                       (crack.centroid[0] - 0.5 * dx) / milli, (crack.centroid[axis] - 0.5 * dy) / milli, dx / milli,
-                       dy / milli);
-      }
+      rows += trace_of(crack, axis);
   return rows;
 }
 
@@ -137,40 +210,6 @@ std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
   for (auto& [number, diameter] : diameters)
     diameter = 2.0 * std::pow(diameter, axis == 2 ? 1.0 / 3.0 : 0.5);
   return diameters;
-}
-
-/// Flaws as they were before the test: open ones as white areas with a rim, closed ones as lines.
-std::string flaw_data(const FinishedTest& test)
-{
-  const std::size_t axis = vertical(test.record);
-  std::string open;
-  std::string closed;
-  for (const auto& flaw : test.appearance.flaws)
-    {
-      std::string& rows = flaw.open ? open : closed;
-      for (const auto& point : flaw.outline)
-        fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g}\n", point[0] / milli, point[axis] / milli);
-      rows += "\n";
-    }
-  std::string data;
-  if (!open.empty())
-    data += fmt::format("$open << EOD\n{}EOD\n", open);
-  if (!closed.empty())
-    data += fmt::format("$closed << EOD\n{}EOD\n", closed);
-  return data;
-}
-
-/// To be drawn over the grains and under the cracks.
-std::string flaw_plots(const FinishedTest& test)
-{
-  const auto& flaws = test.appearance.flaws;
-  const auto is_open = [](const FlawPicture& flaw) { return flaw.open; };
-  std::string plots;
-  if (std::any_of(flaws.begin(), flaws.end(), is_open))
-    plots += fmt::format(", $open using 1:2 with lines lw 1.2 lc rgb '{}' notitle", flaw_colour);
-  if (!std::all_of(flaws.begin(), flaws.end(), is_open))
-    plots += fmt::format(", $closed using 1:2 with lines lw 3 lc rgb '{}' title 'flaw'", flaw_colour);
-  return plots;
 }
 
 std::string seed_of(const FinishedTest& test) { return fmt::format("seed {}", test.record.seed); }
@@ -260,9 +299,9 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
   return {
     {.name = test.name + "_cracks",
      .caption = fmt::format(
-       "{}, {}: broken segments of the representative volume at each point, at crack initiation, at the peak "
-       "and at the end; the area of a circle is their number, up to {}",
-       title, seed_of(test), most),
+       "{}, {}: broken segments of the representative volume at each point, {}; the area of a circle is their number, up "
+       "to {}",
+       title, seed_of(test), in_words(all_stages), most),
      .alternative = fmt::format("Maps of the broken segments at the points of {} ({}): {} in tension and {} in "
                                 "shear at the end.",
                                 title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
@@ -270,10 +309,20 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
      .height = panel_height,
      .raster = true,
      .vector = false,
-     .script = data + map_set_up(frame) +
+     .script = data + map_set_up(frame, record) +
                fmt::format("set object 1 rectangle from 0,0 to {:.6g},{:.6g} fc rgb '{}' fs solid noborder behind\n"
                            "set multiplot layout 1,{}\n{}unset multiplot\n",
                            record.size[0] / milli, height / milli, light_grey, all_stages.size(), plots)}};
+}
+} // namespace
+
+namespace
+{
+/// As gnuplot counts colours; pale, so that cracks stand out. Neighbours in number are seldom neighbours in place.
+unsigned int mineral_colour(const std::uint32_t mineral)
+{
+  static constexpr std::array tones{0xead9b8u, 0xc3d6e6u, 0xd9c7deu, 0xcfe2c3u, 0xe9c9c0u, 0xe3e3d0u, 0xbfd8d2u};
+  return mineral == 0 ? 0xd8d8d8u : tones[mineral % tones.size()];
 }
 } // namespace
 
@@ -286,8 +335,12 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
     return {};
   const std::size_t axis = vertical(record);
   const auto all_stages = stages(record);
-  const Frame frame = frame_of(test);
-  std::string data = flaw_data(test);
+  const bool in_space = record.dimension() == 3;
+  const MapFrame map_frame = frame_of(test);
+  const Frame& frame = map_frame.frame;
+  const std::vector<Crack> cracks_at_end = carried(test);
+  const FlawOutlines flaws = flaw_outlines(test, "");
+  std::string data = flaws.data;
   std::string plots;
   for (std::size_t s = 0; s < all_stages.size(); ++s)
     {
@@ -296,32 +349,34 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
       for (const auto& grain : test.appearance.grains_at_end)
         {
           const auto& centre = at_end ? grain.position : grain.start;
-          fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g}\n", centre[0] / milli, centre[axis] / milli,
-                         grain.radius / milli);
+          fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g} {}\n", centre[0] / milli,
+                         centre[axis] / milli, grain.radius / milli, mineral_colour(grain.mineral));
         }
       data += fmt::format("$grains{} << EOD\n{}EOD\n", s, grains);
-      plots +=
-        fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
-                    gnuplot_text(all_stages[s].title), s, light_grey);
-      plots += flaw_plots(test);
+      plots += fmt::format("set title {} noenhanced\nplot $grains{} using 1:2:3:4 with circles fill solid noborder lc "
+                           "rgb variable notitle",
+                           gnuplot_text(all_stages[s].title), s);
+      plots += flaws.plots;
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
-        add_cracks(data, plots, s, kind, stage_rows(record, kind, all_stages[s]), 1.8);
+        add_cracks(data, plots, s, kind, stage_rows(at_end ? cracks_at_end : record.cracks, axis, kind, all_stages[s]),
+                   1.8);
       plots += "\n";
     }
   const auto [width, height] = panel_size(frame);
   const int columns = is_long(frame) ? 1 : int(all_stages.size());
   const int rows = is_long(frame) ? int(all_stages.size()) : 1;
-  return {
-    {.name = test.name + "_cracks",
-     .caption = fmt::format("{}, {}: cracks at crack initiation, at the peak and at the end", title, seed_of(test)),
-     .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.", title,
-                                seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
-     .width = width * columns,
-     .height = height * rows,
-     .raster = true,
-     .vector = false,
-     .script = data + map_set_up(frame) +
-               fmt::format("set multiplot layout {},{}\n{}unset multiplot\n", rows, columns, plots)}};
+  return {{.name = test.name + "_cracks",
+           .caption = fmt::format("{}, {}: cracks {}{}{}", title, seed_of(test), in_words(all_stages),
+                                  in_space ? ", seen from the front through the whole body" : "", map_frame.remark()),
+           .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.",
+                                      title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
+           .width = width * columns,
+           .height = height * rows,
+           .raster = true,
+           .vector = false,
+           .script = data + map_set_up(frame, record) +
+                     fmt::format("set multiplot layout {},{}\n{}unset multiplot\n", rows, columns, plots),
+           .live = crack_story(test)}};
 }
 
 std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& title)
@@ -330,7 +385,8 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
   if (test.appearance.grains_at_end.empty())
     return {};
   const std::size_t axis = vertical(record);
-  const Frame frame = frame_of(test);
+  const MapFrame map_frame = frame_of(test);
+  const Frame& frame = map_frame.frame;
   const auto diameters = fragment_diameters(test);
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0.0;
@@ -350,7 +406,8 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
   const auto [width, height] = panel_size(frame);
   return {
     {.name = test.name + "_fragments",
-     .caption = fmt::format("{}, {}: fragments at the end, coloured by their size", title, seed_of(test)),
+     .caption =
+       fmt::format("{}, {}: fragments at the end, coloured by their size{}", title, seed_of(test), map_frame.remark()),
      .alternative =
        fmt::format("Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
                    title, seed_of(test), test.results.n_fragments.value.value_or(0.0),
@@ -360,7 +417,7 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
      .raster = true,
      .vector = false,
      .script =
-       fmt::format("$body << EOD\n{}EOD\n$loose << EOD\n{}EOD\n", body, loose) + map_set_up(frame) +
+       fmt::format("$body << EOD\n{}EOD\n$loose << EOD\n{}EOD\n", body, loose) + map_set_up(frame, record) +
        // viridis, whose brightness grows all the way
        "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
        "set logscale cb\nset cbtics (0.5,1,1.5,2,3,5,10,20,50,100,200)\nset cblabel 'equivalent diameter [mm]'\n" +
@@ -444,9 +501,8 @@ std::vector<Picture> rose_picture(const Series& series)
                                         lines, columns, plots)}};
 }
 
-std::vector<Picture> fragment_size_picture(const Series& series)
+std::vector<Picture> fragment_size_picture(const Series& series, const std::size_t which)
 {
-  static constexpr std::array colours{green, blue, orange, vermillion, purple};
   std::string data;
   std::string plots;
   std::size_t n = 0;
@@ -474,8 +530,8 @@ std::vector<Picture> fragment_size_picture(const Series& series)
           fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", diameter / milli, sum / all / percent);
         }
       data += fmt::format("$sizes{} << EOD\n{}EOD\n", n, rows);
-      plots += fmt::format("{}$sizes{} using 1:2 with lines lw 2 dt {} lc rgb '{}' {}", n ? ", " : "", n, 1 + n % 4,
-                           colours[n % colours.size()], title(group.title()));
+      plots += fmt::format("{}$sizes{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", n ? ", " : "", n,
+                           n < 5 ? 2.2 : 1.2, 1 + n % 5, colour(series, which), title(group.title()));
       ++n;
     }
   if (n == 0)

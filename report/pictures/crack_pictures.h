@@ -19,6 +19,7 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
 /// Directions of the crack normals of a series, weighted by crack length, one rose for each of the tests shown.
 std::vector<Picture> rose_picture(const Series& series);
 
-/// Share of the volume in fragments smaller than a size, a line for each of the tests shown.
-std::vector<Picture> fragment_size_picture(const Series& series);
+/// Share of the volume in fragments smaller than a size, a line for each of the tests shown; in the colour of the series,
+/// which is this one of all.
+std::vector<Picture> fragment_size_picture(const Series& series, std::size_t which);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "report/pictures/curve_pictures.h"
 
+#include "report/live/chart.h"
 #include "report/pictures/plot_style.h"
 #include "results/test_groups.h"
 
@@ -20,7 +21,7 @@ namespace
 using namespace plot;
 
 constexpr int width = 580;
-constexpr int height = 450;
+constexpr int plain_height = 450;
 constexpr std::size_t most_rows = 250; ///< of a single test in a picture
 constexpr std::size_t n_bins = 40;
 
@@ -46,23 +47,48 @@ struct SeriesGroup
 
 using SameTests = std::vector<SeriesGroup>;
 
-/// Data blocks and plot entries in the making.
+using Points = std::vector<std::array<double, 2>>;
+
+/// Data blocks and plot entries in the making, and the same for the script of the page.
 class Plot
 {
 public:
-  std::string add_data(const std::string& rows)
+  using Kind = ChartLine::Kind;
+
+  /// Layers are drawn from 0 upwards. Of its points the picture and the page show the same.
+  void add(const std::size_t layer, ChartLine line)
   {
+    if (line.points.empty())
+      return;
+    std::string rows;
+    for (const auto& [x, y] : line.points)
+      fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", x, y);
     const std::string block = fmt::format("$data{}", n_blocks++);
     data += fmt::format("{} << EOD\n{}EOD\n", block, rows);
-    return block;
+    const std::string axes = line.to_the_right ? "axes x1y2 " : "";
+    const std::string key = title(line.goes_with.empty() ? line.label : "");
+    if (line.kind == Kind::area)
+      layers[layer].push_back(
+        fmt::format("{} using 1:2 {}with filledcurves closed fill solid 0.18 noborder lc rgb '{}' {}", block, axes,
+                    line.colour, key));
+    else if (line.kind == Kind::steps)
+      layers[layer].push_back(fmt::format("{} using 1:2 {}with histeps lw {} dt {} lc rgb '{}' {}", block, axes,
+                                          line.width, line.dashes, line.colour, key));
+    else
+      layers[layer].push_back(fmt::format("{} using 1:2 {}with lines lw {} dt {} lc rgb '{}{}' {}", block, axes,
+                                          line.width, line.dashes, line.goes_with.empty() ? "#" : "#90",
+                                          line.colour.substr(1), key));
+    if (line.goes_with.empty())
+      {
+        ++n_keys;
+        longest_key = std::max(longest_key, int(line.label.size()));
+      }
+    of_page[layer].push_back(std::move(line));
   }
 
-  /// Layers are drawn from 0 upwards.
-  void add(const std::size_t layer, std::string entry) { layers[layer].push_back(std::move(entry)); }
-
-  std::string script(const std::string& set_up) const
+  std::string script(const Chart& axes, const std::string& set_up) const
   {
-    std::string text = data + set_up + "plot ";
+    std::string text = data + frame(axes.x_label, axes.y_label) + set_up + "plot ";
     bool first = true;
     for (const auto& layer : layers)
       for (const auto& entry : layer)
@@ -73,18 +99,62 @@ public:
     return text + "\n";
   }
 
+  std::string json(Chart axes) const
+  {
+    for (const auto& layer : of_page)
+      axes.lines.insert(axes.lines.end(), layer.begin(), layer.end());
+    return axes.json();
+  }
+
   bool empty() const
   {
     return std::all_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.empty(); });
   }
 
+  /// Of a picture whose key has at most so many columns, fewer where labels are long: it takes no room from the axes.
+  int height(const int columns) const
+  {
+    constexpr int characters = 72; // in a line of the key
+    constexpr int mark = 6;        // before each label, in characters
+    constexpr int line = 23;       // [px]
+    const int fitting = std::clamp(characters / (longest_key + mark), 1, columns);
+    return plain_height + line * std::max(0, (n_keys + fitting - 1) / fitting - 2);
+  }
+
 private:
   std::string data;
   std::array<std::vector<std::string>, 3> layers;
+  std::array<std::vector<ChartLine>, 3> of_page;
   int n_blocks = 0;
+  int n_keys = 0;
+  int longest_key = 0; ///< [bytes]
 };
 
+/// What lines and bands are, for captions: with one specimen there is nothing to average.
+std::string means_and_bands(const bool several)
+{
+  return several ? ". Lines: means; bands: ± standard deviation; thin lines: single tests" : "";
+}
+
+bool any_has_several(const SameTests& same)
+{
+  return std::any_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+}
+
+std::string means_of_several(const SameTests& same)
+{
+  return any_has_several(same) ? ". Lines: means; bands: ± standard deviation" : "";
+}
+
 using Quantity = std::function<double(const CurveSample&)>;
+
+std::string with_capital(const std::string_view words)
+{
+  std::string text(words);
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+    text.front() = char(text.front() - 'a' + 'A');
+  return text;
+}
 
 /// Mean strain at the peak: beyond it the gauge measures broken pieces.
 double strain_at_peak(const TestGroup& group)
@@ -99,7 +169,7 @@ double strain_at_peak(const TestGroup& group)
 /// Stress over a strain, up to `end` of the axial strain; the band lies along the axis along which `sideways` says the
 /// tests scatter.
 void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain, const bool sideways, const double end,
-                      const std::string& line, const std::string& label)
+                      const int dashes, const std::string& label)
 {
   const auto& group = of.group;
   const double sign = group.kind.sign;
@@ -109,94 +179,121 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
       {
         const auto& curve = test->record.curve;
         const std::size_t stride = 1 + curve.size() / most_rows;
-        std::string rows;
+        Points points;
         for (std::size_t k = 0; k < curve.size() && sign * curve[k].axial_strain <= end; k += stride)
-          fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", sign * strain(curve[k]) / milli,
-                         group.kind.stress(curve[k]) / mega);
-        if (!rows.empty())
-          plot.add(1, fmt::format("{} using 1:2 with lines lw 0.5 lc rgb '{}' notitle", plot.add_data(rows),
-                                  "#90" + series_colour.substr(1)));
+          points.push_back({sign * strain(curve[k]) / milli, group.kind.stress(curve[k]) / mega});
+        plot.add(1, {.label = fmt::format("{}, seed {}", label, test->record.seed),
+                     .goes_with = label,
+                     .colour = series_colour,
+                     .width = 0.5,
+                     .points = std::move(points)});
       }
 
   const Band stress = band(
     group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
   const Band strains = band(group, strain, true);
-  std::string rows;
-  std::string there;
-  std::string back;
+  Points mean;
+  Points around; // there on one side, back on the other
+  Points back;
   for (std::size_t k = 0; k < stress.strain.size() && stress.strain[k] <= end; ++k)
     {
       const double x = strains.mean[k] / milli;
       const double y = stress.mean[k] / mega;
       const double dx = sideways ? strains.deviation[k] / milli : 0.0;
       const double dy = sideways ? 0.0 : stress.deviation[k] / mega;
-      fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", x, y);
-      there += fmt::format("{:.5g} {:.5g}\n", x + dx, y + dy);
-      back = fmt::format("{:.5g} {:.5g}\n", x - dx, y - dy) + back;
+      mean.push_back({x, y});
+      around.push_back({x + dx, y + dy});
+      back.push_back({x - dx, y - dy});
     }
-  if (rows.empty())
-    return;
+  around.insert(around.end(), back.rbegin(), back.rend());
   if (group.tests.size() > 1)
-    plot.add(0, fmt::format("{} using 1:2 with filledcurves closed fill solid 0.18 noborder lc rgb '{}' notitle",
-                            plot.add_data(there + back), series_colour));
-  plot.add(2, fmt::format("{} using 1:2 with lines lw 2.2 {} lc rgb '{}' {}", plot.add_data(rows), line, series_colour,
-                          title(label)));
+    plot.add(0, {.kind = Plot::Kind::area,
+                 .label = label + ", ± standard deviation",
+                 .goes_with = label,
+                 .colour = series_colour,
+                 .points = std::move(around)});
+  plot.add(2, {.label = label, .colour = series_colour, .dashes = dashes, .points = std::move(mean)});
 }
 
 std::optional<Picture> stress_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
 {
+  const TestKind& kind = same.front().group.kind;
+  // A test without uniform stress has no uniform strains either.
+  const bool is_uniform = kind.has_uniform_stress;
   Plot plot;
   for (const auto& of : same)
     {
       const std::string beginning =
-        same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->label + ", " : std::string();
+        same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->label : std::string();
+      const auto label = [&](const std::string& ending) {
+        return beginning.empty() ? ending : is_uniform ? beginning + ", " + ending : beginning;
+      };
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, "", beginning + "axial");
-      if (!of.group.kind.has_uniform_stress)
-        continue; // nor uniform strains
+        plot, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
+        label(is_uniform ? std::string("axial") : std::string(kind.channel.name)));
+      if (!is_uniform)
+        continue;
       const double peak = strain_at_peak(of.group);
       const double end = peak > 0.0 ? peak : 1.0;
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, "dt 2",
-        beginning + "lateral");
+        plot, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"));
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, "dt 4",
-        beginning + "volumetric");
+        plot, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
+        label("volumetric"));
     }
   if (plot.empty())
     return std::nullopt;
-  const TestKind& kind = same.front().group.kind;
   const bool pulls = kind.sign > 0.0;
+  const Chart axes{
+    .x_label = is_uniform ? (pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive")
+                          : fmt::format("{} [10⁻³]", kind.channel.strain_name),
+    .y_label = is_uniform ? fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")
+                          : fmt::format("{} [MPa]", kind.channel.name)};
+  const std::string what = is_uniform
+                             ? std::string("Stress against axial, lateral and volumetric strain")
+                             : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
   return Picture{
     .name = name + "_stress",
-    .caption =
-      "Stress against axial, lateral and volumetric strain. Lines: means; bands: ± standard deviation; thin: single "
-      "tests. Lateral and volumetric strain up to the mean strain at peak",
-    .alternative = "Stress against axial, lateral and volumetric strain in " + of_tests + ".",
+    .caption = what + means_and_bands(any_has_several(same)) +
+               (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
+    .alternative = what + " in " + of_tests + ".",
     .width = width,
-    .height = height,
-    .script =
-      plot.script(frame(pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive",
-                        fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")) +
-                  "set xzeroaxis; set yzeroaxis lw 0.8 lc rgb '#b0b0b0'\nset yrange [0:*]\nset key maxcols 3\n")};
+    .height = plot.height(is_uniform ? 3 : 2),
+    .script = plot.script(axes, fmt::format("set xzeroaxis; set yzeroaxis lw 0.8 lc rgb '#b0b0b0'\nset yrange [0:*]\n"
+                                            "set key maxcols {}\n",
+                                            is_uniform ? 3 : 2)),
+    .live = plot.json(axes)};
 }
 
 /// Mean of a quantity over the tests of a group, over axial strain.
-void add_mean(Plot& plot, const SeriesGroup& of, const Quantity& quantity, const std::string& looks,
-              const std::string& label)
+void add_mean(Plot& plot, const SeriesGroup& of, const Quantity& quantity, const std::string& of_colour,
+              const int dashes, const std::string& label)
 {
   const Band over_seeds = band(of.group, quantity, false);
-  std::string rows;
+  Points mean;
+  Points around;
+  Points back;
   for (std::size_t k = 0; k < over_seeds.strain.size(); ++k)
-    fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g} {:.5g}\n", over_seeds.strain[k] / milli,
-                   over_seeds.mean[k] - over_seeds.deviation[k], over_seeds.mean[k] + over_seeds.deviation[k]);
-  if (rows.empty())
-    return;
-  const std::string block = plot.add_data(rows);
+    {
+      const double x = over_seeds.strain[k] / milli;
+      mean.push_back({x, over_seeds.mean[k]});
+      around.push_back({x, over_seeds.mean[k] + over_seeds.deviation[k]});
+      back.push_back({x, over_seeds.mean[k] - over_seeds.deviation[k]});
+    }
+  around.insert(around.end(), back.rbegin(), back.rend());
   if (of.group.tests.size() > 1)
-    plot.add(0, fmt::format("{} using 1:2:3 with filledcurves fill solid 0.18 noborder {} notitle", block,
-                            looks.substr(looks.find("lc "))));
-  plot.add(2, fmt::format("{} using 1:(0.5*($2+$3)) with lines lw 2.2 {} {}", block, looks, title(label)));
+    plot.add(0, {.kind = Plot::Kind::area,
+                 .label = label + ", ± standard deviation",
+                 .goes_with = label,
+                 .colour = of_colour,
+                 .points = std::move(around)});
+  plot.add(2, {.label = label, .colour = of_colour, .dashes = dashes, .points = std::move(mean)});
+}
+
+/// Of the abscissa of what a test is followed along.
+std::string strain_label(const SameTests& same)
+{
+  return fmt::format("{} [10⁻³]", same.front().group.kind.channel.strain_name);
 }
 
 std::optional<Picture> crack_count_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
@@ -210,25 +307,28 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
         const std::string series_colour = colour(*of.series, of.n);
         add_mean(
           plot, of, [](const CurveSample& row) { return double(row.n_tension_cracks); },
-          fmt::format("lc rgb '{}'", one ? tension_colour : series_colour), beginning + "tension cracks");
+          one ? tension_colour : series_colour, 1, beginning + "tension cracks");
         add_mean(
           plot, of, [](const CurveSample& row) { return double(row.n_shear_cracks); },
-          fmt::format("dt 2 lc rgb '{}'", one ? shear_colour : series_colour), beginning + "shear cracks");
+          one ? shear_colour : series_colour, 2, beginning + "shear cracks");
       }
   if (plot.empty())
     return std::nullopt;
-  const bool any_volumes = std::any_of(same.begin(), same.end(),
-                                       [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
-  const std::string of_volumes =
-    any_volumes
+  const bool any_rves = std::any_of(same.begin(), same.end(),
+                                    [](const auto& of) { return of.series->kind == SeriesKind::finite_elements; });
+  const std::string of_rves =
+    any_rves
       ? ". Of finite elements those of the representative volumes at all points, more than the sample itself would have"
       : "";
+  const Chart axes{.x_label = strain_label(same), .y_label = "broken segments"};
   return Picture{.name = name + "_cracks",
-                 .caption = "Broken segments. Lines: means; bands: ± standard deviation" + of_volumes,
-                 .alternative = "Number of tension and of shear cracks against axial strain in " + of_tests + ".",
+                 .caption = "Broken segments" + means_of_several(same) + of_rves,
+                 .alternative = fmt::format("Number of tension and of shear cracks against {} in {}.",
+                                            same.front().group.kind.channel.strain_name, of_tests),
                  .width = width,
-                 .height = height,
-                 .script = plot.script(frame("axial strain [10⁻³]", "broken segments") + "set yrange [0:*]\n")};
+                 .height = plot.height(2),
+                 .script = plot.script(axes, "set yrange [0:*]\nset key maxcols 2\n"),
+                 .live = plot.json(axes)};
 }
 
 /// Zero in every row.
@@ -255,30 +355,32 @@ std::optional<Picture> energy_picture(const SameTests& same, const std::string& 
     int dashes;
   };
   static constexpr std::array parts{Part{"boundary work", &Energies::boundary_work, black, 1},
-                                    Part{"strain energy", &Energies::strain, blue, 1},
-                                    Part{"damping", &Energies::damping, sky, 4},
-                                    Part{"friction", &Energies::slip, green, 2},
-                                    Part{"released by breaks", &Energies::released, vermillion, 1},
-                                    Part{"stress redistribution", &Energies::redistribution, sky, 2},
-                                    Part{"kinetic", &Energies::kinetic, purple, 3}};
+                                    Part{"strain energy", &Energies::strain, indigo, 1},
+                                    Part{"damping", &Energies::damping, teal, 4},
+                                    Part{"friction", &Energies::slip, olive, 2},
+                                    Part{"released by breaks", &Energies::released, wine, 1},
+                                    Part{"stress redistribution", &Energies::redistribution, sand, 2},
+                                    Part{"kinetic", &Energies::kinetic, rose, 3}};
   Plot plot;
   for (const auto& part : parts)
     {
       const auto energy = [&](const CurveSample& row) { return row.energies.*part.member; };
       if (is_nowhere(*of, energy)) // grains have no elements between which stress is redistributed
         continue;
-      add_mean(plot, *of, energy, fmt::format("dt {} lc rgb '{}'", part.dashes, part.colour), part.label);
+      add_mean(plot, *of, energy, part.colour, part.dashes, part.label);
     }
   if (plot.empty())
     return std::nullopt;
-  return Picture{
-    .name = name + "_energy",
-    .caption = "Where the work of the boundaries went" + (same.size() > 1 ? ", " + of->series->label : std::string()) +
-               ". Lines: means; bands: ± standard deviation",
-    .alternative = "Energies against axial strain in " + of_tests + ".",
-    .width = width,
-    .height = height,
-    .script = plot.script(frame("axial strain [10⁻³]", "energy [J]") + "set yrange [0:*]\nset key maxcols 3\n")};
+  const Chart axes{.x_label = strain_label(same), .y_label = "energy [J]"};
+  return Picture{.name = name + "_energy",
+                 .caption = "Where the work of the boundaries went" +
+                            (same.size() > 1 ? ", " + of->series->label : std::string()) + means_of_several({*of}),
+                 .alternative =
+                   fmt::format("Energies against {} in {}.", same.front().group.kind.channel.strain_name, of_tests),
+                 .width = width,
+                 .height = plot.height(3),
+                 .script = plot.script(axes, "set yrange [0:*]\nset key maxcols 3\n"),
+                 .live = plot.json(axes)};
 }
 
 /// Cracks and their released energy per strain, as acoustic emission is shown.
@@ -315,35 +417,47 @@ std::optional<Picture> crack_rate_picture(const SameTests& same, const std::stri
         }
       if (!any || n_tests == 0.0)
         continue;
-      std::string rows;
+      Points rate;
+      Points power;
       for (std::size_t k = 0; k < n_bins; ++k)
-        fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g} {:.5g}\n", (double(k) + 0.5) * bin / milli,
-                       hits[k] / n_tests / (bin / milli), energy[k] / n_tests / (bin / milli));
-      const std::string block = plot.add_data(rows);
+        {
+          const double x = (double(k) + 0.5) * bin / milli;
+          rate.push_back({x, hits[k] / n_tests / (bin / milli)});
+          power.push_back({x, energy[k] / n_tests / (bin / milli)});
+        }
       const std::string beginning = one ? "" : of.series->label + ", ";
       const std::string series_colour = colour(*of.series, of.n);
-      if (one)
-        plot.add(
-          0, fmt::format("{} using 1:2 with boxes fill solid 0.35 noborder lc rgb '{}' title 'cracks'", block, blue));
-      else
-        plot.add(1, fmt::format("{} using 1:2 with histeps lw 2 lc rgb '{}' {}", block, series_colour,
-                                title(beginning + "cracks")));
-      plot.add(2, fmt::format("{} using 1:3 axes x1y2 with histeps lw 1.6 dt {} lc rgb '{}' {}", block, one ? 1 : 2,
-                              one ? vermillion : series_colour, title(beginning + "released energy")));
+      plot.add(1, {.kind = Plot::Kind::steps,
+                   .label = beginning + "cracks",
+                   .colour = series_colour,
+                   .width = 2.0,
+                   .points = std::move(rate)});
+      plot.add(2, {.kind = Plot::Kind::steps,
+                   .label = beginning + "released energy",
+                   .colour = one ? wine : series_colour,
+                   .width = 1.6,
+                   .dashes = one ? 1 : 2,
+                   .to_the_right = true,
+                   .points = std::move(power)});
     }
   if (plot.empty())
     return std::nullopt;
+  const Chart axes{.x_label = strain_label(same),
+                   .y_label = "cracks per 10⁻³ of strain",
+                   .right_label = "released energy [J per 10⁻³ of strain]"};
   return Picture{
     .name = name + "_crack_rate",
-    .caption = "Crack rate, to be held against acoustic emission: cracks and the energy they released, per "
-               "strain; mean of the tests",
-    .alternative = "Histogram of cracks and of the energy they released over axial strain in " + of_tests + ".",
+    .caption = "Crack rate, to be held against acoustic emission: cracks and the energy they released, per strain" +
+               std::string(any_has_several(same) ? "; mean of the tests" : ""),
+    .alternative = fmt::format("Histogram of cracks and of the energy they released over {} in {}.",
+                               same.front().group.kind.channel.strain_name, of_tests),
     .width = width,
-    .height = height,
-    .script = plot.script(
-      frame("axial strain [10⁻³]", "cracks per 10⁻³ of strain") +
-      "set y2label 'released energy [J per 10⁻³ of strain]'\nset border 11\n"
-      "set y2tics nomirror out\nset xrange [0:*]; set yrange [0:*]; set y2range [0:*]\nset boxwidth 1 relative\n")};
+    .height = plot.height(2),
+    .script =
+      plot.script(axes, fmt::format("set y2label {}\nset border 11\nset y2tics nomirror out\n"
+                                    "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\nset key maxcols 2\n",
+                                    gnuplot_text(axes.right_label))),
+    .live = plot.json(axes)};
 }
 } // namespace
 

@@ -1,6 +1,8 @@
 #include "report/pictures/envelope_pictures.h"
 
+#include "report/live/chart.h"
 #include "report/pictures/plot_style.h"
+#include "results/fits/residual_strength.h"
 #include "results/statistics.h"
 #include "results/test_groups.h"
 
@@ -49,6 +51,13 @@ std::vector<StrengthPoint> strength_points(const Series& series)
   return points;
 }
 
+struct CurveLooks
+{
+  double width;
+  int dashes;
+  std::string colour;
+};
+
 /// What is drawn, and how far it goes.
 class EnvelopePlot
 {
@@ -65,14 +74,32 @@ public:
     const auto points = strength_points(series);
     if (points.empty())
       return;
+    const bool has_scatter =
+      std::any_of(points.begin(), points.end(), [](const auto& one) { return one.deviation > 0.0; });
+    const std::string label = series.label + (has_scatter ? ": mean ± s.d." : "");
+    bool is_second = false;
     for (const bool tension : {false, true})
       {
         std::string rows;
+        ChartLine marks{.kind = ChartLine::Kind::marks,
+                        .label = label,
+                        .goes_with = is_second ? label : "",
+                        .colour = colour(series, n)};
+        ChartLine bars{.kind = ChartLine::Kind::bars,
+                       .label = label,
+                       .goes_with = label,
+                       .colour = colour(series, n),
+                       .width = 1.4};
         for (const auto& point : points)
           if (point.tension == tension)
             {
               fmt::format_to(std::back_inserter(rows), "{} {} {}\n", point.sigma_3 / mega, point.sigma_1 / mega,
                              point.deviation / mega);
+              marks.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega});
+              for (const double sign : {-1.0, 1.0})
+                bars.points.push_back({(point.sigma_3 + (tension ? sign * point.deviation : 0.0)) / mega,
+                                       (point.sigma_1 + (tension ? 0.0 : sign * point.deviation)) / mega});
+              bars.points.push_back(gap);
               take_in(point.sigma_3 - (tension ? point.deviation : 0.0),
                       point.sigma_1 + (tension ? 0.0 : point.deviation));
             }
@@ -81,15 +108,45 @@ public:
         const std::string block = add_data(rows);
         const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", point_type(series), colour(series, n));
         later.push_back(fmt::format("{} using 1:2:3 with {} {} {}", block, tension ? "xerrorbars" : "yerrorbars", looks,
-                                    title(tension && points.size() > 1 ? "" : series.label + ": mean ± s.d.")));
+                                    title(is_second ? "" : label)));
+        of_page.push_back(std::move(bars));
+        of_page.push_back(std::move(marks));
+        is_second = true;
       }
+  }
+
+  /// What specimens go on to carry after their peaks: marks of the same form, open, along a thin line.
+  void add_residual(const Series& series, const std::size_t n)
+  {
+    const std::string label = series.label + ": residual";
+    ChartLine line{.label = label, .colour = colour(series, n), .width = 1.2, .dashes = 3};
+    std::string rows;
+    for (const auto& point : residual_points(series))
+      {
+        fmt::format_to(std::back_inserter(rows), "{} {} {}\n", point.sigma_3 / mega, point.sigma_1 / mega,
+                       point.deviation / mega);
+        line.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega});
+        take_in(point.sigma_3, point.sigma_1 + point.deviation);
+      }
+    if (rows.empty())
+      return;
+    const std::string block = add_data(rows);
+    first.push_back(fmt::format("{} using 1:2 with lines lw 1.2 dt 3 lc rgb '{}' notitle", block, line.colour));
+    later.push_back(fmt::format("{} using 1:2:3 with yerrorbars pt {} ps 0.8 lw 1.2 lc rgb '{}' {}", block,
+                                point_type(series) - 1, line.colour, title(label)));
+    ChartLine marks = line;
+    marks.kind = ChartLine::Kind::marks;
+    marks.goes_with = label;
+    of_page.push_back(std::move(line));
+    of_page.push_back(std::move(marks));
   }
 
   /// Between two confinements.
   void add_curve(const std::function<double(double)>& sigma_1, const double begin, const double end,
-                 const std::string& looks, const std::string& label)
+                 const CurveLooks& looks, const std::string& label)
   {
     std::string rows;
+    ChartLine line{.label = label, .colour = looks.colour, .width = looks.width, .dashes = looks.dashes};
     constexpr int n = 300;
     for (int k = 0; k <= n; ++k)
       {
@@ -98,14 +155,20 @@ public:
         const double inside = begin + 1e-12 * std::abs(begin); // at its beginning the bracket is 0, or just below it
         const double sigma_3 = inside + (end - inside) * share;
         if (const double value = sigma_1(sigma_3); std::isfinite(value))
-          fmt::format_to(std::back_inserter(rows), "{} {}\n", sigma_3 / mega, value / mega);
+          {
+            fmt::format_to(std::back_inserter(rows), "{} {}\n", sigma_3 / mega, value / mega);
+            if (k % 3 == 0)
+              line.points.push_back({sigma_3 / mega, value / mega});
+          }
       }
-    first.push_back(fmt::format("{} using 1:2 with lines {} {}", add_data(rows), looks, title(label)));
+    first.push_back(fmt::format("{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", add_data(rows), looks.width,
+                                looks.dashes, looks.colour, title(label)));
+    of_page.push_back(std::move(line));
   }
 
   /// As far as its points go, beyond which nothing is known of it.
   template <typename Fit>
-  void add_fit(const Fit& fit, const std::string& looks, const std::string& label)
+  void add_fit(const Fit& fit, const CurveLooks& looks, const std::string& label)
   {
     add_curve([&](const double x) { return fit.sigma_1(x); }, fit.quality.lowest_sigma_3(),
               fit.quality.highest_sigma_3(), looks, label);
@@ -113,6 +176,8 @@ public:
 
   void add_reference(const Reference& reference)
   {
+    const std::string label = reference.experiment.label + ": mean, range";
+    bool is_second = false;
     const auto draw_range = [&](const std::string& key, const bool tension) {
       const auto value = reference.experiment.find(key);
       if (!value)
@@ -123,14 +188,27 @@ public:
       const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -middle, -high, -low)
                                                  : fmt::format("0 {} {} {}\n", middle, low, high));
       later.push_back(fmt::format("{} using 1:2:3:4 with {} pt 8 ps 1.1 lw 2.2 lc rgb '{}' {}", block,
-                                  tension ? "xerrorbars" : "yerrorbars", black,
-                                  title(tension ? "" : reference.experiment.label + ": mean, range")));
+                                  tension ? "xerrorbars" : "yerrorbars", black, title(is_second ? "" : label)));
+      const auto at = [&](const double strength) {
+        return tension ? std::array{-strength, 0.0} : std::array{0.0, strength};
+      };
+      of_page.push_back({.kind = ChartLine::Kind::bars,
+                         .label = label,
+                         .goes_with = label,
+                         .colour = black,
+                         .points = {at(low), at(high), gap}});
+      of_page.push_back({.kind = ChartLine::Kind::marks,
+                         .label = label,
+                         .goes_with = is_second ? label : "",
+                         .colour = black,
+                         .points = {at(middle)}});
+      is_second = true;
       take_in(tension ? -high * mega : 0.0, tension ? 0.0 : high * mega);
     };
     draw_range("uniaxial_compressive_strength_MPa", false);
     draw_range("tensile_strength_MPa", true);
-    draw_strengths(reference.experiment, "pt 8 ps 1.1 lw 1.6 lc rgb '" + std::string(black) + "'");
-    draw_strengths(reference.model, "pt 4 ps 0.9 lw 1.2 lc rgb '" + std::string(grey) + "'");
+    draw_strengths(reference.experiment, "pt 8 ps 1.1 lw 1.6", black);
+    draw_strengths(reference.model, "pt 4 ps 0.9 lw 1.2", grey);
   }
 
   /// What a source prints without its points, from its beginning to the end of the plot, which must be known.
@@ -138,10 +216,10 @@ public:
   {
     if (const auto& printed = source.envelope)
       add_curve([&](const double x) { return printed->sigma_1(x); }, -printed->s * printed->sigma_ci / printed->m,
-                highest_3, fmt::format("lw 1.4 dt 3 lc rgb '{}'", of_colour), source.label + ", printed");
+                highest_3, {1.4, 3, of_colour}, source.label + ", printed");
     if (const auto line = source.line())
-      add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, highest_3,
-                fmt::format("lw 1.4 dt 4 lc rgb '{}'", of_colour), source.label + ": c and φ, printed");
+      add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, highest_3, {1.4, 4, of_colour},
+                source.label + ": c and φ, printed");
   }
 
   /// The curve through the points of the experiment.
@@ -153,7 +231,7 @@ public:
           const auto& best = pair.with_tension_point.fit ? pair.with_tension_point.fit : pair.without_tension_point.fit;
           if (best && best->quality.degrees_of_freedom > 0)
             add_fit(
-              *best, fmt::format("lw 1.6 dt 2 lc rgb '{}'", black),
+              *best, {1.6, 2, black},
               fmt::format("{}: H–B intact, {} σ_t", experiment.label, best->with_tension_point ? "with" : "without"));
         }
   }
@@ -165,17 +243,22 @@ public:
     add_printed(reference.model, grey);
   }
 
-  void add_cut_off(const double sigma_3)
+  void add_cut_off(const double sigma_3, const std::string& of_colour)
   {
     const std::string block = add_data(fmt::format("{} 0\n{} {}\n", sigma_3 / mega, sigma_3 / mega, highest_1 / mega));
-    first.push_back(fmt::format("{} using 1:2 with lines lw 1 dt 2 lc rgb '{}' {}", block, grey,
-                                title("tensile cut-off of the intact form")));
+    const std::string label = "tensile cut-off of the intact form";
+    first.push_back(fmt::format("{} using 1:2 with lines lw 1 dt 3 lc rgb '{}' {}", block, of_colour, title(label)));
+    of_page.push_back({.label = label,
+                       .colour = of_colour,
+                       .width = 1.0,
+                       .dashes = 3,
+                       .points = {{sigma_3 / mega, 0.0}, {sigma_3 / mega, highest_1 / mega}}});
   }
 
   /// The part up to these stresses, or all of it [Pa].
   std::string script(const std::optional<EnvelopePoint>& upper = std::nullopt) const
   {
-    std::string text = data + frame("confinement σ₃ [MPa], compression positive", "strength σ₁ [MPa]");
+    std::string text = data + frame(x_label, y_label);
     fmt::format_to(std::back_inserter(text), "set xrange [{}:{}]; set yrange [0:{}]\n",
                    (lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
                    (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega,
@@ -192,6 +275,14 @@ public:
     return text + "\n";
   }
 
+  /// All of it: who looks closer enlarges it there.
+  std::string json() const
+  {
+    Chart chart{.x_label = x_label, .y_label = y_label};
+    chart.lines = of_page;
+    return chart.json();
+  }
+
   bool empty() const { return first.empty() && later.empty(); }
 
   double lowest_3 = 0.0;
@@ -199,16 +290,24 @@ public:
   double highest_1 = 0.0;
 
 private:
-  void draw_strengths(const ReferenceSource& source, const std::string& looks)
+  static constexpr const char* x_label = "confinement σ₃ [MPa], compression positive";
+  static constexpr const char* y_label = "strength σ₁ [MPa]";
+
+  void draw_strengths(const ReferenceSource& source, const std::string& looks, const char* of_colour)
   {
     std::string rows;
+    ChartLine marks{.kind = ChartLine::Kind::marks, .label = source.label, .colour = of_colour};
     for (const auto& point : source.strengths())
       {
         fmt::format_to(std::back_inserter(rows), "{} {}\n", point.sigma_3 / mega, point.sigma_1 / mega);
+        marks.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega});
         take_in(point.sigma_3, point.sigma_1);
       }
-    if (!rows.empty())
-      later.push_back(fmt::format("{} using 1:2 with points {} {}", add_data(rows), looks, title(source.label)));
+    if (rows.empty())
+      return;
+    later.push_back(
+      fmt::format("{} using 1:2 with points {} lc rgb '{}' {}", add_data(rows), looks, of_colour, title(source.label)));
+    of_page.push_back(std::move(marks));
   }
 
   std::string add_data(const std::string& rows)
@@ -221,10 +320,12 @@ private:
   std::string data;
   std::vector<std::string> first; ///< curves
   std::vector<std::string> later; ///< points, drawn over them
+  std::vector<ChartLine> of_page;
   int n_blocks = 0;
 };
 
-void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
+/// In the colour of their series: a form by its dashes, what leaves out the tension point thin.
+void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const std::string& of_colour)
 {
   for (const auto& pair : envelopes.hoek_brown)
     {
@@ -235,20 +336,18 @@ void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes)
       const std::string name = is_intact                              ? "H–B intact"
                                : pair.form == HoekBrownForm::as_paper ? "H–B as the paper = general"
                                                                       : "H–B general";
-      for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
-        if (answer->fit && answer->fit->quality.degrees_of_freedom > 0)
+      for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
+        if (either->fit && either->fit->quality.degrees_of_freedom > 0)
           {
-            const HoekBrownFit& fit = *answer->fit;
-            plotted.add_fit(
-              fit,
-              fmt::format("lw 2 dt {} lc rgb '{}'", fit.with_tension_point ? 1 : 2, is_intact ? green : vermillion),
-              name + (fit.with_tension_point ? ", with σ_t" : ", without σ_t"));
+            const HoekBrownFit& fit = *either->fit;
+            plotted.add_fit(fit, {fit.with_tension_point ? 2.4 : 1.1, is_intact ? 1 : 2, of_colour},
+                            name + (fit.with_tension_point ? ", with σ_t" : ", without σ_t"));
             if (is_intact && fit.with_tension_point)
-              plotted.add_cut_off(fit.tensile_cut_off.value);
+              plotted.add_cut_off(fit.tensile_cut_off.value, of_colour);
           }
     }
   if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
-    plotted.add_fit(*fit, fmt::format("lw 1.8 dt 4 lc rgb '{}'", purple), "Mohr–Coulomb");
+    plotted.add_fit(*fit, {1.8, 4, of_colour}, "Mohr–Coulomb");
 }
 } // namespace
 
@@ -257,11 +356,12 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
 {
   EnvelopePlot plotted;
   plotted.add_points(all[which], which);
+  plotted.add_residual(all[which], which);
   if (reference)
     plotted.add_reference(*reference);
   if (plotted.empty())
     return {};
-  add_fits(plotted, envelopes);
+  add_fits(plotted, envelopes, colour(all[which], which));
   if (reference)
     plotted.add_rock_curves(*reference);
   const std::string of_series = all.size() > 1 ? fmt::format("_{}", file_name(all[which].label)) : "";
@@ -273,7 +373,8 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
                     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
      .width = 660,
      .height = 640,
-     .script = plotted.script()});
+     .script = plotted.script(),
+     .live = plotted.json()});
   // Near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
     {
@@ -297,7 +398,10 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
     return {};
   EnvelopePlot plotted;
   for (std::size_t n = 0; n < all.size(); ++n)
-    plotted.add_points(all[n], n);
+    {
+      plotted.add_points(all[n], n);
+      plotted.add_residual(all[n], n);
+    }
   if (reference)
     plotted.add_reference(*reference);
   if (!(plotted.highest_1 > 0.0)) // tension alone
@@ -306,8 +410,7 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
     for (const auto& pair : envelopes[n].hoek_brown)
       if (const auto& fit = pair.with_tension_point.fit;
           pair.form == HoekBrownForm::intact && fit && fit->quality.degrees_of_freedom > 0)
-        plotted.add_fit(*fit, fmt::format("lw 2 dt {} lc rgb '{}'", dashes(n), colour(all[n], n)),
-                        all[n].label + ": H–B intact, with σ_t");
+        plotted.add_fit(*fit, {2.0, dashes(n), colour(all[n], n)}, all[n].label + ": H–B intact, with σ_t");
   if (reference)
     plotted.add_fit_of(reference->experiment);
   return {{.name = "envelopes",
@@ -315,11 +418,13 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
            .alternative = "Strength against confinement of all series, each with the intact Hoek–Brown envelope.",
            .width = 660,
            .height = 640,
-           .script = plotted.script()}};
+           .script = plotted.script(),
+           .live = plotted.json()}};
 }
 
-std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelopes& envelopes)
+std::vector<Picture> residual_picture(const Series& series, const std::size_t which, const StrengthEnvelopes& envelopes)
 {
+  const std::string of_colour = colour(series, which);
   std::string data;
   std::string plots;
   int n = 0;
@@ -336,16 +441,16 @@ std::vector<Picture> residual_picture(const Series& series, const StrengthEnvelo
       if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;
-      for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
-        if (answer->fit && answer->fit->quality.degrees_of_freedom > 0)
-          add(answer->fit->quality,
+      for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
+        if (either->fit && either->fit->quality.degrees_of_freedom > 0)
+          add(either->fit->quality,
               fmt::format("{}, {} σ_t", is_intact ? "intact" : "as the paper = general",
-                          answer->fit->with_tension_point ? "with" : "without"),
-              fmt::format("lw 1.6 dt {} pt {} ps 0.7 lc rgb '{}'", answer->fit->with_tension_point ? 1 : 2,
-                          is_intact ? 7 : 5, is_intact ? green : vermillion));
+                          either->fit->with_tension_point ? "with" : "without"),
+              fmt::format("lw {} dt {} pt {} ps 0.7 lc rgb '{}'", either->fit->with_tension_point ? 2.4 : 1.1,
+                          is_intact ? 1 : 2, is_intact ? 7 : 5, of_colour));
     }
   if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
-    add(fit->quality, "Mohr–Coulomb", fmt::format("lw 1.6 dt 4 pt 9 ps 0.7 lc rgb '{}'", purple));
+    add(fit->quality, "Mohr–Coulomb", fmt::format("lw 1.6 dt 4 pt 9 ps 0.7 lc rgb '{}'", of_colour));
   if (n == 0)
     return {};
   return {

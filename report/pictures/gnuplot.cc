@@ -26,11 +26,13 @@ enum class End
 {
   done,
   failed, ///< or there is no such program
-  hung
+  hung,
+  called_off
 };
 
 /// Runs a program in a folder, with a process group of its own so that what it starts ends with it.
-End run(std::vector<std::string> command, const std::filesystem::path& folder, const std::chrono::milliseconds longest)
+End run(std::vector<std::string> command, const std::filesystem::path& folder, const std::chrono::milliseconds longest,
+        const std::function<bool()>& is_over)
 {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -58,11 +60,12 @@ End run(std::vector<std::string> command, const std::filesystem::path& folder, c
   pid_t ended = 0;
   while ((ended = waitpid(child, &status, WNOHANG)) == 0)
     {
-      if (std::chrono::steady_clock::now() > deadline)
+      const bool is_late = std::chrono::steady_clock::now() > deadline;
+      if (is_late || is_over())
         {
           kill(-child, SIGKILL);
           waitpid(child, &status, 0);
-          return End::hung;
+          return is_late ? End::hung : End::called_off;
         }
       std::this_thread::sleep_for(between_looks);
     }
@@ -102,21 +105,30 @@ std::string whole_script(const Picture& picture)
 using Hung = std::array<std::atomic<bool>, 2>;
 
 std::string draw_one(const Picture& picture, const std::filesystem::path& folder,
-                     const std::chrono::milliseconds longest, Hung& hung)
+                     const std::chrono::milliseconds longest, const std::function<bool()>& is_over, Hung& hung)
 {
+  const auto called_off = [&] {
+    return fmt::format("{} was not drawn: the run was asked to end before; feldspar report with its folder draws all",
+                       picture.name);
+  };
   if (!is_plain_name(picture.name))
     throw std::logic_error("a picture is named " + in_quotes(picture.name));
   const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
   const std::string script = picture.name + (by_vtk ? ".py" : ".gp");
   write_whole_file(folder / script, whole_script(picture));
+  if (is_over())
+    return called_off();
   auto& has_hung = hung[std::size_t(picture.drawn_by)];
   if (has_hung)
     return fmt::format("{} was not drawn: {} did not end with another picture", picture.name,
                        by_vtk ? "VTK" : "gnuplot");
   // Debian's Python: another that comes first in the path lacks Debian's modules. Isolated (-I), for it would rather
   // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
-  const End end =
-    by_vtk ? run({"/usr/bin/python3", "-I", script}, folder, longest) : run({"gnuplot", "-d", script}, folder, longest);
+  const End end = run(by_vtk ? std::vector<std::string>{"/usr/bin/python3", "-I", script}
+                             : std::vector<std::string>{"gnuplot", "-d", script},
+                      folder, longest, is_over);
+  if (end == End::called_off)
+    return called_off();
   if (end == End::hung)
     {
       has_hung = true;
@@ -133,12 +145,12 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
 } // namespace
 
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
-                              const std::chrono::milliseconds longest)
+                              const std::chrono::milliseconds longest, const std::function<bool()>& is_over)
 {
   std::vector<std::string> problems(pictures.size());
   Hung hung{};
   tbb::parallel_for(std::size_t(0), pictures.size(),
-                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder, longest, hung); });
+                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder, longest, is_over, hung); });
   return problems;
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,8 @@ struct Picture
   bool raster = false; ///< thousands of shapes: shown as PNG; else as SVG
   bool vector = true;  ///< drawn as SVG and PDF
   DrawnBy drawn_by = DrawnBy::gnuplot;
-  std::string script; ///< data and what draws it
+  std::string script;    ///< data and what draws it
+  std::string live = {}; ///< what the page's script shows in its place, JSON (report/live); empty: only the picture
 
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
@@ -33,9 +35,12 @@ struct Picture
 
 /// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
 /// it drawn otherwise: run there, it draws into the folder it is run in. A program that takes longer than `longest` for a
-/// picture is ended, and draws no other. Returns for each why it could not be drawn, or nothing.
-std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
-                              std::chrono::milliseconds longest = std::chrono::minutes(5));
+/// picture is ended, and draws no other. Once is_over() says so no other is begun and those that are being drawn are
+/// ended. Returns for each why it could not be drawn, or nothing.
+std::vector<std::string> draw(
+  const std::vector<Picture>& pictures, const std::filesystem::path& folder,
+  std::chrono::milliseconds longest = std::chrono::minutes(5),
+  const std::function<bool()>& is_over = [] { return false; });
 
 /// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not
 /// written in our sources enters a script through this: gnuplot has no switch that forbids a script to start programs

@@ -2,6 +2,7 @@
 
 #include "base/quoted.h"
 #include "report/pictures/crack_pictures.h"
+#include "report/pictures/flaw_outlines.h"
 #include "report/pictures/plane_view.h"
 #include "report/pictures/plot_style.h"
 #include "results/test_groups.h"
@@ -20,18 +21,8 @@ using namespace plot;
 
 std::string title_of(const FinishedTest& test) { return group_of(test.record).title(); }
 
-/// A name for the data of a test that gnuplot accepts.
-std::string block(const char* what, const FinishedTest& test)
-{
-  std::string name = fmt::format("${}_{}", what, test.name);
-  std::replace_if(
-    name.begin() + 1, name.end(),
-    [](const char c) {
-      return !is_plain_name({&c, 1});
-    },
-    '_');
-  return name;
-}
+/// A name for the data of a test.
+std::string block(const char* what, const FinishedTest& test) { return data_block(what, test.name); }
 
 std::string curve_data(const FinishedTest& test)
 {
@@ -61,15 +52,10 @@ std::string map_data(const FinishedTest& test)
       text += fmt::format("{} << EOD\n", block(kind == CrackKind::tension ? "tension" : "shear", test));
       for (const auto& crack : test.record.cracks)
         if (crack.kind == kind)
-          {
-            const double dx = -crack.normal[1] * crack.size;
-            const double dy = crack.normal[0] * crack.size;
-            fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", (crack.centroid[0] - 0.5 * dx) / milli,
-                           (crack.centroid[1] - 0.5 * dy) / milli, dx / milli, dy / milli);
-          }
+          text += trace_of(crack, 1);
       text += "EOD\n";
     }
-  return text;
+  return text + flaw_outlines(test, test.name).data;
 }
 
 std::string curve_plot(const FinishedTest& test)
@@ -77,16 +63,16 @@ std::string curve_plot(const FinishedTest& test)
   const auto& last = test.record.curve.back();
   std::string text = fmt::format("set title {} noenhanced\n"
                                  "set size noratio\n"
-                                 "set xlabel 'axial strain [%]'\n"
+                                 "set xlabel '{} [%]'\n"
                                  "set ylabel '{} [MPa]'\n"
                                  "set y2label 'broken segments'\n"
-                                 "set xtics autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
+                                 "set xtics nomirror autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
                                  "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
                                  "set border 11; set lmargin 10; set rmargin 10\n"
                                  "set bmargin 6\n"
                                  "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
                                  gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)),
-                                 test.record.kind.channel.name);
+                                 test.record.kind.channel.strain_name, test.record.kind.channel.name);
   const std::string data = block("curve", test);
   text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
                       "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",
@@ -127,6 +113,7 @@ std::string map_plot(const FinishedTest& test, const char upwards)
     return std::uint64_t(std::count_if(test.record.cracks.begin(), test.record.cracks.end(),
                                        [kind](const Crack& crack) { return crack.kind == kind; }));
   };
+  text += flaw_outlines(test, test.name).plots;
   cracks("tension", tension_colour, n_drawn(CrackKind::tension));
   cracks("shear", shear_colour, n_drawn(CrackKind::shear));
   return text + "\n";
@@ -144,7 +131,8 @@ std::vector<Picture> single_test_pictures(const Series& series)
       const std::string title = title_of(test);
       pictures.push_back({.name = test.name + "_stress_strain",
                           .caption = title,
-                          .alternative = "Stress against axial strain and count of cracks, " + title + ".",
+                          .alternative = fmt::format("Stress against {} and count of cracks, {}.",
+                                                     test.record.kind.channel.strain_name, title),
                           .width = 900,
                           .height = 650,
                           .raster = true,

@@ -10,9 +10,14 @@
 
 namespace feldspar::plot
 {
+namespace
+{
+/// None of them that of a kind of cracks.
+constexpr std::array colours{green, purple, orange, sky};
+} // namespace
+
 std::string colour(const Series& series, const std::size_t n)
 {
-  static constexpr std::array colours{blue, vermillion, green, purple, orange, sky};
   return series.kind == SeriesKind::laboratory_curve ? black : colours[n % colours.size()];
 }
 
@@ -24,7 +29,7 @@ int point_type(const Series& series)
   return series.kind == SeriesKind::laboratory_curve ? diamond : series.kind == SeriesKind::specimens ? disc : square;
 }
 
-int dashes(const std::size_t n) { return 1 + int(n / 6); }
+int dashes(const std::size_t n) { return 1 + int(n / colours.size()); }
 
 std::string frame(const std::string& x_label, const std::string& y_label)
 {
@@ -32,6 +37,26 @@ std::string frame(const std::string& x_label, const std::string& y_label)
                      "set border 3 lw 0.8; set tics nomirror out; set grid lw 0.5 lc rgb '#e4e4e4'\n"
                      "set key below center horizontal Left reverse samplen 2.2 spacing 1.1 height 0.8 noenhanced\n",
                      gnuplot_text(x_label), gnuplot_text(y_label));
+}
+
+std::string data_block(const std::string& what, const std::string& owner)
+{
+  std::string name = what + "_" + owner;
+  std::replace_if(
+    name.begin(), name.end(),
+    [](const char c) {
+      return !is_plain_name({&c, 1});
+    },
+    '_');
+  return "$" + name;
+}
+
+std::string trace_of(const Crack& crack, const std::size_t axis, const std::array<double, 2>& origin)
+{
+  const double dx = -crack.normal[axis] * crack.size;
+  const double dy = crack.normal[0] * crack.size;
+  return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}\n", (crack.centroid[0] - origin[0] - 0.5 * dx) / milli,
+                     (crack.centroid[axis] - origin[1] - 0.5 * dy) / milli, dx / milli, dy / milli);
 }
 
 std::string title(const std::string& text)

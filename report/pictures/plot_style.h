@@ -3,6 +3,8 @@
 #include "results/evaluation.h"
 #include "results/series.h"
 
+#include <array>
+#include <cstddef>
 #include <string>
 
 /// What all pictures share: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
@@ -12,8 +14,8 @@ inline constexpr double mega = 1e6;
 inline constexpr double milli = 1e-3;
 inline constexpr double percent = 1e-2;
 
-inline constexpr const char* black = "#000000";
-inline constexpr const char* grey = "#8c8c8c";
+inline constexpr const char* black = "#000000"; ///< measured on rock
+inline constexpr const char* grey = "#8c8c8c";  ///< the model of another
 inline constexpr const char* light_grey = "#d8d8d8";
 inline constexpr const char* blue = "#0072B2";
 inline constexpr const char* vermillion = "#D55E00";
@@ -22,9 +24,18 @@ inline constexpr const char* purple = "#CC79A7";
 inline constexpr const char* sky = "#56B4E9";
 inline constexpr const char* orange = "#E69F00";
 
+// A colour has one meaning on a page: these two are kinds of cracks and no series.
 inline constexpr const char* tension_colour = vermillion;
 inline constexpr const char* shear_colour = blue;
 inline constexpr const char* single_grain_colour = "#f0e0b8";
+
+// Of energies: the muted scheme of Tol, none of which is a series or a kind of crack.
+inline constexpr const char* indigo = "#332288";
+inline constexpr const char* teal = "#44AA99";
+inline constexpr const char* olive = "#999933";
+inline constexpr const char* wine = "#882255";
+inline constexpr const char* sand = "#DDCC77";
+inline constexpr const char* rose = "#CC6677";
 
 /// Of the n-th series; a measured curve is black.
 std::string colour(const Series& series, std::size_t n);
@@ -40,6 +51,13 @@ std::string frame(const std::string& x_label, const std::string& y_label);
 
 /// `title` for the key of a plot, or none.
 std::string title(const std::string& text);
+
+/// gnuplot's name for data of an owner, such as a test: letters that it takes, a `_` for each other.
+std::string data_block(const std::string& what, const std::string& owner);
+
+/// A row `x y dx dy` [mm] for add_cracks(): the trace of a crack's face in the plane of the picture, whose vertical axis is
+/// this one of the crack's; origin [m].
+std::string trace_of(const Crack& crack, std::size_t axis, const std::array<double, 2>& origin = {});
 
 /// Adds the cracks of one kind to the n-th of several plots, their rows `x y dx dy` to its data; none, nothing.
 void add_cracks(std::string& data, std::string& plots, std::size_t n, CrackKind kind, const std::string& rows,

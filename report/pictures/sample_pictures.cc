@@ -1,8 +1,8 @@
 #include "report/pictures/sample_pictures.h"
 
 #include "report/pictures/plot_style.h"
+#include "report/pictures/rve_pictures.h"
 #include "report/pictures/sample_view.h"
-#include "report/pictures/volume_pictures.h"
 
 #include <fmt/format.h>
 
@@ -20,22 +20,33 @@ using namespace plot;
 constexpr const char* share_field = "broken_segments_share";
 constexpr const char* localised_field = "localised_share";
 
-/// The line in which the plane that the mean crack lies in cuts the picture's: across the main direction of the crack
-/// normals there, the longer the more alike they are. Zero where nothing broke.
-PlanePoint stroke(const SampleFields& fields, const std::size_t cell, const double size)
+/// The crack orientation tensor of a cell in the plane of the picture, whose trace is the density of its cracks [1/m].
+struct CrackDirections
+{
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+};
+
+CrackDirections directions(const SampleFields& fields, const std::size_t cell)
 {
   const std::string last = fields.has("crack_orientation_zz_per_m") ? "z" : "y"; // the axis of the test
   const auto component = [&](const std::string& name) {
     const auto found = fields.of_each_cell.find(fmt::format("crack_orientation_{}_per_m", name));
     return found == fields.of_each_cell.end() ? 0.0 : found->second[cell];
   };
-  const double xx = component("xx");
-  const double yy = component(last + last);
-  const double xy = component("x" + last);
+  return {component("xx"), component(last + last), component("x" + last)};
+}
+
+/// The line in which the plane that the mean crack lies in cuts the picture's: across the main direction of the crack
+/// normals there, and as long as more cracks lie in it than across it. `size` where all the cracks of the densest cell
+/// are alike: two or three that happen to be parallel make no long stroke. Zero where nothing broke.
+PlanePoint stroke(const CrackDirections& cracks, const double size, const double most_dense)
+{
+  const auto [xx, yy, xy] = cracks;
   if (!(xx + yy > 0.0))
     return {};
-  const double difference = std::hypot(xx - yy, 2.0 * xy);
-  const double length = 0.8 * size * difference / (xx + yy);
+  const double length = size * std::hypot(xx - yy, 2.0 * xy) / most_dense;
   const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
   return {-length * std::sin(angle), length * std::cos(angle)};
 }
@@ -63,6 +74,13 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
   const auto& share = fields.of_each_cell.at(share_field);
   const double most = *std::max_element(share.begin(), share.end());
 
+  double most_dense = 0.0;
+  for (const SamplePiece& piece : pieces)
+    {
+      const CrackDirections cracks = directions(fields, piece.cell);
+      most_dense = std::max(most_dense, cracks.xx + cracks.yy);
+    }
+
   PlanePoint low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   PlanePoint high{-low[0], -low[1]};
   std::string objects;
@@ -85,7 +103,7 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
       const PlanePoint middle = middle_of(piece.moved);
       fmt::format_to(std::back_inserter(colours), "{:.6g} {:.6g} {:.6g}\n", middle[0] / milli, middle[1] / milli,
                      value);
-      PlanePoint line = stroke(fields, piece.cell, std::sqrt(area_of(piece.rest)));
+      PlanePoint line = stroke(directions(fields, piece.cell), 0.8 * std::sqrt(area_of(piece.rest)), most_dense);
       if (fields.is_axisymmetric() && middle[0] < 0.0)
         line[0] = -line[0];
       if (line != PlanePoint{})
@@ -102,12 +120,12 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
 
   std::string letters;
   const double radius = 0.022 * (high[1] - low[1]) / milli;
-  for (std::size_t k = 0; k < test.appearance.volumes.size(); ++k)
+  for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
     {
-      const PlanePoint at = view.place(test.appearance.volumes[k]);
+      const PlanePoint at = view.place(test.appearance.rves[k]);
       letters += fmt::format("set object {0} circle at {1:.6g},{2:.6g} size {3:.4g} front fc rgb '#ffffff' fs solid 1 "
                              "border lc rgb '{4}' lw 1\nset label '{5}' at {1:.6g},{2:.6g} center front tc rgb '{4}'\n",
-                             pieces.size() + k + 1, at[0] / milli, at[1] / milli, radius, black, letter_of_volume(k));
+                             pieces.size() + k + 1, at[0] / milli, at[1] / milli, radius, black, letter_of_rve(k));
     }
 
   std::string data = fmt::format("$rest << EOD\n{}EOD\n$outline << EOD\n{}EOD\n$cells << EOD\n{}EOD\n",
@@ -134,17 +152,17 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
       plots += fmt::format(", $strokes with vectors nohead lw 4.5 lc rgb '#ffffff' notitle, $strokes with "
                            "vectors nohead lw 2 lc rgb '{}' title 'mean direction of the cracks'",
                            black);
-      caption += ". Strokes: where the mean crack would cut the picture, the longer the more alike the cracks are";
+      caption += ". Strokes: where the mean crack would cut the picture, the longer the more cracks lie alike";
     }
   if (!zone.empty())
     {
       data += fmt::format("$zone << EOD\n{}EOD\n", zone);
-      plots += fmt::format(", $zone with lines lw 3.5 lc rgb '{}' title 'localised zone'", blue);
+      plots += fmt::format(", $zone with lines lw 3.5 lc rgb '{}' title 'localised zone'", teal);
       caption += ". Localised: at least half of a cell's points";
     }
   else if (fields.has(localised_field))
     caption += ". Nowhere have half of a cell's points localised";
-  if (!test.appearance.volumes.empty())
+  if (!test.appearance.rves.empty())
     {
       caption += ". Letters: the representative volumes drawn below";
       if (fields.dimension == 3)

@@ -54,15 +54,15 @@ std::vector<SamplePiece> SampleView::pieces() const
   return all;
 }
 
-PlanePoint SampleView::place(const PointVolume& volume) const
+PlanePoint SampleView::place(const PointRve& rve) const
 {
   const bool in_space = fields.dimension == 3;
-  std::array<double, 3> at = volume.position;
+  std::array<double, 3> at = rve.position;
   if (!in_space && fields.has("crack_orientation_zz_per_m")) // the axes of the material: the last is the sample's
     at = {at[0], at[2], 0.0};
   // The displacement of the nodes of its cell, as near as a linear one comes to it.
   const auto& numbers = fields.of_each_cell.at("cell");
-  const auto found = std::find(numbers.begin(), numbers.end(), double(volume.cell));
+  const auto found = std::find(numbers.begin(), numbers.end(), double(rve.cell));
   if (found == numbers.end())
     return in_picture(at);
   const auto& corners = fields.cells[std::size_t(found - numbers.begin())];

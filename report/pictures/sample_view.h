@@ -30,8 +30,8 @@ public:
 
   std::vector<SamplePiece> pieces() const;
 
-  /// Where a volume is drawn: displaced with its cell.
-  PlanePoint place(const PointVolume& volume) const;
+  /// Where an RVE is drawn: displaced with its cell.
+  PlanePoint place(const PointRve& rve) const;
 
 private:
   PlanePoint in_picture(const std::array<double, 3>& at) const;

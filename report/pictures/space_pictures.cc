@@ -184,30 +184,30 @@ std::vector<Picture> space_picture(const FinishedTest& test, const std::string& 
      .script = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
 }
 
-Picture space_picture_of_volumes(const std::vector<PointVolume>& volumes, const std::vector<std::string>& headings)
+Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vector<std::string>& headings)
 {
-  double reach = 0.0; // from a volume's point
-  for (const PointVolume& volume : volumes)
-    for (const auto& grain : volume.grains)
+  double reach = 0.0; // from an RVE's point
+  for (const PointRve& rve : rves)
+    for (const auto& grain : rve.grains)
       for (std::size_t c = 0; c < 3; ++c)
-        reach = std::max(reach, std::abs(grain.position[c] - volume.position[c]) + grain.radius);
+        reach = std::max(reach, std::abs(grain.position[c] - rve.position[c]) + grain.radius);
   const Box box(reach);
   Json panels = Json::array();
-  for (std::size_t k = 0; k < volumes.size(); ++k)
+  for (std::size_t k = 0; k < rves.size(); ++k)
     {
-      PointVolume volume = volumes[k];
+      PointRve rve = rves[k];
       for (std::size_t c = 0; c < 3; ++c)
         {
-          for (auto& grain : volume.grains)
+          for (auto& grain : rve.grains)
             for (auto* place : {&grain.start, &grain.position})
-              (*place)[c] -= volume.position[c];
-          for (auto& crack : volume.cracks)
-            crack.centroid[c] -= volume.position[c];
+              (*place)[c] -= rve.position[c];
+          for (auto& crack : rve.cracks)
+            crack.centroid[c] -= rve.position[c];
         }
-      const Discs discs = discs_of(volume.cracks, box, std::numeric_limits<std::uint64_t>::max());
+      const Discs discs = discs_of(rve.cracks, box, std::numeric_limits<std::uint64_t>::max());
       panels.push_back({{"title", headings[k]},
                         {"box", box.millimetres()},
-                        {"spheres", spheres_behind(volume.grains, box)},
+                        {"spheres", spheres_behind(rve.grains, box)},
                         {"discs", discs.rows},
                         {"opacity", 0.7},
                         {"legend", discs.legend}});

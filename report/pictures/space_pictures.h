@@ -12,7 +12,7 @@ namespace feldspar
 /// fragments at the end, cut open at the mid-plane. Nothing of a test in the plane or one without grains.
 std::vector<Picture> space_picture(const FinishedTest& test, const std::string& title);
 
-/// The volumes at points of a sample in space, each under its heading: the grains behind the mid-plane, with the cracks as
+/// The RVEs at points of a sample in space, each under its heading: the grains behind the mid-plane, with the cracks as
 /// discs. Without name and texts.
-Picture space_picture_of_volumes(const std::vector<PointVolume>& volumes, const std::vector<std::string>& headings);
+Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vector<std::string>& headings);
 } // namespace feldspar

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 namespace feldspar
@@ -254,9 +255,37 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
   return range.empty() ? text : fmt::format("{} ({})", text, range);
 }
 
+namespace
+{
+/// Width on the screen: bytes that continue a UTF-8 character take no place.
+std::size_t width(const std::string& text)
+{
+  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// A heading in lines of at most so many characters, where words allow it; all but the first are indented.
+std::vector<std::string> in_lines(const std::string& heading, const std::size_t most)
+{
+  std::vector<std::string> lines{""};
+  std::istringstream words(heading);
+  for (std::string word; words >> word;)
+    {
+      std::string& line = lines.back();
+      if (!line.empty() && width(line) + 1 + width(word) > most)
+        lines.push_back("  " + word);
+      else
+        line += (line.empty() ? "" : " ") + word;
+    }
+  return lines;
+}
+} // namespace
+
 std::string as_text(const std::vector<ComparisonRow>& rows)
 {
-  std::vector<std::array<std::string, 4>> cells;
+  constexpr std::size_t n_columns = 4;
+  constexpr std::size_t page = 80;
+  constexpr std::size_t narrowest = 20; // of the headings
+  std::vector<std::array<std::string, n_columns>> cells;
   cells.push_back({"", "this run", "paper's model", "experiment"});
   for (const auto& row : rows)
     {
@@ -268,21 +297,29 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
                        as_text(row, row.model), as_text(row, row.experiment)});
     }
 
-  // Width on the screen: bytes that continue a UTF-8 character take no place.
-  const auto width = [](const std::string& text) {
-    return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
-  };
-  std::array<std::size_t, 4> widest{};
+  // A column that says nothing is left out; headings give way, so that a line fits on a terminal.
+  std::vector<std::size_t> columns{1};
+  for (std::size_t c = 2; c < n_columns; ++c)
+    if (std::any_of(cells.begin() + 1, cells.end(), [c](const auto& line) { return line[c] != "-"; }))
+      columns.push_back(c);
+  std::array<std::size_t, n_columns> widest{};
   for (const auto& line : cells)
-    for (std::size_t c = 0; c < line.size(); ++c)
+    for (std::size_t c = 0; c < n_columns; ++c)
       widest[c] = std::max(widest[c], width(line[c]));
+  std::size_t of_values = 0;
+  for (const std::size_t c : columns)
+    of_values += 2 + widest[c];
+  const std::size_t of_headings = std::min(widest[0], page > of_values + narrowest ? page - of_values : narrowest);
   std::string text;
   for (const auto& line : cells)
     {
-      text += line[0] + std::string(widest[0] - width(line[0]), ' ');
-      for (std::size_t c = 1; c < line.size(); ++c)
-        text += "   " + std::string(widest[c] - width(line[c]), ' ') + line[c];
+      const std::vector<std::string> heading = in_lines(line[0], of_headings);
+      text += heading.front() + std::string(of_headings - std::min(of_headings, width(heading.front())), ' ');
+      for (const std::size_t c : columns)
+        text += "  " + std::string(widest[c] - width(line[c]), ' ') + line[c];
       text += '\n';
+      for (std::size_t k = 1; k < heading.size(); ++k)
+        text += heading[k] + '\n';
     }
   return text;
 }

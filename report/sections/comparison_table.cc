@@ -11,7 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace feldspar
 {
@@ -45,6 +49,35 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
   return line;
 }
 
+/// What a series cost: means over its specimens.
+struct Cost
+{
+  Statistics grains;
+  Statistics time; ///< sum of the times of a specimen's tests, each on one core [s]
+};
+
+std::optional<Cost> cost_of(const Series& series)
+{
+  std::map<std::uint64_t, std::pair<double, double>> of_seed;
+  for (const auto& test : series.tests)
+    if (test.record.specimen.n_grains > 0)
+      {
+        auto& [grains, time] = of_seed[test.record.seed];
+        grains = double(test.record.specimen.n_grains);
+        time += test.bookkeeping.wall_time;
+      }
+  std::vector<double> grains, times;
+  for (const auto& [seed, cost] : of_seed)
+    {
+      grains.push_back(cost.first);
+      times.push_back(cost.second);
+    }
+  const auto of_grains = statistics(grains);
+  const auto of_times = statistics(times);
+  if (!of_grains || !of_times)
+    return std::nullopt;
+  return Cost{*of_grains, *of_times};
+}
 } // namespace
 
 Table comparison_table(const Findings& findings)
@@ -109,6 +142,19 @@ Table comparison_table(const Findings& findings)
         rock = {experiment, model};
       table.rows.push_back(arranged(heading, rock, ours, one));
     }
+  if (one)
+    return table;
+  // Series of one rock are also told apart by what they cost.
+  std::vector<std::string> grains, times;
+  for (const std::size_t n : compared)
+    {
+      const auto cost = cost_of(findings.all[n]);
+      append(grains, {cost ? mean_and_deviation(cost->grains, 1.0, 0) : none, none, none});
+      append(times, {cost ? mean_and_deviation(cost->time, 1.0, 0) : none, none, none});
+    }
+  rock.assign(findings.reference ? 2 : 0, none);
+  table.rows.push_back(arranged("grains of a specimen", rock, grains, one));
+  table.rows.push_back(arranged("time of all tests of a specimen, each on one core [s]", rock, times, one));
   return table;
 }
 

@@ -43,7 +43,7 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       block.pictures = book.keep(std::move(maps));
       append(block.pictures, book.keep(rose_picture(series)));
       append(block.pictures, book.keep(std::move(fragments)));
-      append(block.pictures, book.keep(fragment_size_picture(series)));
+      append(block.pictures, book.keep(fragment_size_picture(series, n)));
       section.blocks.push_back(block);
     }
   PageBlock together;

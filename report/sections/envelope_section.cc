@@ -1,6 +1,8 @@
 #include "report/sections/sections.h"
 
+#include "base/append.h"
 #include "report/pictures/envelope_pictures.h"
+#include "report/pictures/stress_plane_pictures.h"
 #include "report/sections/text.h"
 
 #include <fmt/format.h>
@@ -52,17 +54,17 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
     {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
     {}};
   for (const auto& pair : envelopes.hoek_brown)
-    for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+    for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
         const std::string form =
           fmt::format("{}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
-                      answer == &pair.with_tension_point ? "with" : "without");
-        if (!answer->fit)
+                      either == &pair.with_tension_point ? "with" : "without");
+        if (!either->fit)
           {
-            table.rows.push_back({form, "no fit: " + answer->reason, "", "", "", "", "", "", "", ""});
+            table.rows.push_back({form, "no fit: " + either->reason, "", "", "", "", "", "", "", ""});
             continue;
           }
-        const HoekBrownFit& fit = *answer->fit;
+        const HoekBrownFit& fit = *either->fit;
         table.rows.push_back(
           {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
            estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
@@ -147,6 +149,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
     {
       PageBlock together;
       together.pictures = book.keep(std::move(combined));
+      append(together.pictures, book.keep(p_q_picture(findings.all, findings.envelopes)));
       section.blocks.push_back(together);
     }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
@@ -168,6 +171,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       block.paragraphs.push_back("Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
                                  "has more points than parameters.");
       block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
+      append(block.pictures, book.keep(mohr_picture(findings.all[n], n, envelopes)));
+      if (!findings.has_several())
+        append(block.pictures, book.keep(p_q_picture(findings.all, findings.envelopes)));
       section.blocks.push_back(block);
       PageBlock figures;
       figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
@@ -181,7 +187,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       section.blocks.push_back(figures);
       PageBlock residuals;
       residuals.folded = findings.titled("Residual of every point", findings.all[n]);
-      residuals.pictures = book.keep(residual_picture(findings.all[n], envelopes));
+      residuals.pictures = book.keep(residual_picture(findings.all[n], n, envelopes));
       residuals.tables.push_back(residual_table(envelopes, "residuals" + findings.ending_of_files(n)));
       if (!residuals.pictures.empty())
         section.blocks.push_back(residuals);

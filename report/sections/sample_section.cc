@@ -1,8 +1,8 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
+#include "report/pictures/rve_pictures.h"
 #include "report/pictures/sample_pictures.h"
-#include "report/pictures/volume_pictures.h"
 #include "report/sections/text.h"
 #include "results/test_groups.h"
 
@@ -18,9 +18,9 @@ namespace
 using namespace text;
 
 /// Where the representative volumes (RVEs) that are drawn stand, with what broke in them.
-std::vector<Table> volume_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
+std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
 {
-  if (test.appearance.volumes.empty())
+  if (test.appearance.rves.empty())
     return {};
   Table table{
     "volumes_" + test.name + ending,
@@ -30,15 +30,14 @@ std::vector<Table> volume_tables(const FinishedTest& test, const std::string& ti
       title, test.record.seed),
     {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
     {}};
-  for (std::size_t k = 0; k < test.appearance.volumes.size(); ++k)
+  for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
     {
-      const PointVolume& volume = test.appearance.volumes[k];
-      const auto n_shear = std::count_if(volume.cracks.begin(), volume.cracks.end(),
+      const PointRve& rve = test.appearance.rves[k];
+      const auto n_shear = std::count_if(rve.cracks.begin(), rve.cracks.end(),
                                          [](const Crack& crack) { return crack.kind == CrackKind::shear; });
-      table.rows.push_back({fmt::format("{}, {}", letter_of_volume(k), volume.which),
-                            standing_of(volume, test.appearance.fields), volume.place(),
-                            fmt::format("{}", volume.cracks.size()), number(100.0 * broken_share(volume), 2),
-                            fmt::format("{}", n_shear)});
+      table.rows.push_back({fmt::format("{}, {}", letter_of_rve(k), rve.which),
+                            standing_of(rve, test.appearance.fields), rve.place(), fmt::format("{}", rve.cracks.size()),
+                            number(100.0 * broken_share(rve), 2), fmt::format("{}", n_shear)});
     }
   return {table};
 }
@@ -79,22 +78,22 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
               return pictures;
             };
             std::vector<Picture> sample = named(sample_picture(*test, title));
-            std::vector<Picture> volumes = named(volume_picture(*test, title));
+            std::vector<Picture> rves = named(rve_picture(*test, title));
             if (std::find(on_page.begin(), on_page.end(), test) == on_page.end())
               {
                 if (findings.one_folder)
-                  for (auto* pictures : {&sample, &volumes})
+                  for (auto* pictures : {&sample, &rves})
                     book.keep_as_files(std::move(*pictures));
                 continue;
               }
             PageBlock block;
             block.subheading = title;
             block.pictures = book.keep(std::move(sample));
-            append(block.pictures, book.keep(std::move(volumes)));
+            append(block.pictures, book.keep(std::move(rves)));
             if (block.pictures.empty())
               continue;
-            block.tables = volume_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));
-            if (test->appearance.volumes.empty())
+            block.tables = rve_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));
+            if (test->appearance.rves.empty())
               block.paragraphs.push_back(
                 "The grains of single representative volumes are not in this result folder: it is of before "
                 "they were kept, or the test did not come to its end.");

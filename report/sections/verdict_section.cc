@@ -44,13 +44,13 @@ PageSection verdict_section(const Findings& findings)
         }
       else
         {
-          const Verdict answer = verdict(findings.comparisons[n], findings.reference_problem);
+          const Verdict found = verdict(findings.comparisons[n], findings.reference_problem);
           if (findings.all[n].kind == SeriesKind::finite_elements)
             block.paragraphs.push_back(
               fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
                           material_at_points(findings.all[n].made_by)));
-          block.headline = answer.headline;
-          block.points = answer.points;
+          block.headline = found.headline;
+          block.points = found.points;
           if (block.warnings.empty())
             block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
         }

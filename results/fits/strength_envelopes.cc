@@ -33,13 +33,13 @@ void add_measured(std::vector<FitEntry>& entries, const StrengthData& data)
   entries.push_back({"measured_tensile_strength_Pa", figure(data.tensile_strength)});
 }
 
-FitRecord record(const HoekBrownForm form, const std::string& variant, const FitOrReason<HoekBrownFit>& answer,
+FitRecord record(const HoekBrownForm form, const std::string& variant, const FitOrReason<HoekBrownFit>& fit_or_reason,
                  const StrengthData& data)
 {
-  FitRecord result{name(form), variant, answer.reason, {}, {}};
-  if (!answer.fit)
+  FitRecord result{name(form), variant, fit_or_reason.reason, {}, {}};
+  if (!fit_or_reason.fit)
     return result;
-  const auto& fit = *answer.fit;
+  const auto& fit = *fit_or_reason.fit;
   add(result.entries, "sigma_ci", "_Pa", fit.sigma_ci);
   add(result.entries, "m", "", fit.m);
   add(result.entries, "s", "", fit.s);
@@ -52,12 +52,12 @@ FitRecord record(const HoekBrownForm form, const std::string& variant, const Fit
   return result;
 }
 
-FitRecord record(const FitOrReason<MohrCoulombFit>& answer, const StrengthData& data)
+FitRecord record(const FitOrReason<MohrCoulombFit>& fit_or_reason, const StrengthData& data)
 {
-  FitRecord result{"mohr_coulomb", "", answer.reason, {}, {}};
-  if (!answer.fit)
+  FitRecord result{"mohr_coulomb", "", fit_or_reason.reason, {}, {}};
+  if (!fit_or_reason.fit)
     return result;
-  const auto& fit = *answer.fit;
+  const auto& fit = *fit_or_reason.fit;
   add(result.entries, "friction_angle", "_rad", fit.friction_angle);
   add(result.entries, "cohesion", "_Pa", fit.cohesion);
   add(result.entries, "slope", "", fit.slope);
@@ -84,7 +84,7 @@ std::string text(const Figure& figure, const int decimals, const double unit = 1
 
 std::string words(const bool with_tension_point) { return with_tension_point ? "with" : "without"; }
 
-using Row = std::array<std::string, 9>;
+using Row = std::array<std::string, 5>;
 
 /// All columns but the first to the right; fmt counts characters, not bytes.
 std::string table(const std::vector<Row>& rows)
@@ -143,24 +143,28 @@ std::vector<FitRecord> records(const StrengthEnvelopes& envelopes)
 
 std::string as_text(const StrengthEnvelopes& envelopes)
 {
+  // Two tables, each of which fits on a terminal.
   std::vector<Row> rows;
+  std::vector<Row> strengths;
   std::vector<std::string> notes;
-  rows.push_back({"Hoek-Brown", "sigma_ci", "m", "s", "a", "R²", "RMS", "UCS", "sigma_t"});
+  rows.push_back({"Hoek-Brown", "sigma_ci", "m", "s", "a"});
+  strengths.push_back({"Hoek-Brown", "R²", "RMS", "UCS", "sigma_t"});
   for (const auto& pair : envelopes.hoek_brown)
-    for (const auto* answer : {&pair.with_tension_point, &pair.without_tension_point})
+    for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
         const std::string title =
-          fmt::format("{}, {} tension point", name(pair.form), words(answer == &pair.with_tension_point));
-        if (!answer->fit)
+          fmt::format("{}, {} tension point", name(pair.form), words(either == &pair.with_tension_point));
+        if (!either->fit)
           {
-            notes.push_back(fmt::format("{}: no fit: {}", title, answer->reason));
+            notes.push_back(fmt::format("{}: no fit: {}", title, either->reason));
             continue;
           }
-        const auto& fit = *answer->fit;
-        rows.push_back({title, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3),
-                        text(fit.quality.r_squared, 4), fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
-                        text(fit.uniaxial_compressive_strength, 1, 1e6),
-                        text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
+        const auto& fit = *either->fit;
+        rows.push_back({title, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3)});
+        strengths.push_back({title, text(fit.quality.r_squared, 4),
+                             fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
+                             text(fit.uniaxial_compressive_strength, 1, 1e6),
+                             text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
         // What the form itself fixes is no news.
         const bool fixes_s = pair.form != HoekBrownForm::as_paper;
         if (!fit.m.half_width.value)
@@ -175,10 +179,11 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   const auto measured = [](const std::optional<double>& value, const int decimals) {
     return value ? fmt::format("{:.{}f}", *value / 1e6, decimals) : std::string("-");
   };
-  rows.push_back({"measured", "", "", "", "", "", "", measured(envelopes.data.uniaxial_compressive_strength, 1),
-                  measured(envelopes.data.tensile_strength, 2)});
+  strengths.push_back({"measured", "", "", measured(envelopes.data.uniaxial_compressive_strength, 1),
+                       measured(envelopes.data.tensile_strength, 2)});
 
-  std::string result = "Strength envelopes: compression positive, MPa, ± 95 % confidence\n" + table(rows);
+  std::string result =
+    "Strength envelopes: compression positive, MPa, ± 95 % confidence\n" + table(rows) + table(strengths);
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     result +=
       fmt::format("Mohr-Coulomb: friction angle {} deg, cohesion {} MPa, R² {}, RMS {:.1f} MPa, UCS {} MPa\n",

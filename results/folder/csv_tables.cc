@@ -73,7 +73,8 @@ Column<Row> coordinate(const std::string_view name, std::array<double, n> Row::*
     name, [=](auto& row) -> auto& { return (row.*member)[c]; });
 }
 
-Column<CurveSample> added(Column<CurveSample> column)
+template <typename Row>
+Column<Row> added(Column<Row> column)
 {
   column.added = true;
   return column;
@@ -121,23 +122,34 @@ std::vector<Column<CurveSample>> curve_columns(const TestBody body)
 /// All but the name of the test and the kind.
 const std::vector<Column<Crack>>& crack_columns()
 {
-  static const std::vector<Column<Crack>> columns{
-    column<Crack>("joint", &Crack::joint),     column<Crack>("segment", &Crack::segment),
-    column<Crack>("step", &Crack::step),       column<Crack>("axial_strain", &Crack::axial_strain, true),
-    coordinate("x_m", &Crack::centroid, 0),    coordinate("y_m", &Crack::centroid, 1),
-    coordinate("z_m", &Crack::centroid, 2),    coordinate("normal_x", &Crack::normal, 0),
-    coordinate("normal_y", &Crack::normal, 1), coordinate("normal_z", &Crack::normal, 2),
-    column<Crack>("size_m", &Crack::size),     column<Crack>("released_energy_J", &Crack::released_energy)};
+  static const std::vector<Column<Crack>> columns{column<Crack>("joint", &Crack::joint),
+                                                  column<Crack>("segment", &Crack::segment),
+                                                  column<Crack>("step", &Crack::step),
+                                                  column<Crack>("axial_strain", &Crack::axial_strain, true),
+                                                  coordinate("x_m", &Crack::centroid, 0),
+                                                  coordinate("y_m", &Crack::centroid, 1),
+                                                  coordinate("z_m", &Crack::centroid, 2),
+                                                  coordinate("normal_x", &Crack::normal, 0),
+                                                  coordinate("normal_y", &Crack::normal, 1),
+                                                  coordinate("normal_z", &Crack::normal, 2),
+                                                  column<Crack>("size_m", &Crack::size),
+                                                  column<Crack>("released_energy_J", &Crack::released_energy),
+                                                  added(column<Crack>("on_smooth_joint", &Crack::on_smooth_joint))};
   return columns;
 }
 
 const std::vector<Column<GrainPicture>>& grain_columns()
 {
   static const std::vector<Column<GrainPicture>> columns{
-    coordinate("start_x_m", &GrainPicture::start, 0),        coordinate("start_y_m", &GrainPicture::start, 1),
-    coordinate("start_z_m", &GrainPicture::start, 2),        coordinate("x_m", &GrainPicture::position, 0),
-    coordinate("y_m", &GrainPicture::position, 1),           coordinate("z_m", &GrainPicture::position, 2),
-    column<GrainPicture>("radius_m", &GrainPicture::radius), column<GrainPicture>("fragment", &GrainPicture::fragment)};
+    coordinate("start_x_m", &GrainPicture::start, 0),
+    coordinate("start_y_m", &GrainPicture::start, 1),
+    coordinate("start_z_m", &GrainPicture::start, 2),
+    coordinate("x_m", &GrainPicture::position, 0),
+    coordinate("y_m", &GrainPicture::position, 1),
+    coordinate("z_m", &GrainPicture::position, 2),
+    column<GrainPicture>("radius_m", &GrainPicture::radius),
+    column<GrainPicture>("fragment", &GrainPicture::fragment),
+    added(column<GrainPicture>("mineral_grain", &GrainPicture::mineral))};
   return columns;
 }
 

@@ -1,13 +1,13 @@
 #include "results/folder/field_output.h"
 
-#include "base/hdf5_archive.h"
 #include "base/whole_file.h"
+#include "results/folder/vtk_poly_data.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -15,177 +15,160 @@ namespace feldspar
 {
 namespace
 {
-std::string shape(const std::size_t n, const unsigned int n_components)
+using Points = VtkPolyData::Components;
+
+Points places(const Snapshot& snapshot)
 {
-  return n_components > 1 ? fmt::format("{} {}", n, n_components) : std::to_string(n);
-}
-
-/// An array of the HDF5 file as XDMF points to it.
-std::string data_item(const std::string& path, const std::string& its_shape, const bool is_real)
-{
-  return fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">{}</DataItem>)", its_shape,
-                     is_real ? R"(NumberType="Float" Precision="8")" : R"(NumberType="UInt" Precision="4")", path);
-}
-
-/// The first `n` rows of one that lies flat, [n_stored * n_components]: of slabs in two dimensions the XDMF library takes
-/// other values.
-std::string first_rows(const std::string& path, const std::size_t n, const std::size_t n_stored,
-                       const unsigned int n_components, const bool is_real)
-{
-  return fmt::format(R"(<DataItem ItemType="HyperSlab" Dimensions="{}" Type="HyperSlab">)"
-                     R"(<DataItem Dimensions="3 1" NumberType="Int" Format="XML">0 1 {}</DataItem>{}</DataItem>)",
-                     shape(n, n_components), n * n_components,
-                     data_item(path, shape(n_stored * n_components, 1), is_real));
-}
-
-/// Points with their attributes at one time.
-class PointGrid
-{
-public:
-  PointGrid(const double time, const std::size_t n, const std::string& positions)
-    : text(fmt::format("<Grid GridType=\"Uniform\"><Time Value=\"{0}\"/>\n"
-                       "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{1}\" NodesPerElement=\"1\"/>\n"
-                       "<Geometry GeometryType=\"XYZ\">{2}</Geometry>\n",
-                       time, n, positions))
-  {
-  }
-
-  void attribute(const std::string& name, const bool is_vector, const std::string& data)
-  {
-    fmt::format_to(std::back_inserter(text),
-                   "<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", name,
-                   is_vector ? "Vector" : "Scalar", data);
-  }
-
-  /// Symmetric: xx, xy, xz, yy, yz, zz.
-  void tensor(const std::string& name, const std::string& data)
-  {
-    fmt::format_to(std::back_inserter(text),
-                   "<Attribute Name=\"{}\" AttributeType=\"Tensor6\" Center=\"Node\">{}</Attribute>\n", name, data);
-  }
-
-  std::string finish() const { return text + "</Grid>\n"; }
-
-private:
-  std::string text;
-};
-
-std::string time_series(const std::string& name, const std::string& grids)
-{
-  return fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n"
-                     "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n"
-                     "</Domain></Xdmf>\n",
-                     name, grids);
-}
-
-/// One point after the other, three coordinates each.
-std::vector<double> interleaved(const std::array<std::vector<double>, 3>& components)
-{
-  const std::size_t n = components[0].size();
-  std::vector<double> values(3 * n, 0.0);
+  Points points(snapshot.position[0].size(), std::array<double, 3>{});
   for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < components[c].size(); ++i)
-      values[3 * i + c] = components[c][i];
-  return values;
+    for (std::size_t i = 0; i < snapshot.position[c].size(); ++i)
+      points[i][c] = snapshot.position[c][i];
+  return points;
+}
+
+VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains)
+{
+  const Points now = places(snapshot);
+  Points displacement = now;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      displacement[i][c] -= start[i][c];
+  std::vector<double> radius;
+  for (const auto& grain : grains)
+    radius.push_back(grain.radius);
+  VtkPolyData data(now, VtkPolyData::Cells::points);
+  data.scalar("radius_m", radius);
+  data.vector("displacement_m", displacement);
+  if (snapshot.stress[0].size() == now.size())
+    {
+      std::vector<std::array<double, 6>> stress(now.size());
+      for (std::size_t c = 0; c < 6; ++c)
+        for (std::size_t i = 0; i < now.size(); ++i)
+          stress[i][c] = snapshot.stress[c][i];
+      data.tensor("stress_Pa", stress);
+    }
+  data.count("fragment", snapshot.fragment);
+  data.count("n_broken_segments", snapshot.n_broken_segments);
+  return data;
+}
+
+/// A direction square to a unit vector, the same for the same vector.
+std::array<double, 3> across(const std::array<double, 3>& normal)
+{
+  const auto [x, y, z] = normal;
+  const std::array<double, 3> result = std::abs(z) < 0.9 ? std::array{-y, x, 0.0} : std::array{0.0, -z, y};
+  const double length = std::hypot(result[0], result[1], result[2]);
+  return {result[0] / length, result[1] / length, result[2] / length};
+}
+
+/// The corners of the face that broke: the ends of its line in the plane, of a square of its area in space.
+void add_face(Points& corners, const Crack& crack, const bool in_space)
+{
+  const auto& n = crack.normal;
+  const std::array<double, 3> u = in_space ? across(n) : std::array{-n[1], n[0], 0.0};
+  const std::array<double, 3> v{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
+  const auto corner = [&](const double along_u, const double along_v) {
+    std::array<double, 3> point = crack.centroid;
+    for (std::size_t c = 0; c < 3; ++c)
+      point[c] += 0.5 * crack.size * (along_u * u[c] + along_v * v[c]);
+    corners.push_back(point);
+  };
+  if (!in_space)
+    for (const double side : {-1.0, 1.0})
+      corner(side, 0.0);
+  else
+    for (const auto& [along_u, along_v] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+      corner(along_u, along_v);
+}
+
+VtkPolyData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
+{
+  const auto end = std::upper_bound(all.begin(), all.end(), snapshot.step,
+                                    [](const std::uint64_t step, const Crack& crack) { return step < crack.step; });
+  Points corners;
+  Points normal;
+  std::vector<double> size, energy;
+  std::vector<std::uint32_t> is_shear, step;
+  for (auto crack = all.begin(); crack != end; ++crack)
+    {
+      add_face(corners, *crack, in_space);
+      normal.push_back(crack->normal);
+      size.push_back(crack->size);
+      energy.push_back(crack->released_energy);
+      is_shear.push_back(crack->kind == CrackKind::shear);
+      step.push_back(std::uint32_t(crack->step));
+    }
+  VtkPolyData data(corners, in_space ? VtkPolyData::Cells::squares : VtkPolyData::Cells::lines);
+  data.count("is_shear", is_shear);
+  data.scalar("released_energy_J", energy);
+  data.vector("normal", normal);
+  data.scalar("size_m", size);
+  data.count("step", step);
+  return data;
+}
+/// For File, Load State, or `paraview --script`: grains as spheres of their size, cracks on them.
+std::string paraview_script(const std::string& name, const bool has_cracks)
+{
+  std::string text = fmt::format(R"(# Shows {0} in ParaView: File, Load State, or paraview --script=THIS_FILE.
+import os
+
+from paraview.simple import *
+
+folder = os.path.dirname(os.path.abspath(__file__)) if "__file__" in globals() else os.getcwd()
+view = GetActiveViewOrCreate("RenderView")
+grains = PVDReader(FileName=os.path.join(folder, "{0}_grains.pvd"))
+spheres = Glyph(Input=grains, GlyphType="Sphere")
+spheres.ScaleArray = ["POINTS", "radius_m"]
+spheres.ScaleFactor = 2.0  # a sphere of ParaView's is one across
+spheres.GlyphMode = "All Points"
+of_spheres = Show(spheres, view)
+ColorBy(of_spheres, ("POINTS", "fragment"))
+)",
+                                 name);
+  if (has_cracks)
+    text += fmt::format(R"(cracks = PVDReader(FileName=os.path.join(folder, "{}_cracks.pvd"))
+of_cracks = Show(cracks, view)
+ColorBy(of_cracks, ("CELLS", "is_shear"))
+of_cracks.LineWidth = 3.0
+)",
+                        name);
+  return text + R"(scene = GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()  # the time is the axial strain in per cent
+scene.GoToLast()
+ResetCamera(view)
+Render(view)
+)";
 }
 } // namespace
 
-void write_fields(const std::string& name, const TestKind& kind, const std::vector<Crack>& all_cracks,
+void write_fields(const std::string& name, const TestKind& kind, const std::vector<Crack>& cracks,
                   const TestAppearance& appearance, const std::filesystem::path& folder)
 {
   if (appearance.snapshots.empty())
     return;
-  const std::size_t n_grains = appearance.grains_at_end.size();
-  const std::size_t n_cracks = all_cracks.size();
-  const std::string file = name + ".h5";
-  const double sign = kind.sign;
-  const auto has_stress = [=](const Snapshot& snapshot) { return snapshot.stress[0].size() == n_grains; };
-
-  write_hdf5(folder / file, [&](Hdf5Writer& root) {
-    std::vector<double> radius;
-    for (const auto& grain : appearance.grains_at_end)
-      radius.push_back(grain.radius);
-    root.array("radius_m", radius);
-    const std::vector<double> start = interleaved(appearance.snapshots.front().position);
-    for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)
-      {
-        const Snapshot& snapshot = appearance.snapshots[k];
-        auto group = root.subgroup(fmt::format("snapshot_{}", k));
-        std::vector<double> position = interleaved(snapshot.position);
-        std::vector<double> displacement(position.size());
-        std::transform(position.begin(), position.end(), start.begin(), displacement.begin(), std::minus<>());
-        std::vector<std::uint32_t> fragment = snapshot.fragment;
-        std::vector<std::uint32_t> n_broken = snapshot.n_broken_segments;
-        group.array("position_m", position, 3);
-        group.array("displacement_m", displacement, 3);
-        if (has_stress(snapshot))
-          {
-            std::vector<double> stress(6 * n_grains);
-            for (std::size_t c = 0; c < 6; ++c)
-              for (std::size_t i = 0; i < n_grains; ++i)
-                stress[6 * i + c] = snapshot.stress[c][i];
-            group.array("stress_Pa", stress, 6);
-          }
-        group.array("fragment", fragment);
-        group.array("n_broken_segments", n_broken);
-      }
-
-    auto cracks = root.subgroup("cracks");
-    std::vector<double> centroid, normal, size, energy;
-    std::vector<std::uint32_t> is_shear, step;
-    for (const auto& crack : all_cracks)
-      {
-        centroid.insert(centroid.end(), crack.centroid.begin(), crack.centroid.end());
-        normal.insert(normal.end(), crack.normal.begin(), crack.normal.end());
-        size.push_back(crack.size);
-        energy.push_back(crack.released_energy);
-        is_shear.push_back(crack.kind == CrackKind::shear);
-        step.push_back(std::uint32_t(crack.step));
-      }
-    cracks.array("centroid_m", centroid);
-    cracks.array("normal", normal);
-    cracks.array("size_m", size);
-    cracks.array("released_energy_J", energy);
-    cracks.array("is_shear", is_shear);
-    cracks.array("step", step);
-  });
-
-  std::string grain_grids, crack_grids;
+  const bool in_space = !appearance.snapshots.front().position[2].empty();
+  const Points start = places(appearance.snapshots.front());
+  std::filesystem::remove_all(folder / name); // a test that was interrupted may have left more files
+  std::filesystem::create_directories(folder / name);
+  std::vector<VtkTime> of_grains;
+  std::vector<VtkTime> of_cracks;
   for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)
     {
       const Snapshot& snapshot = appearance.snapshots[k];
-      const double time = 100.0 * sign * snapshot.axial_strain + 0.0;
-      const auto of_grains = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
-        return data_item(fmt::format("{}:/snapshot_{}/{}", file, k, array), shape(n_grains, n_components), is_real);
+      const double percent = 100.0 * kind.sign * snapshot.axial_strain + 0.0; // no -0
+      const auto keep = [&](VtkPolyData data, const char* const what, std::vector<VtkTime>& series) {
+        data.of_all("axial_strain_percent", percent);
+        data.of_all("axial_stress_Pa", snapshot.axial_stress);
+        series.push_back({percent, fmt::format("{}/{}_{:03}.vtp", name, what, k)});
+        data.write(folder / series.back().file);
       };
-      PointGrid grains(time, n_grains, of_grains("position_m", 3, true));
-      grains.attribute("radius", false, data_item(file + ":/radius_m", shape(n_grains, 1), true));
-      grains.attribute("displacement", true, of_grains("displacement_m", 3, true));
-      if (has_stress(snapshot))
-        grains.tensor("stress", of_grains("stress_Pa", 6, true));
-      grains.attribute("fragment", false, of_grains("fragment", 1, false));
-      grains.attribute("broken elements", false, of_grains("n_broken_segments", 1, false));
-      grain_grids += grains.finish();
-
-      const auto until =
-        std::upper_bound(all_cracks.begin(), all_cracks.end(), snapshot.step,
-                         [](const std::uint64_t step, const Crack& crack) { return step < crack.step; });
-      const auto n = std::size_t(until - all_cracks.begin());
-      if (n == 0)
-        continue; // an empty grid is none to ParaView
-      const auto of_cracks = [&](const std::string& array, const unsigned int n_components, const bool is_real) {
-        return first_rows(fmt::format("{}:/cracks/{}", file, array), n, n_cracks, n_components, is_real);
-      };
-      PointGrid cracks(time, n, of_cracks("centroid_m", 3, true));
-      cracks.attribute("normal", true, of_cracks("normal", 3, true));
-      cracks.attribute("size", false, of_cracks("size_m", 1, true));
-      cracks.attribute("released energy", false, of_cracks("released_energy_J", 1, true));
-      cracks.attribute("is shear", false, of_cracks("is_shear", 1, false));
-      cracks.attribute("step", false, of_cracks("step", 1, false));
-      crack_grids += cracks.finish();
+      keep(grains_at(snapshot, start, appearance.grains_at_end), "grains", of_grains);
+      if (!cracks.empty())
+        keep(cracks_until(snapshot, cracks, in_space), "cracks", of_cracks);
     }
-  write_whole_file(folder / (name + "_grains.xdmf"), time_series("grains", grain_grids));
-  if (!crack_grids.empty())
-    write_whole_file(folder / (name + "_cracks.xdmf"), time_series("cracks", crack_grids));
+  write_vtk_series(of_grains, folder / (name + "_grains.pvd"));
+  if (!of_cracks.empty())
+    write_vtk_series(of_cracks, folder / (name + "_cracks.pvd"));
+  write_whole_file(folder / (name + "_paraview.py"), paraview_script(name, !of_cracks.empty()));
 }
 } // namespace feldspar

@@ -53,6 +53,7 @@ constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
                                    {"friction_angle_deg", 1.0, 89.0},
                                    {"cohesion_MPa", 1e-3, 2000.0}};
 constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
+constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
 
 /// Of `strength_at_5_MPa` and the like, the pressure [MPa]; none of another name.
@@ -76,7 +77,17 @@ bool is_true_triaxial(const std::string_view name)
          pressure_in(name.substr(middle + 4), "_intermediate_", "_MPa_strength_MPa");
 }
 
-std::optional<Property> property_of(const std::string_view name)
+/// Of a test that gives no point of the envelope: direct_shear_5_MPa_strength_MPa.
+bool is_strength_of(const TestKind& kind, const std::string_view name)
+{
+  if (kind.envelope_role != EnvelopeRole::none)
+    return false;
+  return kind.takes_confining_pressure
+           ? pressure_in(name, fmt::format("{}_", kind.name), "_MPa_strength_MPa").has_value()
+           : name == fmt::format("{}_strength_MPa", kind.name);
+}
+
+std::optional<Property> property_of(const std::string_view name, const std::vector<TestKind>& kinds)
 {
   const auto found =
     std::find_if(std::begin(properties), std::end(properties), [&](const Property& one) { return one.name == name; });
@@ -84,7 +95,19 @@ std::optional<Property> property_of(const std::string_view name)
     return *found;
   if (pressure_in(name, "strength_at_", "_MPa") || is_true_triaxial(name))
     return confined_strength;
+  if (std::any_of(kinds.begin(), kinds.end(), [&](const TestKind& kind) { return is_strength_of(kind, name); }))
+    return other_strength;
   return std::nullopt;
+}
+
+/// In the list of what a reference may give.
+std::string keys_of_others(const std::vector<TestKind>& kinds)
+{
+  std::string keys;
+  for (const TestKind& kind : kinds)
+    if (kind.envelope_role == EnvelopeRole::none)
+      keys += fmt::format(", {}{}_strength_MPa", kind.name, kind.takes_confining_pressure ? "_P_MPa" : "");
+  return keys;
 }
 
 std::string key_of_strength(const double confining_pressure)
@@ -262,7 +285,8 @@ StrengthData strengths_of(const ReferenceSource& source)
   return data;
 }
 
-ReferenceSource source_of(const Json& json, const std::string& label, const Place& place)
+ReferenceSource source_of(const Json& json, const std::string& label, const std::vector<TestKind>& kinds,
+                          const Place& place)
 {
   ReferenceSource source;
   source.label = label;
@@ -286,7 +310,7 @@ ReferenceSource source_of(const Json& json, const std::string& label, const Plac
         source.envelope = envelope_of(entry, at);
       else if (name == "triaxial")
         source.triaxial = triaxial_of(entry, at);
-      else if (const auto property = property_of(name))
+      else if (const auto property = property_of(name, kinds))
         source.values[name] = value_of(entry, *property, at);
       else
         {
@@ -294,9 +318,9 @@ ReferenceSource source_of(const Json& json, const std::string& label, const Plac
           for (const Property& one : properties)
             known.push_back(one.name);
           at.refuse(
-            fmt::format("no such property; there are {}, strength_at_P_MPa for a pressure P in MPa, hoek_brown, "
+            fmt::format("no such property; there are {}, strength_at_P_MPa for a pressure P in MPa{}, hoek_brown, "
                         "triaxial, label, note and failure",
-                        fmt::join(known, ", ")));
+                        fmt::join(known, ", "), keys_of_others(kinds)));
         }
     }
   add_means(source);
@@ -337,9 +361,9 @@ std::vector<EnvelopePoint> ReferenceSource::strengths() const
   const auto singles = points;
   for (const auto& [name, value] : values)
     if (const auto pressure = pressure_in(name, "strength_at_", "_MPa"))
-      if (const bool has_singles =
-            std::any_of(singles.begin(), singles.end(),
-                        [&](const EnvelopePoint& point) { return key_of_strength(point.sigma_3) == name; });
+      if (const bool has_singles = std::any_of(
+            singles.begin(), singles.end(),
+            [&, wanted = name](const EnvelopePoint& point) { return key_of_strength(point.sigma_3) == wanted; });
           value.mean && !has_singles)
         points.push_back({*pressure * mega, *value.mean * mega});
   std::stable_sort(points.begin(), points.end(),
@@ -356,7 +380,7 @@ std::optional<PrintedLine> ReferenceSource::line() const
   return PrintedLine{angle->middle(), cohesion->middle()};
 }
 
-Reference read_reference(const std::filesystem::path& file)
+Reference read_reference(const std::filesystem::path& file, const std::vector<TestKind>& kinds)
 {
   std::ifstream in(file, std::ios::binary);
   const Place top{file.string(), ""};
@@ -379,10 +403,10 @@ Reference read_reference(const std::filesystem::path& file)
       for (const auto& [name, words] : json["citation"].items())
         reference.citations.push_back(printable(fmt::format("{}: {}", name, text(words, top / "citation" / name))));
     }
-  reference.experiment = source_of(json["experiment"], "experiment", top / "experiment");
+  reference.experiment = source_of(json["experiment"], "experiment", kinds, top / "experiment");
   reference.model.label = "paper's model";
   if (json.contains("paper_model"))
-    reference.model = source_of(json["paper_model"], reference.model.label, top / "paper_model");
+    reference.model = source_of(json["paper_model"], reference.model.label, kinds, top / "paper_model");
   return reference;
 }
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "results/fits/strength_envelopes.h"
+#include "results/kinds.h"
 
 #include <filesystem>
 #include <map>
@@ -74,6 +75,7 @@ struct Reference
 };
 
 /// Throws InputError, which names file and key, for what is missing, no JSON, unknown, contradictory or beyond what a rock
-/// can have, which a number in another unit mostly is.
-Reference read_reference(const std::filesystem::path& file);
+/// can have, which a number in another unit mostly is. `kinds`: the laboratory tests that there are; the strengths of those that
+/// give no point of an envelope are `KIND_strength_MPa`, under a pressure `KIND_5_MPa_strength_MPa`.
+Reference read_reference(const std::filesystem::path& file, const std::vector<TestKind>& kinds);
 } // namespace feldspar

@@ -102,40 +102,40 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   return test;
 }
 
-/// Files of the volume at a point of a sample, without ending.
-std::string name_of(const PointVolume& volume, const std::string& test)
+/// Files of the RVE at a point of a sample, without ending.
+std::string name_of(const PointRve& rve, const std::string& test)
 {
-  return fmt::format("{}_cell_{}_point_{}", test, volume.cell, volume.point);
+  return fmt::format("{}_cell_{}_point_{}", test, rve.cell, rve.point);
 }
 
 /// By the tables that tests have.
-void write_volume(const PointVolume& volume, const FinishedTest& of, const std::filesystem::path& folder)
+void write_rve(const PointRve& rve, const FinishedTest& of, const std::filesystem::path& folder)
 {
-  const std::string name = name_of(volume, of.name);
-  write_grains(volume.grains, folder / (name + "_grains.csv"));
-  write_cracks(volume.cracks, name, of.record.kind, folder / (name + "_cracks.csv"));
+  const std::string name = name_of(rve, of.name);
+  write_grains(rve.grains, folder / (name + "_grains.csv"));
+  write_cracks(rve.cracks, name, of.record.kind, folder / (name + "_cracks.csv"));
 }
 
-PointVolume read_volume(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
+PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
 {
-  PointVolume volume;
+  PointRve rve;
   try
     {
-      volume.which = json.at("which").get<std::string>();
-      volume.cell = json.at("cell").get<unsigned int>();
-      volume.point = json.at("point").get<unsigned int>();
-      volume.position = json.at("position_m").get<std::array<double, 3>>();
-      volume.n_segments = json.at("n_segments").get<std::uint64_t>();
+      rve.which = json.at("which").get<std::string>();
+      rve.cell = json.at("cell").get<unsigned int>();
+      rve.point = json.at("point").get<unsigned int>();
+      rve.position = json.at("position_m").get<std::array<double, 3>>();
+      rve.n_segments = json.at("n_segments").get<std::uint64_t>();
     }
   catch (const Json::exception&)
     {
-      throw InputError(fmt::format("{}: a volume of {} is not described as this program does it",
+      throw InputError(fmt::format("{}: an RVE of {} is not described as this program does it",
                                    (folder.parent_path() / result_file::summary).string(), of.name));
     }
-  const std::string name = name_of(volume, of.name);
-  volume.grains = read_grains(folder / (name + "_grains.csv"));
-  volume.cracks = read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind);
-  return volume;
+  const std::string name = name_of(rve, of.name);
+  rve.grains = read_grains(folder / (name + "_grains.csv"));
+  rve.cracks = read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind);
+  return rve;
 }
 
 /// Runs a reader; what it objects to becomes a problem.
@@ -159,15 +159,15 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
   std::filesystem::create_directories(folder / result_file::curves);
   if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return test.record.body == TestBody::grains; }))
     std::filesystem::create_directories(folder / result_file::grains);
-  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.appearance.volumes.empty(); }))
+  if (std::any_of(tests.begin(), tests.end(), [](const auto& test) { return !test.appearance.rves.empty(); }))
     std::filesystem::create_directories(folder / result_file::points);
   for (const auto& test : tests)
     {
       write_curve(test.record, folder / result_file::curves / (test.name + ".csv"));
       if (test.record.body == TestBody::grains)
         write_grains(test.appearance.grains_at_end, folder / result_file::grains / (test.name + ".csv"));
-      for (const auto& volume : test.appearance.volumes)
-        write_volume(volume, test, folder / result_file::points);
+      for (const auto& rve : test.appearance.rves)
+        write_rve(rve, test, folder / result_file::points);
     }
   write_cracks(tests, folder / result_file::cracks);
   write_tests(tests, folder / result_file::tests);
@@ -220,9 +220,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
     if (entry.is_object() && entry.contains("volumes") && entry["volumes"].is_array())
       for (auto& test : tests)
         if (test.name == text_of(entry, "name"))
-          for (const auto& volume : entry["volumes"])
+          for (const auto& rve : entry["volumes"])
             try_to(problems,
-                   [&] { test.appearance.volumes.push_back(read_volume(volume, test, folder / result_file::points)); });
+                   [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);

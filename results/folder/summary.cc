@@ -108,13 +108,13 @@ Json describe(const FinishedTest& test)
                      {"is_valid", notch->is_valid}};
   for (const auto& flaw : test.appearance.flaws)
     json["flaws"].push_back({{"name", flaw.name}, {"open", flaw.open}, {"outline_m", flaw.outline}});
-  for (const auto& volume : test.appearance.volumes)
-    json["volumes"].push_back({{"which", volume.which},
-                               {"cell", volume.cell},
-                               {"point", volume.point},
-                               {"position_m", volume.position},
-                               {"n_segments", volume.n_segments},
-                               {"n_broken_segments", volume.cracks.size()}});
+  for (const auto& rve : test.appearance.rves)
+    json["volumes"].push_back({{"which", rve.which},
+                               {"cell", rve.cell},
+                               {"point", rve.point},
+                               {"position_m", rve.position},
+                               {"n_segments", rve.n_segments},
+                               {"n_broken_segments", rve.cracks.size()}});
   return json;
 }
 

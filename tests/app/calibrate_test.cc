@@ -208,6 +208,8 @@ TEST(Calibrate, RefusesWhatCannotBeCalibrated)
   expect_mistake(replaced(small_calibration, "Friction = fixed\n  set Tol",
                           "Friction = 0.2, 1.2\n  set Installation gap ratio = 0.03, 0.1\n  set Tol"),
                  reference, "Calibration/Design points = 5: must be at least 6 for 3 unknown ratios");
+  expect_mistake(small_calibration + "subsection Flaws\n  set Shapes = hole centre 6, 12 mm radius 2 mm\nend\n",
+                 reference, "Flaws: a calibration is of the intact rock; take the section out");
   // At once, before anything is broken.
   expect_mistake(replaced(small_calibration, "set Tolerance", "set Poissons ratio = initial\n  set Tolerance"),
                  replaced(reference, "\"youngs", "\"poissons_ratio\": 0.35, \"youngs"),

@@ -223,10 +223,8 @@ TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   std::mt19937 random(7); // the moments need not be the same in every run: the bits must be
   const auto complete = [&] { return content(folder.path() / "broken/run.json").find("true") != std::string::npos; };
-  // Until there is a run to be taken up; on a busy machine that may take longer.
-  for (double time = 0.5; !fs::exists(folder.path() / "broken/run.json"); time *= 1.3)
-    run_feldspar(folder.path(), "lab rock.prm --output broken --force --quiet",
-                 fmt::format("timeout --foreground --signal=KILL {}", time));
+  run_and_kill_once(folder.path(), "lab rock.prm --output broken --quiet", "test -e broken/run.json");
+  ASSERT_TRUE(fs::exists(folder.path() / "broken/run.json"));
   int n_kills = 1;
   for (; n_kills < 10 && !complete(); ++n_kills)
     run_feldspar(folder.path(), "lab --resume broken --quiet",
@@ -240,6 +238,24 @@ TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
   EXPECT_FALSE(fs::exists(folder.path() / "broken/checkpoints"));
 }
 
+// Resumed, it names the file from the root; the checkpoint is of the same input none the less.
+TEST(Lab, AKilledRunWithAFileBesideItsInputIsTakenUpFromItsCheckpoint)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", tiny_rock + "subsection Report\n  set Reference file = reference.json\nend\n");
+  folder.write("reference.json", R"({"experiment": {"tensile_strength_MPa": 9}})");
+  const auto has_checkpoint = [&] {
+    const fs::path checkpoints = folder.path() / "broken/checkpoints";
+    return fs::exists(checkpoints) && !fs::is_empty(checkpoints);
+  };
+  run_and_kill_once(folder.path(), "lab rock.prm --output broken --quiet",
+                    "ls broken/checkpoints/*.h5 >/dev/null 2>&1");
+  ASSERT_TRUE(has_checkpoint());
+  const auto resumed = run_feldspar(folder.path(), "lab --resume broken --quiet");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+  EXPECT_EQ(resumed.error.find("going back"), std::string::npos) << resumed.error;
+}
+
 TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
 {
   const TemporaryFolder folder;
@@ -249,17 +265,18 @@ TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
   const fs::path torn = checkpoints / "triaxial_compression_30_MPa_seed_1.h5";
   const fs::path before = checkpoints / "triaxial_compression_30_MPa_seed_1.previous.h5";
   const fs::path foreign = checkpoints / "triaxial_compression_10_MPa_seed_1.h5";
-  // Killed once there are two checkpoints of one test and one of another, and before they are gone again.
-  for (double time = 0.6; !(fs::exists(torn) && fs::exists(before) && fs::exists(foreign)) && time < 30.0; time += 0.15)
-    run_feldspar(folder.path(), "lab rock.prm --output broken --force --quiet",
-                 fmt::format("timeout --foreground --signal=KILL {}", time));
+  // Killed once there are two checkpoints of one test and one of another, and before they are gone again; both tests have
+  // a while together.
+  for (int tries = 0; tries < 5 && !(fs::exists(torn) && fs::exists(before) && fs::exists(foreign)); ++tries)
+    run_and_kill_once(folder.path(), "lab rock.prm --output broken --force --quiet",
+                      fmt::format("test -e {} -a -e {} -a -e {}", torn.string(), before.string(), foreign.string()));
   ASSERT_TRUE(fs::exists(torn) && fs::exists(before) && fs::exists(foreign));
   fs::copy_file(torn, foreign, fs::copy_options::overwrite_existing);
   fs::resize_file(torn, fs::file_size(torn) / 2);
   const auto outcome = run_feldspar(folder.path(), "lab --resume broken --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_NE(outcome.error.find("30_MPa_seed_1.h5: damaged or cut short"), std::string::npos) << outcome.error;
-  EXPECT_NE(outcome.error.find("going back to the one before it"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("going back to the checkpoint before it"), std::string::npos) << outcome.error;
   EXPECT_NE(outcome.error.find("10_MPa_seed_1.h5: of another test"), std::string::npos) << outcome.error;
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
 }

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -16,7 +18,10 @@
 #include <string>
 #include <utility>
 
-/// `feldspar multiscale` as a user runs it, on a sample of two elements with small volumes.
+#include <fcntl.h>
+#include <semaphore.h>
+
+/// `feldspar multiscale` as a user runs it, on a sample of two elements with small RVEs.
 namespace feldspar
 {
 namespace
@@ -55,7 +60,7 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   const auto summary = nlohmann::json::parse(contents(folder.path() / "one/summary.json"));
   const auto& test = summary.at("tests").at(0);
   EXPECT_EQ(test.at("kind"), "direct_tension");
-  // Small volumes of few grains: weaker or stronger than the large one's 9 MPa, but a rock of Table 1's bonds
+  // Small RVEs of few grains: weaker or stronger than the large one's 9 MPa, but a rock of Table 1's bonds
   // (22 MPa), of which stress concentrations leave a third to a half.
   EXPECT_GT(test.at("peak_stress_Pa").get<double>(), 5e6);
   EXPECT_LT(test.at("peak_stress_Pa").get<double>(), 15e6);
@@ -168,6 +173,23 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
             std::string::npos);
 }
 
+// Open MPI's default guards each shared file by a semaphore of its name. It stays taken by a run that is killed meanwhile, and
+// every later run that writes a file of that name waits for it: this one would be ended after half a minute.
+TEST(Multiscale, DoesNotWaitForASemaphoreThatAKilledRunHasTaken)
+{
+  const TemporaryFolder folder;
+  folder.write("press.prm", input("  set Material = linear elasticity\n",
+                                  "  set List = uniaxial_compression\n  set Stop strain = 1e-4\n"));
+  const char* const name = "/OMPIO_uniaxial_compression_seed_1.h5";
+  sem_t* const taken = sem_open(name, O_CREAT, 0600, 0);
+  ASSERT_NE(taken, SEM_FAILED) << std::strerror(errno);
+  const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --quiet", "timeout 30 ");
+  sem_close(taken);
+  sem_unlink(name);
+  EXPECT_EQ(run.exit_code, 0) << run.error << " (124: it waited)";
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/fields/uniaxial_compression_seed_1.xdmf"));
+}
+
 TEST(Multiscale, EndsCleanlyOnInterruptAndSaysHowToResume)
 {
   TemporaryFolder folder;
@@ -203,20 +225,20 @@ double cell(const std::filesystem::path& file, const std::string& column, const 
   return std::stod(name);
 }
 
-TEST(Multiscale, ExtractsTheVolumeAtAPointForRveAndParaView)
+TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
 {
   TemporaryFolder folder;
   const std::string path = "subsection Strain path\n  set Direction = 0, 1, 0\n  set Size = 1e-6\nend\n";
-  const auto continued = [&](const std::string& volume) {
+  const auto continued = [&](const std::string& rve) {
     folder.write("rve.prm",
-                 "subsection Specimen\n  set Shape = periodic\n  set Specimen file = " + volume + "\nend\n" + path);
+                 "subsection Specimen\n  set Shape = periodic\n  set Specimen file = " + rve + "\nend\n" + path);
     const auto run = run_feldspar(folder.path(), "rve rve.prm --output rve --force --quiet");
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return folder.path() / "rve/curves/rve.csv";
   };
 
-  // One volume, not turned, at every point of a sample between smooth platens, nothing broken: strain is uniform, so
-  // that the volume has the strain and the stress of the sample, none sideways.
+  // One RVE, not turned, at every point of a sample between smooth platens, nothing broken: strain is uniform, so
+  // that the RVE has the strain and the stress of the sample, none sideways.
   std::string even = input("  set Orientation = fixed\n", "  set List = direct_tension\n  set Stop strain = 3.9e-5\n");
   even.replace(even.find("Realisations = 2"), 16, "Realisations = 1");
   folder.write("even.prm", even);
@@ -248,9 +270,8 @@ TEST(Multiscale, ExtractsTheVolumeAtAPointForRveAndParaView)
       const std::string name = fmt::format("direct_tension_seed_1_cell_{}_point_{}", point / 4, point % 4);
       const auto rows = continued("out/extracted/" + name + ".h5");
       EXPECT_EQ(cell(rows, "n_tension_cracks", 0) + cell(rows, "n_shear_cracks", 0), n_cracks) << place;
-      EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_grains.xdmf")));
-      EXPECT_EQ(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_cracks.xdmf")),
-                n_cracks > 0);
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_grains.pvd")));
+      EXPECT_EQ(std::filesystem::exists(folder.path() / "out/extracted" / (name + "_fields_cracks.pvd")), n_cracks > 0);
       most = std::max(most, n_cracks);
     }
   EXPECT_GT(most, 5);
@@ -357,13 +378,13 @@ TEST(Multiscale, ASpecimenFileIsOneRealisation)
 
 TEST(Multiscale, RefusesAConfinementBeyondSmallStrains)
 {
-  // Below that no confinement is too much: in small strains pressure on all sides breaks no volume for good.
+  // Below that no confinement is too much: in small strains pressure on all sides breaks no RVE for good.
   TemporaryFolder folder;
   folder.write("press.prm", input("", "  set List = direct_tension, triaxial_compression\n"
                                       "  set Confinements = 20, 10000 MPa\n"));
   const auto refused = run_feldspar(folder.path(), "multiscale press.prm --output beyond --quiet");
   EXPECT_EQ(refused.exit_code, 2) << refused.error;
-  EXPECT_NE(refused.error.find("press.prm: Tests/Confinements: 10000 MPa would strain the intact volume by"),
+  EXPECT_NE(refused.error.find("press.prm: Tests/Confinements: 10000 MPa would strain the intact RVE by"),
             std::string::npos)
     << refused.error;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "beyond"));
@@ -444,7 +465,7 @@ TEST(Multiscale, TakesCylindersAndPlaneStrain)
   EXPECT_NEAR(last_row(strip, "gauge_lateral_strain"), -nu / (1.0 - nu) * 1e-3, 1e-6 * 1e-3);
 }
 
-/// Small volumes of spheres.
+/// Small RVEs of spheres.
 std::string input_in_space(const std::string& sample, const std::string& tests)
 {
   std::string text = input(sample, tests, "  set Dimension = 3\n");
@@ -454,9 +475,9 @@ std::string input_in_space(const std::string& sample, const std::string& tests)
 }
 
 // A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole, by half of its section, and by
-// its volume alone, whose sides are free: also where segments break, up to nine tenths of the strength. What is left is
-// that a ring and a radius have one strain on the axis and a volume of seventy spheres has not.
-TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsVolume)
+// its RVE alone, whose sides are free: also where segments break, up to nine tenths of the strength. What is left is
+// that a ring and a radius have one strain on the axis and an RVE of seventy spheres has not.
+TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
 {
   TemporaryFolder folder;
   const std::string cell_of_spheres =
@@ -467,7 +488,7 @@ TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsVolume)
   ASSERT_EQ(run_feldspar(folder.path(), "rve volume.prm --output volume --quiet").exit_code, 0);
   const auto strain = column(folder.path() / "volume/curves/rve.csv", "strain_zz");
   const auto stress = column(folder.path() / "volume/curves/rve.csv", "stress_zz_Pa");
-  const auto of_volume = [&](const double wanted) {
+  const auto of_rve = [&](const double wanted) {
     for (std::size_t k = 1; k < strain.size(); ++k)
       if (strain[k] >= wanted)
         return stress[k - 1] + (stress[k] - stress[k - 1]) * (wanted - strain[k - 1]) / (strain[k] - strain[k - 1]);
@@ -488,7 +509,7 @@ TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsVolume)
       const auto its_strain = column(curve, "axial_strain");
       const auto its_stress = column(curve, "axial_stress_Pa");
       for (std::size_t k = 1; k < its_strain.size(); ++k)
-        EXPECT_NEAR(its_stress[k], of_volume(its_strain[k]), 0.01 * of_volume(its_strain[k])) << name << " " << k;
+        EXPECT_NEAR(its_stress[k], of_rve(its_strain[k]), 0.01 * of_rve(its_strain[k])) << name << " " << k;
       EXPECT_GT(its_stress.back(), 0.9 * *std::max_element(stress.begin(), stress.end())) << name;
       EXPECT_GT(column(curve, "n_tension_cracks").back(), 50.0) << name;
     }
@@ -528,7 +549,7 @@ std::set<int> cells_that_broke(const std::filesystem::path& run)
   return cells;
 }
 
-// One volume at all points of three rows of two: but for the seed nothing tells them apart, and they break at a strain of
+// One RVE at all points of three rows of two: but for the seed nothing tells them apart, and they break at a strain of
 // 1.9e-4. With a fifth of the strength the seed breaks at a fifth of it, and what it leaves to its neighbours is at most
 // twice that. The row at mid-height is that of the cells 2 and 3, its element to the right the latter.
 TEST(Multiscale, BreaksFirstWhereItsWeakSeedIs)
@@ -564,7 +585,7 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << outcome.error;
   };
   expect(input("", "  set List = brazilian\n"), "bad.prm: Tests/List: brazilian: the sample stands between platens");
-  expect("subsection Specimen\n  set Shape = box\nend\n", "bad.prm: Specimen/Shape = box: the volume at a point needs");
+  expect("subsection Specimen\n  set Shape = box\nend\n", "bad.prm: Specimen/Shape = box: the RVE at a point needs");
   expect(input("  set Control past the peak = lateral strain\n", "  set List = uniaxial_compression\n"),
          "bad.prm: Sample/Control past the peak = lateral strain: the axial strain may go back");
   expect(input("", "  set Lateral boundary = membrane\n"),
@@ -576,12 +597,13 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
   many.replace(many.find("Elements across = 1"), 19, "Elements across = 1000");
   expect(many, "bad.prm: Sample/Elements across = 1000, Elements along = 10000: some 1e+07 cells");
   expect(input("", "", "  set Dimension = 3\n"), "bad.prm: Specimen/Dimension = 3: ");
-  expect(input("  set Geometry = cylinder\n", ""), "bad.prm: Specimen/Dimension = 2: the volumes of such a");
+  expect(input("  set Geometry = cylinder\n", ""), "bad.prm: Specimen/Dimension = 2: the RVEs of such a");
   expect(input_in_space("  set Geometry = cylinder\n", ""),
          "bad.prm: Sample/Elements across = 1: a cylinder of 1 cells across: there must be at least 3");
   expect(input("  set Quadrature = reduced\n", ""), "bad.prm: Sample/Quadrature = reduced: needs Order = 2");
   expect(input("  set Order = 3\n", ""), "Sample/Order = 3: must be an integer in [1, 2]");
-  expect(input("  set Material = linear elasticity\n", ""), "bad.prm: Tests/Stop strain = none: without grains");
+  expect(input("  set Material = linear elasticity\n", ""),
+         "bad.prm: Tests/Stop strain = none: linear elasticity does not soften");
   expect(input("  set Material = Mohr-Coulomb\n  set Weak seed = row\n", "  set Stop strain = 1e-5\n"),
          "bad.prm: Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
   expect(input("  set Weak seed = row\n  set Weak seed strength = 1.1\n", ""),
@@ -590,7 +612,7 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
          "bad.prm: Continuum/Dilation angle: must be at most Continuum/Friction angle");
 }
 
-TEST(Multiscale, WarnsOfElementsLargerThanTheVolume)
+TEST(Multiscale, WarnsOfElementsLargerThanTheRve)
 {
   TemporaryFolder folder;
   std::string text = input("", "  set List = uniaxial_compression\n  set Stop strain = 4e-5\n");
@@ -599,7 +621,7 @@ TEST(Multiscale, WarnsOfElementsLargerThanTheVolume)
     text.replace(text.find(from), from.size(), to);
   folder.write("large.prm", text);
   const auto outcome = run_feldspar(folder.path(), "multiscale large.prm --output out --quiet");
-  EXPECT_NE(outcome.error.find("elements of 40.0 mm are larger than the volume of 14.0 mm"), std::string::npos)
+  EXPECT_NE(outcome.error.find("elements of 40.0 mm are larger than the RVE of 14.0 mm"), std::string::npos)
     << outcome.error;
   EXPECT_NE(outcome.error.find("Elements across = 3, Elements along = 6"), std::string::npos) << outcome.error;
 }

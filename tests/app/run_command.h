@@ -41,4 +41,17 @@ inline Outcome run_feldspar(const std::filesystem::path& folder, const std::stri
   std::filesystem::remove(error_file);
   return outcome;
 }
+
+/// Runs it until a condition of the shell holds in `folder`, then kills it; it may have come to its end before.
+inline void run_and_kill_once(const std::filesystem::path& folder, const std::string& arguments,
+                              const std::string& condition)
+{
+  const std::string script = folder.string() + ".kill";
+  std::ofstream(script) << "\"$@\" &\n"
+                           "while kill -0 $! 2>/dev/null; do\n"
+                           "  if "
+                        << condition << "; then kill -KILL $!; fi\n  sleep 0.01\ndone\n";
+  run_feldspar(folder, arguments, "sh '" + script + "'");
+  std::filesystem::remove(script);
+}
 } // namespace feldspar::tests

@@ -261,7 +261,7 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("lab", small_cell, "", "bad.prm: Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
 }
 
-TEST(Rve, RefusesAVolumeThatNothingHolds)
+TEST(Rve, RefusesAnRveThatNothingHolds)
 {
   const TemporaryFolder folder;
   folder.write("apart.txt", "0.002 0.002 0.001\n0.007 0.007 0.001\n");
@@ -332,12 +332,12 @@ TEST(Rve, GoesItsPathByExplicitDynamicsToo)
       EXPECT_LT(std::abs(table.at("stress_xx_Pa")[row]), 0.05 * peak(table)) << row; // also as the crack runs
       EXPECT_LT(table.at("energy_imbalance")[row], 0.01) << row; // forces jump within a step: as in the laboratory
     }
-  const auto volume = summary(folder.path() / "explicit")["volumes"][0];
+  const auto rve = summary(folder.path() / "explicit")["volumes"][0];
   const std::string cracks = content(folder.path() / "explicit/cracks.csv");
   EXPECT_EQ(std::count(cracks.begin(), cracks.end(), '\n') - 1,
             int(table.at("n_tension_cracks").back() + table.at("n_shear_cracks").back()));
-  EXPECT_GT(volume["at_end"]["crack_area_share"].get<double>(), 0.01);
-  EXPECT_EQ(volume["at_end"]["n_tension_cracks"].get<double>(), table.at("n_tension_cracks").back());
+  EXPECT_GT(rve["at_end"]["crack_area_share"].get<double>(), 0.01);
+  EXPECT_EQ(rve["at_end"]["n_tension_cracks"].get<double>(), table.at("n_tension_cracks").back());
 }
 
 TEST(Rve, GivesTheSameBitsForAnyNumberOfThreads)
@@ -449,7 +449,7 @@ TEST(Rve, ADamagedCheckpointIsRefusedAndTheOneBeforeItUsed)
   const auto resumed = run_feldspar(folder.path(), "rve --resume broken --quiet");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
   EXPECT_NE(resumed.error.find("rve.h5: damaged or cut short"), std::string::npos) << resumed.error;
-  EXPECT_NE(resumed.error.find("going back to the one before it"), std::string::npos) << resumed.error;
+  EXPECT_NE(resumed.error.find("going back to the checkpoint before it"), std::string::npos) << resumed.error;
   EXPECT_EQ(std::count(resumed.error.begin(), resumed.error.end(), '\n'), 1) << resumed.error;
   for (const char* file : {"cracks.csv", "curves/rve.csv"})
     EXPECT_EQ(content(folder.path() / "whole" / file), content(folder.path() / "broken" / file)) << file;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -24,7 +25,7 @@ using tests::Outcome;
 using tests::run_feldspar;
 using tests::TemporaryFolder;
 
-/// Eight elements of 12 mm with volumes of some 75 grains. Newton's tolerance is far below what events and fields are
+/// Eight elements of 12 mm with RVEs of some 75 grains. Newton's tolerance is far below what events and fields are
 /// compared to.
 const std::string pull = "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\nend\n"
                          "subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
@@ -83,17 +84,17 @@ void expect_same_run(const fs::path& one, const fs::path& other, const std::size
           << name << " in row " << k;
     }
 
-  // The same volumes are kept for the report, whichever rank they were on.
-  std::vector<std::string> volumes, other_volumes;
-  for (const auto& [run, names] : {std::pair(&one, &volumes), {&other, &other_volumes}})
+  // The same RVEs are kept for the report, whichever rank they were on.
+  std::vector<std::string> rves, other_rves;
+  for (const auto& [run, names] : {std::pair(&one, &rves), {&other, &other_rves}})
     {
       for (const auto& entry : fs::directory_iterator(*run / "points"))
         names->push_back(entry.path().filename().string());
       std::sort(names->begin(), names->end());
     }
-  EXPECT_GE(volumes.size(), 4u); // grains and cracks of two at least
-  ASSERT_EQ(volumes, other_volumes);
-  for (const std::string& name : volumes)
+  EXPECT_GE(rves.size(), 4u); // grains and cracks of two at least
+  ASSERT_EQ(rves, other_rves);
+  for (const std::string& name : rves)
     {
       const auto rows = table(one / "points" / name);
       const auto other_rows = table(other / "points" / name);
@@ -155,7 +156,7 @@ TEST(SeveralRanks, BreakTheSameSegmentsOfCylinders)
   for (const std::string elements : {"  set Geometry = axisymmetric\n  set Elements across = 1\n",
                                      "  set Geometry = cylinder\n  set Elements across = 3\n"})
     {
-      // Volumes of some 50 spheres.
+      // RVEs of some 50 spheres.
       folder.write("pull.prm", "subsection Specimen\n  set Dimension = 3\n  set Shape = periodic\n"
                                "  set Width = 6 mm\n  set Height = 6 mm\nend\n"
                                "subsection Sample\n  set Width = 12 mm\n  set Height = 24 mm\n" +
@@ -222,6 +223,77 @@ TEST(SeveralRanks, SayOnceWhatIsWrong)
   std::string of_file = pull;
   of_file.replace(of_file.find("Realisations = 2"), 16, "Realisations = 1");
   refused(of_file + "subsection Specimen\n  set Specimen file = none.h5\nend\n", 2, "there is no file none.h5");
+}
+
+/// Three specimens of some 90 grains, a test each.
+const std::string programme = "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
+                              "subsection Tests\n  set List = direct_tension\nend\n"
+                              "subsection Seeds\n  set Seeds = 1..3\nend\n";
+
+std::string text_of(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Files of the same names with the same bytes.
+void expect_same_files(const fs::path& one, const fs::path& other, const std::string& subfolder, const std::size_t n)
+{
+  std::size_t n_found = 0;
+  for (const auto& entry : fs::directory_iterator(one / subfolder))
+    {
+      const auto twin = other / subfolder / entry.path().filename();
+      ASSERT_TRUE(fs::exists(twin)) << twin;
+      EXPECT_TRUE(text_of(entry.path()) == text_of(twin)) << twin;
+      ++n_found;
+    }
+  EXPECT_EQ(n_found, n);
+}
+
+// Ranks take whole tests, each of which has its bits whoever makes it.
+TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", programme);
+  // Without gnuplot in the path, for pictures take more time than these tests.
+  const std::string alone = "PATH=/nowhere";
+  const std::string ranks = mpirun(2) + " -x PATH=/nowhere";
+  expect_success(run_feldspar(folder.path(), "lab rock.prm --output one --quiet", alone));
+  expect_success(run_feldspar(folder.path(), "lab rock.prm --output two --quiet --threads 1", ranks));
+  expect_same_files(folder.path() / "one", folder.path() / "two", "curves", 3);
+  expect_same_files(folder.path() / "one", folder.path() / "two", "grains", 3);
+  EXPECT_TRUE(text_of(folder.path() / "one/cracks.csv") == text_of(folder.path() / "two/cracks.csv"));
+  EXPECT_FALSE(fs::exists(folder.path() / "two/checkpoints"));
+
+  // Asked to end, all end; one process takes up what they left.
+  folder.write("ask", "\"$@\" &\nuntil ls out/checkpoints/*.h5 >/dev/null 2>&1; do sleep 0.02; done\n"
+                      "kill -USR1 $!\nwait $!\n");
+  const auto asked = run_feldspar(folder.path(), "lab rock.prm --output out --quiet --threads 1", "sh ./ask " + ranks);
+  EXPECT_EQ(asked.exit_code, 130) << asked.error;
+  EXPECT_NE(asked.error.find("feldspar: interrupted; go on with: feldspar lab --resume out\n"), std::string::npos)
+    << asked.error;
+  expect_success(run_feldspar(folder.path(), "lab --resume out --quiet", alone));
+  expect_same_files(folder.path() / "one", folder.path() / "out", "curves", 3);
+
+  // What is wrong is said once, and leaves nothing.
+  const auto wrong =
+    run_feldspar(folder.path(), "lab rock.prm --output bad --set 'Specimen/Width = 0.1 mm'", mpirun(2));
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.error;
+  EXPECT_EQ(wrong.error.find("feldspar: "), wrong.error.rfind("feldspar: ")) << wrong.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "bad"));
+}
+
+TEST(SeveralRanks, TakePathsOfCells)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", "strain_xx,strain_yy,strain_xy\n0,0,0\n0,2e-4,0\n");
+  folder.write("cell.prm", "subsection Specimen\n  set Shape = periodic\n  set Width = 12 mm\n  set Height = 12 mm\n"
+                           "end\nsubsection Strain path\n  set File = path.csv\nend\n"
+                           "subsection Seeds\n  set Seeds = 1..3\nend\n");
+  expect_success(run_feldspar(folder.path(), "rve cell.prm --output one --quiet"));
+  expect_success(run_feldspar(folder.path(), "rve cell.prm --output two --quiet --threads 1", mpirun(2)));
+  expect_same_files(folder.path() / "one", folder.path() / "two", "curves", 3);
 }
 
 TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)

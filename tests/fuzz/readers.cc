@@ -1,20 +1,27 @@
 #include "tests/fuzz/readers.h"
 
+#include "app/input/flaw_entries.h"
 #include "app/input/input.h"
 #include "app/input/laboratory_curve.h"
 #include "app/input/strain_path.h"
+#include "app/programme/reference_body.h"
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "calibration/responses.h"
+#include "calibration/unknowns.h"
+#include "dem/flaws/apply.h"
+#include "dem/genesis/genesis.h"
 #include "dem/genesis/packing_file.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/specimen/specimen_file.h"
 #include "fem/mesh/gmsh_check.h"
+#include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/sample_fields.h"
-#include "tests/unit/small_specimen.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
 #include <bit>
@@ -69,28 +76,125 @@ void read_in_plane_or_space(const Read& read_as)
     }
 }
 
-/// A result folder as one text: each file begins after a line `@@ NAME`.
-void read_results(const std::string& content, const fs::path& folder)
+/// Several files as one text: each begins after a line `@@ NAME`. What is not in it is not in the folder.
+void write_files(const std::string& content, const std::vector<std::string>& names, const fs::path& folder)
 {
-  const std::vector<std::string> names{"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "fields/a.xdmf"};
-  const fs::path results = folder / "results";
-  fs::remove_all(results);
-  for (const char* part : {"curves", "grains", "fields"})
-    fs::create_directories(results / part);
   for (const std::string& name : names)
     {
       const std::string mark = "@@ " + name + "\n";
       const std::size_t at = content.find(mark);
       if (at == std::string::npos)
-        continue;
+        {
+          fs::remove(folder / name);
+          continue;
+        }
       const std::size_t begin = at + mark.size();
       const std::size_t end = std::min(content.find("@@ ", begin), content.size());
-      write(results / name, std::string_view(content).substr(begin, end - begin));
+      write(folder / name, std::string_view(content).substr(begin, end - begin));
     }
+}
+
+/// A result folder.
+void read_results(const std::string& content, const fs::path& folder)
+{
+  const fs::path results = folder / "results";
+  for (const char* part : {"curves", "grains", "fields"})
+    fs::create_directories(results / part);
+  write_files(content, {"summary.json", "curves/a.csv", "grains/a.csv", "cracks.csv", "fields/a.xdmf"}, results);
   for (const Series& series : read_result_folder(results, test_kinds()))
     for (const std::string& problem : series.problems)
       if (const std::string objection = objection_to(problem); !objection.empty())
         throw std::logic_error("a problem of a result folder is " + objection + ": " + problem);
+}
+
+/// The body of other results, without the files beside their summary.
+void read_reference_results(const std::string& content, const fs::path& folder)
+{
+  Input input;
+  input.reference_results = write(folder / "summary.json", content).string();
+  const auto body = reference_body(input);
+  if (const std::string words = as_text(*body); printable(words) != words)
+    throw std::logic_error("the words of a reference body are not one printable line: " + words);
+}
+
+/// What `feldspar calibrate` leaves.
+void read_calibration_folder(const std::string& content, const fs::path& folder)
+{
+  write_files(content, {"calibration.json", "posterior.csv"}, folder);
+  read_calibration(folder);
+}
+
+/// ROCK.prm of `feldspar calibrate`, beside a reference that is as it should be: its targets and unknowns.
+void read_calibrated_rock(const std::string& content, const fs::path& folder)
+{
+  static const std::string figures =
+    R"({"rock": "granite", "experiment": {"label": "laboratory", "tensile_strength_MPa": 10,
+    "uniaxial_compressive_strength_MPa": 160, "youngs_modulus_GPa": 60, "poissons_ratio": 0.2,
+    "crack_initiation_stress_MPa": 80, "strength_at_5_MPa": 220}})";
+  const fs::path reference_file = folder / "reference.json";
+  if (!fs::exists(reference_file))
+    write(reference_file, figures);
+  const Input input = read_input(write(folder / "rock.prm", content));
+  const auto possible = calibration::responses(test_cases(input.test_list, input.confinements), input.calibration);
+  calibration::targets(possible, read_reference(reference_file, test_kinds()), input.calibration);
+  calibration::unknowns(input.calibration);
+}
+
+/// Rows of grains that touch, in a box of some 10 x 12 mm, each with a face to its neighbours: a genesis, or more grains, would
+/// take most of the time under a sanitizer.
+template <int dim>
+Specimen<dim> lattice()
+{
+  constexpr double radius = 1e-3;
+  constexpr int n_across = 5;
+  constexpr int n_up = 6;
+  std::string lines;
+  for (int up = 0; up < n_up; ++up)
+    for (int deep = 0; deep < (dim == 3 ? n_across : 1); ++deep)
+      for (int across = 0; across < n_across; ++across)
+        {
+          lines += std::to_string((2 * across + 1) * radius) + " ";
+          if (dim == 3)
+            lines += std::to_string((2 * deep + 1) * radius) + " ";
+          lines += std::to_string((2 * up + 1) * radius) + " " + std::to_string(radius) + "\n";
+        }
+  const TemporaryFolder folder;
+  SpecimenParameters wanted;
+  wanted.dimension = dim;
+  wanted.width = 2 * n_across * radius;
+  wanted.height = 2 * n_up * radius;
+  wanted.packing_file = folder.write("packing.txt", lines).string();
+  FlatJointParameters flat_joint;
+  flat_joint.installation_gap_ratio = 0.05;
+  return make_specimen<dim>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+}
+
+void put_into_small_specimen(const std::vector<Shape>& shapes)
+{
+  static const Specimen<2> plane = lattice<2>();
+  static const Specimen<3> space = lattice<3>();
+  read_in_plane_or_space([&](const auto dim) {
+    auto specimen = [&] {
+      if constexpr (dim() == 2)
+        return plane;
+      else
+        return space;
+    }();
+    if (const std::string why = objection<dim()>(shapes, specimen.size); !why.empty())
+      throw InputError(why);
+    put_in_flaws(specimen, shapes);
+  });
+}
+
+/// A table that an entry names.
+Input read_input_with(const std::string& section, const std::string& entry, const std::string& content,
+                      const fs::path& folder)
+{
+  const fs::path input = folder / "input.prm";
+  if (!fs::exists(input))
+    write(input, "subsection " + section + "\n  set " + entry + " = table.csv\nend\n");
+  write(folder / "table.csv", content);
+  return read_input(input);
 }
 
 /// A content as numbers, one after the other; zeros when it is used up.
@@ -122,7 +226,7 @@ private:
 /// seal, which any change of the bytes would break, is right.
 void read_changed_specimen(const std::string& content, const fs::path& folder)
 {
-  static const Specimen<2> whole = small_specimen();
+  static const Specimen<2> whole = lattice<2>();
   Specimen<2> changed = whole;
   Numbers numbers(content);
   for (int n = 0; n < 16 && !numbers.is_used_up(); ++n)
@@ -181,7 +285,7 @@ void read_changed_specimen(const std::string& content, const fs::path& folder)
 /// A checkpoint of which the content changes bytes: place, what to add to it. Every change must be seen.
 void read_changed_checkpoint(const std::string& content, const fs::path& folder)
 {
-  static const Specimen<2> specimen = small_specimen();
+  static const Specimen<2> specimen = lattice<2>();
   static LabTest<2> test({uniaxial_compression}, specimen, {}, {});
   const fs::path file = folder / "checkpoint.h5";
   const auto written = [&] {
@@ -212,7 +316,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
   static const std::vector<FuzzedReader> readers{
     {"prm", [](Content content, Folder folder) { read_any_input(write(folder / "input.prm", content)); }},
     {"json", [](Content content, Folder folder) { read_any_input(write(folder / "input.json", content)); }},
-    {"reference", [](Content content, Folder folder) { read_reference(write(folder / "r.json", content)); }},
+    {"reference",
+     [](Content content, Folder folder) { read_reference(write(folder / "r.json", content), test_kinds()); }},
     {"table", [](Content content, Folder folder) { read_csv(write(folder / "t.csv", content), "normal_m,shear_m"); }},
     {"curve", [](Content content, Folder folder) { read_laboratory_curve(write(folder / "c.csv", content)); }},
     {"path",
@@ -238,6 +343,16 @@ const std::vector<FuzzedReader>& fuzzed_readers()
            fem::check_gmsh(content, 3);
          }
      }},
+    {"traces",
+     [](Content content, Folder folder) {
+       put_into_small_specimen(read_input_with("Flaws", "Traces file", content, folder).flaws.all());
+     }},
+    {"shapes", [](Content content, Folder) { put_into_small_specimen(parse_shapes(content)); }},
+    {"variants",
+     [](Content content, Folder folder) { variants(read_input_with("Variants", "Table", content, folder)); }},
+    {"rock", read_calibrated_rock},
+    {"calibration", read_calibration_folder},
+    {"reference_results", read_reference_results},
     {"results", read_results},
     {"specimen", read_changed_specimen},
     {"checkpoint", read_changed_checkpoint}};

@@ -7,6 +7,7 @@
 #include "calibration/fit.h"
 #include "calibration/posterior.h"
 #include "calibration/responses.h"
+#include "calibration/target_outcomes.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace feldspar
+namespace feldspar::calibration
 {
 namespace
 {
@@ -272,14 +273,14 @@ TEST(Posterior, HoldsHiddenParametersAndKnowsWhatItDoesNotKnow)
           if (answer.name == "bond_tensile_strength")
             {
               n_held_strength += holds(hidden.bond_tensile_strength);
-              EXPECT_EQ(answer.verdict, Verdict::determined) << answer.sentence;
+              EXPECT_EQ(answer.verdict, Determination::determined) << answer.sentence;
             }
           if (answer.name == "bond_cohesion")
             n_held_cohesion += holds(hidden.cohesion_ratio * hidden.bond_tensile_strength);
           if (answer.name == "friction")
             {
               n_held_friction += holds(hidden.friction);
-              EXPECT_EQ(answer.verdict, Verdict::not_determined) << answer.sentence;
+              EXPECT_EQ(answer.verdict, Determination::not_determined) << answer.sentence;
               // The one response that friction has a part in.
               EXPECT_EQ(answer.helpful_test, "strength_at_20_MPa") << answer.sentence;
             }
@@ -288,6 +289,54 @@ TEST(Posterior, HoldsHiddenParametersAndKnowsWhatItDoesNotKnow)
   EXPECT_GE(n_held_strength, 8u);
   EXPECT_GE(n_held_cohesion, 8u);
   EXPECT_GE(n_held_friction, 8u);
+}
+
+/// A target of 100 in a unit of one, and specimens that gave these values.
+TargetOutcome outcome_of_values(const std::vector<double>& values)
+{
+  return {{0, 100.0, 3.0, ""}, statistics(values), 100.0};
+}
+
+TEST(TargetOutcomes, AreMetWithinTheToleranceOrTwoStandardErrors)
+{
+  constexpr double tolerance = 0.03;
+  EXPECT_TRUE(is_met(outcome_of_values({102.0, 103.0}), tolerance));
+  // 5 % off: with a standard deviation of 0.1 that is no scatter, with one of 5 and two specimens (standard error 3.5) it is.
+  EXPECT_FALSE(is_met(outcome_of_values({104.9, 105.1}), tolerance));
+  EXPECT_TRUE(is_met(outcome_of_values({101.5, 108.5}), tolerance));
+  EXPECT_FALSE(is_nearly_met(outcome_of_values({101.9, 102.1}), tolerance))
+    << "half of the tolerance is left for others";
+  EXPECT_TRUE(is_nearly_met(outcome_of_values({101.3, 101.5}), tolerance));
+  const TargetOutcome untested{{0, 100.0, 3.0, ""}, std::nullopt, 100.0};
+  EXPECT_FALSE(is_met(untested, tolerance)) << "a prediction is no test";
+  EXPECT_FALSE(all_met({outcome_of_values({100.0}), untested}, tolerance));
+}
+
+TEST(TargetOutcomes, AskForAsManyPackingsAsBringTheStandardErrorBelowHalfOfTheTolerance)
+{
+  // A standard deviation of 5.9 of 100, wanted is an error of 1.5: (5.9 / 1.5)² = 15.5. Of 100 - d and 100 + d it is d √2.
+  const double deviation = 5.9 / std::sqrt(2.0);
+  EXPECT_EQ(packings_needed({outcome_of_values({100.0 - deviation, 100.0 + deviation})}, 0.03), 16u);
+  EXPECT_EQ(packings_needed({outcome_of_values({100.0})}, 0.03), 0u) << "one specimen tells no scatter";
+}
+
+TEST(TargetOutcomes, AreToldInASentence)
+{
+  const KnownRock rock;
+  const ResponseModel model = rock.learnt();
+  TargetOutcome strength = outcome_of_values({170.0, 170.0});
+  strength.target = {rock.number("uniaxial_compressive_strength"), 160e6, 3e6, ""};
+  strength.reached->mean = 170e6;
+  EXPECT_EQ(statement_of({strength}, model, 0.03, 4),
+            "the targets were not all reached after 4 steps: uniaxial compressive strength 170.0 MPa (+6.2 %) off by "
+            "more than the tolerance of 3 %");
+  strength.reached->mean = 161e6;
+  EXPECT_EQ(statement_of({strength}, model, 0.03, 4), "All targets were reached within 3 %.");
+  strength.reached->standard_error = 3e6; // 1.9 %, more than half of the tolerance
+  EXPECT_EQ(statement_of({strength}, model, 0.03, 4),
+            "All targets were reached within 3 % or within two standard errors, but the scatter of packings left those "
+            "of uniaxial compressive strength above half of that: raise Calibration/Most packings, or test larger "
+            "specimens.");
 }
 
 TEST(Targets, AreThoseThatTheTestsGiveWithTheDeviationOfTheRocksMean)
@@ -312,4 +361,4 @@ TEST(Targets, AreThoseThatTheTestsGiveWithTheDeviationOfTheRocksMean)
   EXPECT_THROW(targets(rock.all, reference, named), InputError);
 }
 } // namespace
-} // namespace feldspar
+} // namespace feldspar::calibration

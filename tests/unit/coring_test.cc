@@ -3,11 +3,11 @@
 #include "dem/genesis/coring.h"
 
 #include "base/random.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/specimen/specimen_file.h"
 #include "tests/temporary_folder.h"
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include <gtest/gtest.h>
 
@@ -211,12 +211,65 @@ TEST(Core, HasTheRockUpToItsSides)
   EXPECT_GT(found, without_the_layer * of_the_rock);
 }
 
+// Walls hold the ends while the grains are packed: grains lie flush with them, as they do in a walled specimen, and none
+// stands out. At the sides, which are cut through the rock, grains stand out by up to a radius. A few grains lie free of a
+// wall by more than the overlap of the packing.
+TYPED_TEST(Cores, CutAtTheSidesOnlyHasTheEndsOfAWalledSpecimen)
+{
+  constexpr int dim = TypeParam::value;
+  for (const bool by_descent : {false, true})
+    {
+      SpecimenParameters wanted;
+      wanted.dimension = dim;
+      wanted.width = dim == 2 ? 0.02 : 0.008;
+      wanted.height = 1.5 * wanted.width;
+      wanted.porosity = dim == 2 ? 0.16 : 0.36;
+      wanted.packed_by_descent = by_descent;
+      FlatJointParameters joint;
+      joint.installation_gap_ratio = 0.05;
+      const auto made = [&](const Coring coring) {
+        wanted.coring = coring;
+        return make_specimen<dim>(wanted, joint, {}, 2, [](std::string_view, double) {});
+      };
+      const Specimen<dim> walled = made(Coring::none);
+      const Specimen<dim> core = made(Coring::sides_only);
+      EXPECT_FALSE(core.periodic);
+      EXPECT_EQ(core.cell(), walled.cell());
+      EXPECT_GT(core.report.n_cut_joints, 0u);
+      const double flush = 0.01 * core.report.mean_radius;
+      // How many grains a face touches, and how far the farthest stands out of it.
+      const auto at_faces = [&](const Specimen<dim>& specimen, const int axis) {
+        std::size_t n = 0;
+        double farthest = 0.0;
+        for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+          for (const bool upper : {false, true})
+            {
+              const double place = specimen.grains.position[axis][i];
+              const double gap = (upper ? specimen.size[axis] - place : place) - specimen.grains.radius[i];
+              n += std::abs(gap) < flush;
+              farthest = std::max(farthest, -gap);
+            }
+        return std::pair(n, farthest);
+      };
+      const auto [n_walled, of_walled] = at_faces(walled, dim - 1);
+      const auto [n_core, of_core] = at_faces(core, dim - 1);
+      EXPECT_NEAR(double(n_core), double(n_walled), 0.25 * double(n_walled)) << by_descent;
+      EXPECT_LT(of_core, flush);
+      EXPECT_GT(at_faces(core, 0).second, 0.5 * core.report.mean_radius);
+      for (std::size_t j = 0; j < core.joints.size(); ++j) // none leads out at an end, or round a side
+        EXPECT_LT((at<dim>(core.grains.position, core.joints.grain_2[j]) -
+                   at<dim>(core.grains.position, core.joints.grain_1[j]))
+                    .norm(),
+                  4.2 * core.report.mean_radius);
+    }
+}
+
 TEST(Core, SameSeedSameBitsAndTheCellOfTheRepresentativeVolume)
 {
   SpecimenParameters wanted;
   wanted.width = 0.024;
   wanted.height = 0.012;
-  wanted.cored = true;
+  wanted.coring = Coring::free_sides;
   wanted.cells_across = 2;
   FlatJointParameters joint;
   joint.coordination_number = 4.2;

@@ -1,15 +1,15 @@
 #include "base/hdf5_archive.h"
 #include "base/seal.h"
 #include "coupling/rve/path_run.h"
-#include "coupling/rve/volume_file.h"
-#include "dem/lab/laboratory_test.h"
+#include "coupling/rve/rve_file.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/sample_fields.h"
 #include "tests/mutations.h"
 #include "tests/temporary_folder.h"
+#include "tests/unit/small_rve.h"
 #include "tests/unit/small_specimen.h"
-#include "tests/unit/small_volume.h"
 
 #include <gtest/gtest.h>
 
@@ -114,7 +114,44 @@ TEST(DamagedFiles, CheckpointsOfTheLaboratoryAreRefused)
   expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
 }
 
-TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfVolumesAreRefused)
+/// As a version from before seals wrote it: without a seal, and without the attribute that announces one.
+void unseal(const std::filesystem::path& file)
+{
+  std::string content = content_of(file);
+  content.resize(content.size() - seal_of("").size());
+  const std::string another(seal_notice.size(), 'a');
+  std::size_t n_notices = 0;
+  for (std::size_t at = 0; (at = content.find(seal_notice, at)) != std::string::npos; ++n_notices)
+    content.replace(at, seal_notice.size(), another);
+  ASSERT_GT(n_notices, 0u);
+  std::ofstream(file, std::ios::binary) << content;
+}
+
+// Specimens are what users keep: those of a version from before seals are read as they are. Checkpoints are of the program
+// that goes on with them.
+TEST(OlderFiles, SpecimensAreReadAndCheckpointsRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "specimen.h5";
+  const auto specimen = small_specimen();
+  write_specimen(specimen, file);
+  unseal(file);
+  EXPECT_EQ(examine_seal(file), Seal::none);
+  const auto back = read_specimen<2>(file);
+  EXPECT_EQ(back.grains.position, specimen.grains.position);
+  EXPECT_EQ(back.joints.tensile_strength, specimen.joints.tensile_strength);
+
+  const auto checkpoint = folder.path() / "checkpoint.h5";
+  LabTest<2> test({uniaxial_compression}, specimen, {}, {});
+  test.advance();
+  test.write_checkpoint(checkpoint, "this one");
+  unseal(checkpoint);
+  const std::string words = refusal([&] { test.read_checkpoint(checkpoint, "this one"); });
+  EXPECT_NE(words.find("not of this version of the program: it has no checksum"), std::string::npos) << words;
+  EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+}
+
+TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfRvesAreRefused)
 {
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
@@ -128,16 +165,16 @@ TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfVolumesAreRefused)
   PathRun<2> resumed(network, {{strain_control<2>(axial<2>(3e-4)), true}}, {});
   expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
 
-  const auto volume_file = folder.path() / "volume.h5";
-  write_volume<2>(specimen, run.volume().state(), volume_file);
-  expect_all_refused(volume_file, [&] { read_volume_state<2>(volume_file, *network); });
+  const auto rve_file = folder.path() / "volume.h5";
+  write_rve<2>(specimen, run.rve().state(), rve_file);
+  expect_all_refused(rve_file, [&] { read_rve_state<2>(rve_file, *network); });
 
   // States that are whole but not of this network.
   const auto refusal_of = [&](const std::function<void(NetworkState<2>&)>& change) {
-    NetworkState<2> state = run.volume().state();
+    NetworkState<2> state = run.rve().state();
     change(state);
-    write_volume<2>(specimen, state, volume_file);
-    return refusal([&] { read_volume_state<2>(volume_file, *network); });
+    write_rve<2>(specimen, state, rve_file);
+    return refusal([&] { read_rve_state<2>(rve_file, *network); });
   };
   EXPECT_EQ(refusal_of([](NetworkState<2>&) {}), "");
   EXPECT_NE(refusal_of([](NetworkState<2>& state) { state.motions.pop_back(); }), "");

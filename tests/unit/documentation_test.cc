@@ -23,7 +23,7 @@ const fs::path root = FELDSPAR_SOURCE_DIR;
 /// Folders of the tree that paths in the documentation begin with.
 const std::vector<std::string> top_folders = {"app",     "base",    "benchmarks", "calibration", "coupling",
                                               "dem",     "docs",    "examples",   "fem",         "report",
-                                              "results", "scripts", "tests"};
+                                              "results", "scripts", "tests",      "third_party"};
 
 std::string content(const fs::path& file)
 {

@@ -1,4 +1,4 @@
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include "base/input_error.h"
 #include "coupling/rve/explicit_run.h"

@@ -29,7 +29,7 @@ const Segment<2, double> segment = place_segment(face, elements[0]).segment;
 const Bond<double> strong{1e30, 1e30, 0.0};
 const Bond<double> table_1{22e6, 400e6, std::tan(10.0 * std::numbers::pi / 180.0)};
 
-struct Answer
+struct Response
 {
   double force;
   double moment;
@@ -37,11 +37,11 @@ struct Answer
 
 /// Force (compression positive) and moment of a segment from the stress profile itself: σ = k_n g where bonded or
 /// closed. Midpoint rule; the only error is in the one cell in which the profile has its kink, O(1/n²).
-Answer quadrature(const double gap, const double slope, const bool bonded)
+Response quadrature(const double gap, const double slope, const bool bonded)
 {
   constexpr int n = 200000;
   const double width = segment.length / n;
-  Answer sum{0.0, 0.0};
+  Response sum{0.0, 0.0};
   for (int i = 0; i < n; ++i)
     {
       const double s = -0.5 * segment.length + (i + 0.5) * width;
@@ -73,12 +73,12 @@ TEST_P(NormalResponse, IsTheIntegralOfTheStressProfile)
 {
   const auto [gap, slope, bonded] = GetParam();
   const auto exact = quadrature(gap, slope, bonded);
-  const auto answer = flat_joint::normal_response(segment, gap, slope, bonded);
+  const auto response = flat_joint::normal_response(segment, gap, slope, bonded);
   const double force_scale =
     face.normal_stiffness * segment.area() * (std::abs(gap) + std::abs(slope) * segment.length);
-  EXPECT_NEAR(answer.force, exact.force, 1e-9 * force_scale);
-  EXPECT_NEAR(answer.moment, exact.moment, 1e-9 * force_scale * segment.length);
-  EXPECT_DOUBLE_EQ(mean_stress(segment, answer), -answer.force / segment.area());
+  EXPECT_NEAR(response.force, exact.force, 1e-9 * force_scale);
+  EXPECT_NEAR(response.moment, exact.moment, 1e-9 * force_scale * segment.length);
+  EXPECT_DOUBLE_EQ(mean_stress(segment, response), -response.force / segment.area());
 }
 
 INSTANTIATE_TEST_SUITE_P(BondedClosedOpenAndPartlyOpenTiltedBothWays, NormalResponse,
@@ -101,12 +101,12 @@ TEST(NormalResponse, EnergyIsTheWorkOfForceAndMoment)
         const auto energy = [&](const double g, const double theta) {
           return flat_joint::normal_energy(segment, g, theta, bonded);
         };
-        const auto answer = flat_joint::normal_response(segment, gap, slope, bonded);
-        EXPECT_NEAR((energy(gap + h, slope) - energy(gap - h, slope)) / (2 * h), -answer.force,
-                    1e-4 * (1.0 + std::abs(answer.force)));
+        const auto response = flat_joint::normal_response(segment, gap, slope, bonded);
+        EXPECT_NEAR((energy(gap + h, slope) - energy(gap - h, slope)) / (2 * h), -response.force,
+                    1e-4 * (1.0 + std::abs(response.force)));
         const double turn = 1e-8;
-        EXPECT_NEAR((energy(gap, slope + turn) - energy(gap, slope - turn)) / (2 * turn), -answer.moment,
-                    1e-6 * (1e-6 + std::abs(answer.moment)));
+        EXPECT_NEAR((energy(gap, slope + turn) - energy(gap, slope - turn)) / (2 * turn), -response.moment,
+                    1e-6 * (1e-6 + std::abs(response.moment)));
       }
 }
 
@@ -147,12 +147,12 @@ TEST(Face, BondedIsTheContinuumBarWhateverTheNumberOfSegments)
   const double opening = 3e-8;
   const double slip = -2e-8;
   const double theta = 5e-5;
-  const auto answer = update_face<2>(face, elements, {0.0, opening, {0.0}, {theta}, {slip}}, segments);
+  const auto response = update_face<2>(face, elements, {0.0, opening, {0.0}, {theta}, {slip}}, segments);
   const double area = 2.0 * half_length;
-  EXPECT_NEAR(answer.normal_force, -face.normal_stiffness * area * opening, 1e-12 * std::abs(answer.normal_force));
-  EXPECT_NEAR(answer.shear_force[0], -face.shear_stiffness * area * slip, 1e-12 * std::abs(answer.shear_force[0]));
-  EXPECT_NEAR(answer.moment[0], -face.normal_stiffness * (2.0 / 3.0) * std::pow(half_length, 3) * theta,
-              1e-12 * std::abs(answer.moment[0]));
+  EXPECT_NEAR(response.normal_force, -face.normal_stiffness * area * opening, 1e-12 * std::abs(response.normal_force));
+  EXPECT_NEAR(response.shear_force[0], -face.shear_stiffness * area * slip, 1e-12 * std::abs(response.shear_force[0]));
+  EXPECT_NEAR(response.moment[0], -face.normal_stiffness * (2.0 / 3.0) * std::pow(half_length, 3) * theta,
+              1e-12 * std::abs(response.moment[0]));
 }
 
 TEST(Face, PartlyBrokenKeepsTheMomentOfWhatHolds)
@@ -162,10 +162,10 @@ TEST(Face, PartlyBrokenKeepsTheMomentOfWhatHolds)
   Segments segments(strong);
   segments.states[0].bonded = segments.states[1].bonded = false;
   const double opening = 1e-7;
-  const auto answer = update_face<2>(face, elements, {0.0, opening, {0.0}, {0.0}, {0.0}}, segments);
+  const auto response = update_face<2>(face, elements, {0.0, opening, {0.0}, {0.0}, {0.0}}, segments);
   const double force = -face.normal_stiffness * half_length * opening;
-  EXPECT_NEAR(answer.normal_force, force, 1e-12 * std::abs(force));
-  EXPECT_NEAR(answer.moment[0], 0.5 * half_length * force, 1e-12 * std::abs(half_length * force));
+  EXPECT_NEAR(response.normal_force, force, 1e-12 * std::abs(force));
+  EXPECT_NEAR(response.moment[0], 0.5 * half_length * force, 1e-12 * std::abs(half_length * force));
 }
 
 TEST(Face, BrokenRocksOnItsEdge)
@@ -176,10 +176,10 @@ TEST(Face, BrokenRocksOnItsEdge)
   const double theta = 1e-3;
   const double c = 0.7 * half_length;
   const double opening = theta * (half_length - c); // g = 0 at ρ = R̄ - c
-  const auto answer = update_face<2>(face, elements, {opening, opening, {theta}, {theta}, {0.0}}, segments);
+  const auto response = update_face<2>(face, elements, {opening, opening, {theta}, {theta}, {0.0}}, segments);
   const double force = 0.5 * face.normal_stiffness * theta * c * c;
-  EXPECT_NEAR(answer.normal_force, force, 1e-12 * force);
-  EXPECT_NEAR(answer.moment[0], -(half_length - c / 3.0) * force, 1e-12 * half_length * force);
+  EXPECT_NEAR(response.normal_force, force, 1e-12 * force);
+  EXPECT_NEAR(response.moment[0], -(half_length - c / 3.0) * force, 1e-12 * half_length * force);
 }
 
 TEST(Break, InTensionBeyondTheStrengthAndNotBefore)
@@ -220,12 +220,12 @@ TEST(Break, InShearByCohesionAndFriction)
   update_face<2>(face, elements, {0.0, closing, {0.0}, {0.0}, {0.999 * tau_c / face.shear_stiffness}}, segments);
   EXPECT_EQ(segments.n_bonded(), 4u);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -0.999 * tau_c, 1e-6 * tau_c);
-  const auto answer =
+  const auto response =
     update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {0.002 * tau_c / face.shear_stiffness}}, segments);
   EXPECT_EQ(segments.n_bonded(), 0u);
   EXPECT_TRUE(segments.updates[0].shear_break);
-  EXPECT_EQ(answer.shear_force[0], 0.0);
-  EXPECT_NEAR(answer.normal_force, pressure * 2.0 * half_length, 1e-6);
+  EXPECT_EQ(response.shear_force[0], 0.0);
+  EXPECT_NEAR(response.normal_force, pressure * 2.0 * half_length, 1e-6);
 }
 
 TEST(Break, TensionComesBeforeShear)
@@ -291,7 +291,7 @@ TEST(Friction, ShearUnderAnEdgeWhileTheMiddleIsOpenIsSlip)
   EXPECT_NEAR(update.slip_energy, 0.5 * limit * slip * segment.area(), 1e-12 * limit * slip);
 }
 
-TEST(Law, AnswersAPackAsItsMembers)
+TEST(Law, RespondsAPackAsItsMembers)
 {
   // Bit for bit: the sweep's vector lanes and the single contact are the same arithmetic.
   using simd::Pack;
@@ -323,7 +323,7 @@ TEST(Law, AnswersAPackAsItsMembers)
     }
 }
 
-TEST(Law, AnswersAPackAsItsMembersInThreeDimensions)
+TEST(Law, RespondsAPackAsItsMembersInThreeDimensions)
 {
   using simd::Pack;
   const Segment<3, double> element{face.normal_stiffness, face.shear_stiffness, 1e-7, 0.5};

@@ -17,7 +17,7 @@ namespace
 {
 using Calls = std::set<std::string>;
 
-/// Notes which of its functions were called, and answers with numbers that tell its components apart.
+/// Notes which of its functions were called, and responds with numbers that tell its components apart.
 template <int dim>
 class NotingPoint final : public MaterialPoint<dim>
 {
@@ -27,7 +27,7 @@ public:
   {
   }
 
-  MaterialAnswer<dim> trial(const StrainVector<dim>& strain) const override
+  MaterialResponse<dim> trial(const StrainVector<dim>& strain) const override
   {
     note("trial");
     return {stiffness() * strain, stiffness()};

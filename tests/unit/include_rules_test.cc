@@ -54,12 +54,17 @@ const std::vector<Room> rooms = {
    {"coupling/sample/continua", "base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh",
     "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
    {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stop_rule.h"}},
-  {"report/pictures", {"base", "results", "results/fits", "results/folder"}},
+  {"report/live", {"base", "results"}},
+  {"report/pictures", {"base", "results", "results/fits", "results/folder", "report/live"}},
   {"report/page", {"base", "results", "results/folder", "report/pictures"}},
   {"report/sections", {"base", "results", "results/fits", "results/folder", "report/pictures", "report/page"}},
   {"report",
    {"base", "results", "results/fits", "results/folder", "report/pictures", "report/page", "report/sections"}},
 };
+
+/// The rooms of the command, which may include all libraries, from the ground up; each sees those before it.
+const std::vector<std::string> rooms_of_the_command = {"app/input",     "app/screen",      "app/run",
+                                                       "app/programme", "app/calibration", "app/commands"};
 
 /// Folders that may include any room, but for those named.
 const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
@@ -130,8 +135,11 @@ std::string objection(const std::string& folder, const Include& include)
   if (!is_ours(include.path))
     return "";
   const std::string from = folder_of(include.path);
+  const auto place = std::find(rooms_of_the_command.begin(), rooms_of_the_command.end(), folder);
+  if (place != rooms_of_the_command.end() && lies_in(from, {"app"}))
+    return std::find(rooms_of_the_command.begin(), place + 1, from) != place + 1 ? "" : forbidden;
   const Room* const room = room_of(folder);
-  if (room == nullptr) // app, benchmarks, tests
+  if (room == nullptr) // app itself, benchmarks, tests
     return folder.starts_with("benchmarks") && lies_in(from, {"app"}) ? forbidden : "";
   return from == folder || is_any_of(from, room->sees) || is_any_of(include.path, room->headers) ? "" : forbidden;
 }
@@ -175,6 +183,8 @@ TEST(IncludeRules, HoldInTheSourceTree)
     {
       const std::string folder = path.parent_path().string();
       EXPECT_TRUE(room_of(folder) != nullptr || lies_in(folder, above_all)) << path << " stands in no room";
+      EXPECT_TRUE(!folder.starts_with("app/") || is_any_of(folder, rooms_of_the_command))
+        << path << " stands in no room";
       std::ifstream source(root / path);
       ASSERT_TRUE(source) << path;
       for (const std::string& violation : violations(folder, path.string(), source))
@@ -186,7 +196,40 @@ TEST(IncludeRules, HoldInTheSourceTree)
   EXPECT_GT(n_includes, 500u) << "next to nothing was scanned under " << root;
 }
 
-// What a reader takes in at a glance (issue on the house).
+// Two libraries know no grains and have namespaces of their own; all others speak of one rock by one set of names. Named
+// groups of functions (flat_joint, simd, plot) stand one level below.
+TEST(IncludeRules, NamespacesAreThoseOfTheLibraries)
+{
+  const std::map<std::string, std::string> own{{"fem", "feldspar::fem"},
+                                               {"calibration", "feldspar::calibration"},
+                                               {"app/calibration", "feldspar::calibration"}};
+  const std::vector<std::string> of_the_input{"calibration/parameters.h", "calibration/entries.h"};
+  const std::regex opening(R"(^namespace (feldspar[a-z_:]*)$)");
+  std::size_t n_opened = 0;
+  for (const fs::path& path : sources())
+    {
+      const std::string folder = path.parent_path().string();
+      if (lies_in(folder, {"tests"}) || is_any_of(path.string(), of_the_input))
+        continue; // tests look into all of them
+      std::ifstream source(root / path);
+      std::smatch match;
+      for (std::string line; std::getline(source, line);)
+        if (std::regex_match(line, match, opening))
+          {
+            ++n_opened;
+            const std::string opened = match[1];
+            const auto library =
+              std::find_if(own.begin(), own.end(), [&](const auto& one) { return lies_in(folder, {one.first}); });
+            const auto has_this_name = [&](const auto& one) { return one.second == opened; };
+            EXPECT_TRUE(library == own.end() ? std::none_of(own.begin(), own.end(), has_this_name)
+                                             : has_this_name(*library))
+              << path << " opens " << opened;
+          }
+    }
+  EXPECT_GT(n_opened, 300u) << "next to nothing was scanned under " << root;
+}
+
+// What a reader takes in at a glance.
 TEST(IncludeRules, NoRoomIsCrowded)
 {
   constexpr std::size_t most_files = 30;
@@ -228,6 +271,8 @@ TEST(IncludeRules, SeeWhatIsForbidden)
   EXPECT_EQ(n_violations("results", "#include \"dem/storage/grains.h\"\n"), 1u);
   EXPECT_EQ(n_violations("report", "#include \"coupling/network/network.h\"\n"), 1u);
   EXPECT_EQ(n_violations("benchmarks", "#include \"app/input/input.h\"\n"), 1u);
+  EXPECT_EQ(n_violations("app/run", "#include \"app/programme/lab_run.h\"\n"), 1u);
+  EXPECT_EQ(n_violations("app/calibration", "#include \"app/commands/commands.h\"\n"), 1u);
 }
 
 TEST(IncludeRules, LetTheRestThrough)

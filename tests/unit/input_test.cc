@@ -36,6 +36,7 @@ subsection Specimen
   set Porosity = 0.15
   set Density = 2.65 g/cm^3
   set Packing stress ratio = 4e-4
+  set Packing relaxation = dynamics # the other excludes files, below
   set Coring = none                # the other needs grains of its own, below
   set Cells across = 1
   set Cells along = 1
@@ -68,6 +69,18 @@ subsection Particle contact
   set Modulus = 60 GPa
   set Stiffness ratio = 2.5
   set Friction = 0.4
+end
+subsection Smooth joint
+  set Normal stiffness = 30 GPa/mm
+  set Shear stiffness = 10 GPa/mm
+  set Friction = 0.7
+  set Dilation angle = 5 deg
+  set Tensile strength = 8 MPa
+  set Cohesion = 90 MPa
+  set Friction angle = 40 deg
+end
+subsection Mineral grains
+  set Mean size = 6 mm
 end
 subsection Flaws
   set Shapes = hole centre 20, 50 mm radius 5 mm | joint set angle 30 deg spacing 10 mm
@@ -239,7 +252,9 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("summary.json", "{}");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
-  EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size(),
+  // Parallel bonds exclude flat joints, and clumps mineral grains; they have tests of their own.
+  EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size() +
+              entry_names("Clumps").size(),
             parameter_table().size());
 
   EXPECT_EQ(input.calibration.targets, (std::vector<std::string>{"tensile_strength", "youngs_modulus"}));
@@ -295,6 +310,14 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.dynamics.damping, 0.0);
   EXPECT_EQ(input.dynamics.time_step_safety, 0.5);
 
+  EXPECT_DOUBLE_EQ(input.smooth_joint.normal_stiffness, 30e12);
+  EXPECT_DOUBLE_EQ(input.smooth_joint.shear_stiffness, 10e12);
+  EXPECT_EQ(input.smooth_joint.friction, 0.7);
+  EXPECT_DOUBLE_EQ(input.smooth_joint.dilation_angle, 5.0 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(input.smooth_joint.tensile_strength, 8e6);
+  EXPECT_DOUBLE_EQ(input.smooth_joint.cohesion, 90e6);
+  EXPECT_DOUBLE_EQ(input.smooth_joint.friction_angle.value(), 40.0 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(input.mineral_grains.mean_size.value(), 0.006);
   ASSERT_EQ(input.flaws.shapes.size(), 2u);
   const auto& hole = std::get<EllipseHole>(input.flaws.shapes[0]);
   EXPECT_EQ(hole.centre, Vector<2>(0.020, 0.050));
@@ -348,7 +371,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
   EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
-  EXPECT_EQ(input.sample.material, SampleMaterial::mohr_coulomb);
+  EXPECT_EQ(input.sample.material, "Mohr-Coulomb");
   EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
   EXPECT_EQ(input.sample.mesh_unit, MeshUnit::millimetre);
   EXPECT_DOUBLE_EQ(input.sample.width, 0.040);
@@ -388,7 +411,7 @@ TEST(Input, EveryEntryOfCoresReachesItsMember)
   const Input input = read_input(folder.write(
     "core.prm",
     "subsection Specimen\n  set Coring = free sides\n  set Cells across = 2\n  set Cells along = 4\nend\n"));
-  EXPECT_TRUE(input.specimen.cored);
+  EXPECT_EQ(input.specimen.coring, Coring::free_sides);
   EXPECT_EQ(input.specimen.cells_across, 2u);
   EXPECT_EQ(input.specimen.cells_along, 4u);
 }
@@ -407,6 +430,53 @@ TEST(Input, CoresAreRefusedWhereTheyCannotBe)
   // Cells of 50 mm / 20, with grains up to 1.03 mm: less than four radii.
   EXPECT_NE(refused(core + "  set Cells across = 20\n").find("must be at least"), std::string::npos);
   EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");
+}
+
+// What is packed already needs no solver.
+TEST(Input, AStaticPackingIsAChoiceThatExcludesFiles)
+{
+  const TemporaryFolder folder;
+  const std::string choice = "subsection Specimen\n  set Packing relaxation = static\n";
+  EXPECT_TRUE(read_input(folder.write("a.prm", choice + "end\n")).specimen.packed_by_descent);
+  EXPECT_FALSE(SpecimenParameters().packed_by_descent);
+  folder.write("grains.txt", "0.002 0.005 0.001\n");
+  for (const std::string file : {"Packing file", "Specimen file"})
+    try
+      {
+        read_input(folder.write("b.prm", choice + "  set " + file + " = grains.txt\nend\n"));
+        ADD_FAILURE() << file << " was accepted";
+      }
+    catch (const InputError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("are packed already"), std::string::npos) << error.what();
+      }
+  EXPECT_NE(error_of("a.prm", "subsection Specimen\n  set Packing relaxation = fast\nend\n").find("dynamics or static"),
+            std::string::npos);
+}
+
+TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)
+{
+  const TemporaryFolder folder;
+  const std::string clumps = "subsection Clumps\n  set Diameter = 4 mm\n  set Form = cells\nend\n";
+  const Input input = read_input(folder.write("clumps.prm", clumps));
+  EXPECT_DOUBLE_EQ(input.clumps.diameter.value(), 0.004);
+  EXPECT_EQ(input.clumps.form, ClumpForm::cells);
+  const auto refused = [&](const std::string& more) { return error_of("a.prm", clumps + more); };
+  EXPECT_NE(
+    refused("subsection Specimen\n  set Dimension = 3\nend\n").find("a.prm:2: Clumps/Diameter = 4 mm: clumps are"),
+    std::string::npos);
+  EXPECT_NE(refused("subsection Specimen\n  set Shape = periodic\nend\n").find("clumps are of the plane and in a box"),
+            std::string::npos);
+  EXPECT_NE(refused("subsection Mineral grains\n  set Mean size = 5 mm\nend\n").find("excludes Mineral grains"),
+            std::string::npos);
+  EXPECT_NE(
+    refused("subsection Flaws\n  set Shapes = hole centre 20, 50 mm radius 5 mm\nend\n").find("excludes section Flaws"),
+    std::string::npos);
+  EXPECT_NE(
+    refused("subsection Tests\n  set List = brazilian\nend\n").find("Tests/List = brazilian: brazilian takes no"),
+    std::string::npos);
+  EXPECT_EQ(error_of_entry("Clumps", "Form = cells"),
+            "a.prm:2: Clumps/Form = cells: has no effect: Clumps/Diameter is none");
 }
 
 TEST(Input, EveryEntryOfParallelBondsReachesItsMember)
@@ -545,9 +615,14 @@ end
   EXPECT_EQ(both[0].input.flat_joint.coordination_number, 4.2);
   EXPECT_EQ(both[1].input.parallel_bond.bond_cohesion, 70e6);
   EXPECT_EQ(both[1].input.parallel_bond.coordination_number, std::nullopt);
-  // Each is told with its own section alone.
+  // Each is told with its own section alone, and without smooth joints and the form of clumps, which neither has.
   for (const Parameter& parameter : parameter_table())
     {
+      if (parameter.section == "Smooth joint" || parameter.name() == "Clumps/Form")
+        {
+          EXPECT_FALSE(has_use_for(both[0].input, parameter) || has_use_for(both[1].input, parameter));
+          continue;
+        }
       EXPECT_EQ(has_use_for(both[0].input, parameter), parameter.section != "Parallel bond") << parameter.name();
       EXPECT_EQ(has_use_for(both[1].input, parameter), parameter.section != "Flat joint") << parameter.name();
     }
@@ -920,6 +995,64 @@ TEST(Input, ShapesAreReadInTheWordsOfTheUser)
   EXPECT_EQ(std::get<JointSet>(shapes[5]).seed, 7u);
   EXPECT_EQ(std::get<JointSet>(shapes[5]).persistence, 0.5);
   EXPECT_EQ(std::get<PolygonHole>(shapes[6]).corners.size(), 3u);
+}
+
+TEST(Input, FlawsMayHaveSmoothSidesOfTheirOwn)
+{
+  const auto shapes = parse_shapes("closed flaw from 1, 1 mm to 9, 9 mm smooth | joint set angle 30 deg spacing 10 mm "
+                                   "smooth friction 0.8 dilation 5 deg cohesion 2 MPa tensile-strength 1 MPa "
+                                   "friction-angle 45 deg normal-stiffness 300 GPa/m shear-stiffness 0.1 GPa/mm | "
+                                   "closed flaw from 1, 1 mm to 9, 9 mm");
+  ASSERT_EQ(shapes.size(), 3u);
+  EXPECT_EQ(smooth_sides(shapes[2]), nullptr);
+  SmoothJointParameters all;
+  all.cohesion = 70e6; // of mineral grains
+  all.friction = 0.3;
+  const SmoothSides* const plain = smooth_sides(shapes[0]);
+  ASSERT_NE(plain, nullptr);
+  EXPECT_FALSE(plain->are_bonded());
+  EXPECT_EQ(plain->among(all).friction, 0.3);
+  EXPECT_EQ(plain->among(all).cohesion, 0.0);
+  const SmoothSides* const own = smooth_sides(shapes[1]);
+  ASSERT_NE(own, nullptr);
+  EXPECT_TRUE(own->are_bonded());
+  const SmoothJointParameters one = own->among(all);
+  EXPECT_EQ(one.friction, 0.8);
+  EXPECT_DOUBLE_EQ(one.dilation_angle, 5.0 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(one.cohesion, 2e6);
+  EXPECT_DOUBLE_EQ(one.tensile_strength, 1e6);
+  EXPECT_DOUBLE_EQ(one.friction_angle.value(), std::numbers::pi / 4.0);
+  EXPECT_DOUBLE_EQ(one.normal_stiffness, 300e9);
+  EXPECT_DOUBLE_EQ(one.shear_stiffness, 100e9);
+  // The flaws of a set are as smooth as it is.
+  for (const ClosedFlaw& flaw : traces(std::get<JointSet>(shapes[1]), {0.05, 0.1}))
+    EXPECT_EQ(flaw.smooth.value().friction, 0.8);
+}
+
+TEST(Input, SmoothJointsThatCannotBeAreNamed)
+{
+  const auto error = [](const std::string& section, const std::string& entry) {
+    const std::string found = error_of_entry(section, entry);
+    EXPECT_TRUE(found.starts_with("a.prm:2: " + section + "/")) << found;
+    EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+    return found;
+  };
+  EXPECT_NE(error("Smooth joint", "Friction = 0.4").find("has no effect: Mineral grains/Mean size is none"),
+            std::string::npos);
+  EXPECT_NE(error("Smooth joint", "Normal stiffness = 50 GPa").find("GPa/mm"), std::string::npos);
+  EXPECT_NE(error("Mineral grains", "Mean size = 0 mm").find("must be > 0 mm"), std::string::npos);
+  EXPECT_NE(error("Flaws", "Shapes = closed flaw from 1, 1 mm to 9, 9 mm friction 0.4")
+              .find("shape 1, closed flaw: friction is of smooth sides; say smooth before it"),
+            std::string::npos);
+  EXPECT_NE(error("Flaws", "Shapes = closed flaw from 1, 1 mm to 9, 9 mm smooth very")
+              .find("shape 1, closed flaw: smooth stands alone"),
+            std::string::npos);
+  EXPECT_NE(error("Flaws", "Shapes = closed flaw from 1, 1 mm to 9, 9 mm smooth cohesion -1 MPa")
+              .find("cohesion -1 MPa: must be >= 0"),
+            std::string::npos);
+  EXPECT_NE(error("Flaws", "Shapes = closed flaw from 1, 1 mm to 9, 9 mm smooth friction 0.1 dilation 10 deg")
+              .find("must be at most the angle of friction, 5.71 deg"),
+            std::string::npos);
 }
 
 TEST(Input, ShapesThatAreWrongAreNamed)

@@ -63,8 +63,9 @@ TEST(MohrCoulomb, ReturnsToThePartOfTheYieldSurfaceThatEachTrialBelongsTo)
     {
       SCOPED_TRACE(region.name);
       const Eigen::Matrix3d axes = some_rotation(0.3, -1.1, 2.0);
-      const auto answer = update(rock, {}, strain_vector(axes * region.strain.asDiagonal() * axes.transpose())).answer;
-      const Eigen::Vector3d s = principal(answer.stress);
+      const auto response =
+        update(rock, {}, strain_vector(axes * region.strain.asDiagonal() * axes.transpose())).response;
+      const Eigen::Vector3d s = principal(response.stress);
       const double excess = k * s[0] - s[2] - q_u;
       const std::string name = region.name;
       const double round_off = 1e-9 * q_u;
@@ -78,7 +79,7 @@ TEST(MohrCoulomb, ReturnsToThePartOfTheYieldSurfaceThatEachTrialBelongsTo)
     }
 }
 
-TEST(MohrCoulomb, HasTheTangentOfItsAnswer)
+TEST(MohrCoulomb, HasTheTangentOfItsResponse)
 {
   // Central differences of a function linear but for the turning of axes: their error is that of round-off, 1e-16 σ over
   // 1e-8, and curvature, (1e-8/1e-3)².
@@ -88,27 +89,27 @@ TEST(MohrCoulomb, HasTheTangentOfItsAnswer)
       SCOPED_TRACE(region.name);
       const Eigen::Matrix3d axes = some_rotation(0.3, -1.1, 2.0);
       const StrainVector<3> strain = strain_vector(axes * region.strain.asDiagonal() * axes.transpose());
-      const auto answer = update(rock, {}, strain).answer;
+      const auto response = update(rock, {}, strain).response;
       for (int c = 0; c < 6; ++c)
         {
           const StrainVector<3> change = step * StrainVector<3>::Unit(c);
           const StressVector<3> by_difference =
-            (update(rock, {}, strain + change).answer.stress - update(rock, {}, strain - change).answer.stress) /
+            (update(rock, {}, strain + change).response.stress - update(rock, {}, strain - change).response.stress) /
             (2.0 * step);
-          EXPECT_LT((answer.tangent.col(c) - by_difference).cwiseAbs().maxCoeff(), 1e-6 * rock.youngs_modulus) << c;
+          EXPECT_LT((response.tangent.col(c) - by_difference).cwiseAbs().maxCoeff(), 1e-6 * rock.youngs_modulus) << c;
         }
     }
 }
 
-TEST(MohrCoulomb, AnswersInTheRotatedFrameWithTheRotatedStress)
+TEST(MohrCoulomb, RespondsInTheRotatedFrameWithTheRotatedStress)
 {
   for (const Region& region : regions)
     {
       const Eigen::Matrix3d axes = some_rotation(0.9, 0.2, -0.4);
       const Eigen::Matrix3d there = some_rotation(-2.0, 0.5, 1.3);
       const Eigen::Matrix3d strain = axes * region.strain.asDiagonal() * axes.transpose();
-      const auto here = update(rock, {}, strain_vector(strain)).answer.stress;
-      const auto turned = update(rock, {}, strain_vector(there * strain * there.transpose())).answer.stress;
+      const auto here = update(rock, {}, strain_vector(strain)).response.stress;
+      const auto turned = update(rock, {}, strain_vector(there * strain * there.transpose())).response.stress;
       const Eigen::Matrix3d expected = there * stress_tensor(here) * there.transpose();
       EXPECT_LT((stress_tensor(turned) - expected).norm(), 1e-9 * q_u) << region.name;
     }
@@ -129,11 +130,11 @@ TEST(MohrCoulomb, StaysOnTheYieldSurfaceAndDissipatesAlongAnyPath)
       for (int c = 0; c < 6; ++c)
         strain[c] = 0.9 * strain[c] + 8e-3 * random();
       const auto updated = update(rock_without_dilation, state, strain);
-      const Eigen::Vector3d s = principal(updated.answer.stress);
+      const Eigen::Vector3d s = principal(updated.response.stress);
       EXPECT_LT(k * s[0] - s[2], q_u * (1.0 + 1e-9));
       // Stress is the elastic one of what is not plastic.
       const StressVector<3> elastic = isotropic_stiffness<3>(50e9, 0.2) * (strain - updated.state.plastic_strain);
-      EXPECT_LT((elastic - updated.answer.stress).norm(), 1e-9 * q_u);
+      EXPECT_LT((elastic - updated.response.stress).norm(), 1e-9 * q_u);
       EXPECT_GE(updated.state.dissipated, state.dissipated);
       n_plastic += updated.state.dissipated > state.dissipated;
       state = updated.state;

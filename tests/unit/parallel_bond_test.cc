@@ -129,7 +129,7 @@ TYPED_TEST(ParallelBondPair, PulledBearsItsTensileStrengthThenNothing)
   for (const Break& event : breaks)
     EXPECT_TRUE(event.in_tension);
 
-  // Pressed back beyond rest: where the bond has broken the contact alone answers, else both.
+  // Pressed back beyond rest: where the bond has broken the contact alone acts, else both.
   for (std::size_t k = 0; k < n_pairs; ++k)
     specimen.grains.position[0][2 * k + 1] = specimen.grains.radius[2 * k] + specimen.grains.radius[2 * k + 1] - 1e-7;
   EXPECT_TRUE(sweep_joints(specimen.joints, specimen.grains, 1.0).empty());

@@ -1,4 +1,4 @@
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include "base/input_error.h"
 #include "coupling/rve/path_run.h"
@@ -66,7 +66,7 @@ TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
   ASSERT_EQ(broken.record().cracks.size(), whole.record().cracks.size());
   for (std::size_t k = 0; k < whole.record().cracks.size(); ++k)
     EXPECT_EQ(broken.record().cracks[k].segment, whole.record().cracks[k].segment);
-  EXPECT_EQ(broken.volume().state().motions, whole.volume().state().motions);
+  EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
 
   PathRun<dim> other = pull<dim>();
   EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
@@ -85,9 +85,9 @@ TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)
   const auto& last = run.record().samples.back();
   EXPECT_GT(last.stress[1], 4e6);
   EXPECT_LE(last.unbalanced_ratio, EquilibriumParameters{}.final_tolerance);
-  const NetworkState<2>& state = run.volume().state();
+  const NetworkState<2>& state = run.rve().state();
   EXPECT_EQ(state.stress[1], last.stress[1]);
-  EXPECT_TRUE(run.volume().trial(state.strain).in_equilibrium);
+  EXPECT_TRUE(run.rve().trial(state.strain).in_equilibrium);
 }
 
 TEST(PathRun, EqualOverloadsBreakInTheOrderOfTheirNumbers)

@@ -1,12 +1,18 @@
 // What the report says and reads: compression positive where the laboratory has it so.
 
+#include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
+#include "report/live/chart.h"
+#include "report/live/crack_story.h"
 #include "report/page/table.h"
+#include "report/pictures/curve_pictures.h"
 #include "report/pictures/envelope_pictures.h"
+#include "report/pictures/stress_plane_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/verdict.h"
 #include "results/bodies.h"
+#include "results/fits/residual_strength.h"
 #include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
@@ -25,6 +31,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -468,6 +475,166 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
 }
 
+// τ = c + σ_n tan φ touches all circles of σ_1 = q_u + N σ_3: φ = asin((N - 1)/(N + 1)), c = q_u/(2 √N).
+TEST(TouchingPoint, OfALineLiesOnMohrAndCoulombs)
+{
+  const double slope = 4.0;
+  const double uniaxial = 100e6;
+  const double friction_angle = std::asin((slope - 1.0) / (slope + 1.0));
+  const double cohesion = uniaxial / (2.0 * std::sqrt(slope));
+  const auto line = [&](const double sigma_3) { return uniaxial + slope * sigma_3; };
+  for (const double sigma_3 : {0.0, 5e6, 40e6})
+    {
+      const auto [normal, shear] = touching_point(line, sigma_3);
+      // The derivative is a difference over some Pa: eight digits are left of sixteen.
+      EXPECT_NEAR(shear, cohesion + normal * std::tan(friction_angle), 1e-7 * uniaxial);
+      EXPECT_NEAR(std::hypot(normal - 0.5 * (line(sigma_3) + sigma_3), shear), 0.5 * (line(sigma_3) - sigma_3),
+                  1e-7 * uniaxial);
+    }
+}
+
+TEST(ResidualStrength, IsThatOfAPlateauAlone)
+{
+  // To 120 MPa at row 20, down to 40 MPa at row 40, level to row 80; under 10 MPa. Rows 60 to 80 are the last third.
+  const auto pressed = [](const double last_slope) {
+    FinishedTest test = compression(1);
+    test.record.kind = triaxial_compression.kind;
+    test.record.confining_pressure = 10e6;
+    test.record.curve.clear();
+    for (int k = 0; k <= 80; ++k)
+      {
+        CurveSample row;
+        row.axial_strain = -1e-4 * k;
+        row.axial_stress = -(k <= 20   ? 10e6 + 5.5e6 * k
+                             : k <= 40 ? 120e6 - 4e6 * (k - 20)
+                                       : 40e6 - last_slope * (k - 40));
+        test.record.curve.push_back(row);
+      }
+    return test;
+  };
+  EXPECT_NEAR(*residual_strength(pressed(0.0).record).value, 40e6, 1.0);
+  // The halves of the third differ by 10 rows' fall: 8 MPa are below, 15 MPa above a tenth of 110 MPa.
+  EXPECT_TRUE(residual_strength(pressed(0.8e6).record).value);
+  EXPECT_EQ(residual_strength(pressed(1.5e6).record).reason, "the stress was still changing when the test ended");
+  EXPECT_EQ(residual_strength(compression(1).record).reason, "too few rows after the peak");
+
+  Series series{"rock", SeriesKind::specimens, {}, {pressed(0.0), pressed(1.5e6)}, {}};
+  ASSERT_EQ(residual_points(series).size(), 1u); // one of two tests
+  EXPECT_NEAR(residual_points(series).front().sigma_1, 40e6, 1.0);
+  series.tests.push_back(pressed(1.5e6));
+  EXPECT_TRUE(residual_points(series).empty()); // one of three
+}
+
+std::size_t widest_line(const std::string& text)
+{
+  std::size_t widest = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    widest = std::max(
+      widest, std::size_t(std::count_if(line.begin(), line.end(), [](const char c) { return (c & 0xC0) != 0x80; })));
+  return widest;
+}
+
+TEST(TerminalText, OfAComparisonFitsAndLeavesOutWhatIsEmpty)
+{
+  const ReferenceValue measured{161.5, 160.0, 170.0};
+  std::vector<ComparisonRow> rows{
+    {"uniaxial compressive strength", "MPa", 1, Statistics{3, 176.0, 5.1, 2.9, 12.7}, std::nullopt, measured},
+    {"Young's modulus, tangent 40-60 % of peak", "GPa", 1, Statistics{3, 55.5, 0.4, 0.2, 1.0}, std::nullopt,
+     std::nullopt}};
+  EXPECT_EQ(as_text(rows).find("paper's model"), std::string::npos);
+  // There is room for 80 - 2 - 11 - 2 - 22 = 43 characters of a heading; the second has 46.
+  EXPECT_NE(as_text(rows).find("uniaxial compressive strength [MPa] "), std::string::npos) << as_text(rows);
+  EXPECT_NE(as_text(rows).find("\n  [GPa]\n"), std::string::npos) << as_text(rows);
+  rows[0].model = ReferenceValue{167.4, std::nullopt, std::nullopt};
+  const std::string text = as_text(rows);
+  EXPECT_NE(text.find("paper's model"), std::string::npos);
+  EXPECT_LE(widest_line(text), 80u) << text;
+  EXPECT_NE(text.find("\n  40-60 % of peak [GPa]\n"), std::string::npos) << text;
+}
+
+TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
+{
+  const std::string table = "tensile strength [MPa]                              10.01            9.07     9.53";
+  EXPECT_EQ(wrapped("one σσσ two three\n  four five six seven\n\n" + table, 11),
+            "one σσσ two\n  three\n  four five\n    six\n    seven\n\n" + table);
+  EXPECT_EQ(wrapped("averylongword andanother", 10), "averylongword\n  andanother");
+  EXPECT_EQ(wrapped("", 80), "");
+}
+
+TEST(Chart, IsDataThatEndsNoScript)
+{
+  Chart chart{.x_label = "</script><b>", .y_label = "q \xff [MPa]"};
+  chart.lines.push_back({.label = "a \"b\"", .colour = "#000000", .points = {{1.0 / 3.0, 2e6}, gap, {-1e-9, 0.0}}});
+  const std::string text = chart.json();
+  EXPECT_EQ(text.find('<'), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["x"], "</script><b>");
+  EXPECT_EQ(json["y"], "q \xef\xbf\xbd [MPa]"); // the replacement character stands for what is no UTF-8
+  EXPECT_EQ(json["lines"][0]["label"], "a \"b\"");
+  const auto& points = json["lines"][0]["points"];
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_NEAR(points[0][0], 1.0 / 3.0, 5e-6); // five digits
+  EXPECT_EQ(points[0][1], 2e6);
+  EXPECT_TRUE(points[1].is_null());
+  EXPECT_EQ(points[2][0], -1e-9);
+}
+
+// What the pointer shows is what the picture draws: the mean of two seeds, and each of them in a thin line.
+TEST(Chart, OfCurvesHasTheirPoints)
+{
+  const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1), compression(2, 1.2)}, {}}};
+  const auto pictures = curve_pictures(all).at(0).pictures;
+  const auto json = nlohmann::json::parse(pictures.at(0).live);
+  double highest = 0.0;
+  std::size_t n_thin = 0;
+  for (const auto& line : json["lines"])
+    if (line["label"] == "rock, axial")
+      for (const auto& point : line["points"])
+        highest = std::max(highest, point[1].get<double>());
+    else
+      n_thin += line["goes_with"] == "rock, axial" && line["kind"] == "line";
+  // 120 and 144 MPa at the same strain; 160 rows of the mean miss the corner by less than one of them, 1e-3 of 3e-3.
+  EXPECT_NEAR(highest, 132.0, 1.0);
+  EXPECT_EQ(n_thin, 2u);
+}
+
+TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
+{
+  const auto caption = [](const std::vector<FinishedTest>& tests) {
+    const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
+    std::string text;
+    for (const Picture& picture : curve_pictures(all).at(0).pictures)
+      text += picture.caption + "\n";
+    return text;
+  };
+  EXPECT_EQ(caption({compression(1)}).find("band"), std::string::npos);
+  EXPECT_EQ(caption({compression(1)}).find("mean of the tests"), std::string::npos);
+  EXPECT_NE(caption({compression(1), compression(2)}).find("bands: ± standard deviation"), std::string::npos);
+}
+
+TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
+{
+  const FinishedTest test = compression(1);
+  const auto json = nlohmann::json::parse(crack_story(test));
+  ASSERT_EQ(json["rows"].size(), 31u);
+  EXPECT_EQ(json["rows"][20], nlohmann::json::parse("[2.0, 120.0, 30, 5]")); // 10⁻³, MPa
+  ASSERT_EQ(json["cracks"].size(), 40u);
+  // Crack k broke at step 110 + 5 k, and row n stands at step 10 n: the first is there by row 11, the next by row 12.
+  EXPECT_EQ(json["cracks"][0][5], 11);
+  EXPECT_EQ(json["cracks"][1][5], 12);
+  EXPECT_EQ(json["cracks"][39][5], 30); // after the last row: with it
+  EXPECT_EQ(json["cracks"][0][4], 1);   // shear
+  // The face stands square to its normal (0.6, 0.8), 0.3 mm long.
+  EXPECT_NEAR(json["cracks"][0][2], -0.24, 1e-3);
+  EXPECT_NEAR(json["cracks"][0][3], 0.18, 1e-3);
+  EXPECT_EQ(json["grains"][0], nlohmann::json::parse("[10.0, 20.0, 0.62]")); // where it was at the start, mm
+
+  FinishedTest without = test;
+  without.record.cracks.clear();
+  EXPECT_EQ(crack_story(without), "");
+}
+
 TEST(Trust, WarnsOfAServoThatLetsTheConfinementGo)
 {
   Series series{"x", SeriesKind::specimens, {}, {compression(1)}, {}};
@@ -528,10 +695,10 @@ TEST(ResultFolder, TakesNoCountThatIsNone)
   write_result_folder({}, {compression(3)}, {}, folder.path());
   const auto file = folder.path() / "grains/uniaxial_compression_seed_3.csv";
   const std::string table = content(file);
-  ASSERT_TRUE(table.ends_with(",1\n")) << table; // the fragment of the last grain
+  ASSERT_TRUE(table.ends_with(",1,0\n")) << table; // the last grain's fragment, and no mineral grain
   for (const char* const number : {"1e300", "-1", "nan", "inf", "0.5", "4294967296"})
     {
-      folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 2) + number + "\n");
+      folder.write("grains/uniaxial_compression_seed_3.csv", table.substr(0, table.size() - 4) + number + ",0\n");
       const auto all = read_result_folder(folder.path(), test_kinds());
       ASSERT_EQ(all.at(0).problems.size(), 1u) << number;
       EXPECT_NE(all[0].problems[0].find(fmt::format(".csv:3: \"{}\" is no count", number)), std::string::npos)
@@ -563,7 +730,7 @@ TEST(Reference, StrengthsUnderConfinementComeInTheOrderOfPressure)
   const auto file = folder.write("rock.json", R"({"rock": "basalt", "experiment": {"label": "core tests",
     "strength_at_10_MPa": {"mean": 200}, "strength_at_2.5_MPa": {"mean": 120, "min": 100, "max": 140}},
     "paper_model": {"hoek_brown": {"sigma_ci_MPa": 100, "m": 10, "s": 1, "a": 0.5}}})");
-  const Reference reference = read_reference(file);
+  const Reference reference = read_reference(file, test_kinds());
   EXPECT_EQ(reference.experiment.label, "core tests");
   const auto points = reference.experiment.strengths();
   ASSERT_EQ(points.size(), 2u);
@@ -583,7 +750,7 @@ TEST(Reference, TakesWhatLaboratoriesHave)
     "friction_angle_deg": 30, "cohesion_MPa": 50,
     "triaxial": [{"confining_pressure_MPa": 20, "strength_MPa": 310}, {"confining_pressure_MPa": 10, "strength_MPa": 250},
                  {"confining_pressure_MPa": 10, "strength_MPa": 270}, {"confining_pressure_MPa": 0, "strength_MPa": 190}]}})");
-  const ReferenceSource rock = read_reference(file).experiment;
+  const ReferenceSource rock = read_reference(file, test_kinds()).experiment;
   // 95 % of further tests: t_{0.975, 4} = 2.776445 (any table), times 22·sqrt(1 + 1/5).
   const auto uniaxial = *rock.find("uniaxial_compressive_strength_MPa");
   EXPECT_NEAR(*uniaxial.high - 200.0, 2.776445 * 22.0 * std::sqrt(1.2), 1e-4);
@@ -613,7 +780,7 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
     const auto file = folder.write("rock.json", text);
     try
       {
-        read_reference(file);
+        read_reference(file, test_kinds());
       }
     catch (const InputError& error)
       {

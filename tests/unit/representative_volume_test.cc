@@ -1,4 +1,4 @@
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include <gtest/gtest.h>
 
@@ -6,18 +6,18 @@
 
 #include <cstring>
 
-/// The volume beyond its first crack: tangents, balances, and that trying is not doing.
+/// The RVE beyond its first crack: tangents, balances, and that trying is not doing.
 namespace feldspar
 {
 namespace
 {
 template <typename Case>
-class Volumes : public testing::Test
+class Rves : public testing::Test
 {
 };
-TYPED_TEST_SUITE(Volumes, Dimensions);
+TYPED_TEST_SUITE(Rves, Dimensions);
 
-/// FNV-1a over all a volume remembers.
+/// FNV-1a over all an RVE remembers.
 template <int dim>
 std::uint64_t hash(const NetworkState<dim>& state)
 {
@@ -47,44 +47,44 @@ constexpr EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance 
 
 /// Pulled until some segments have broken.
 template <int dim>
-RepresentativeVolume<dim> damaged_volume(const std::uint64_t seed = 1, const double friction = 0.5)
+RepresentativeVolume<dim> damaged_rve(const std::uint64_t seed = 1, const double friction = 0.5)
 {
-  RepresentativeVolume<dim> volume = small_volume<dim>(seed, sharp, friction);
-  const double first = volume.network().first_break(axial<dim>(1.0)).factor;
+  RepresentativeVolume<dim> rve = small_rve<dim>(seed, sharp, friction);
+  const double first = rve.network().first_break(axial<dim>(1.0)).factor;
   // In space a joint has twice as many segments and the first of them breaks earlier.
-  EXPECT_GT(strain_to(volume, axial<dim>((dim == 2 ? 1.2 : 1.8) * first), 10), 4u);
-  return volume;
+  EXPECT_GT(strain_to(rve, axial<dim>((dim == 2 ? 1.2 : 1.8) * first), 10), 4u);
+  return rve;
 }
 
-TYPED_TEST(Volumes, TrialLeavesNoTrace)
+TYPED_TEST(Rves, TrialLeavesNoTrace)
 {
   constexpr int dim = TypeParam::value;
-  for (auto volume : {small_volume<dim>(), damaged_volume<dim>()})
+  for (auto rve : {small_rve<dim>(), damaged_rve<dim>()})
     {
-      const std::uint64_t before = hash(volume.state());
-      const Voigt<dim> further = volume.state().strain + axial<dim>(2e-4) + uneven<dim>(1e-5);
-      const auto trial = volume.trial(further, Bonds::may_break, true);
+      const std::uint64_t before = hash(rve.state());
+      const Voigt<dim> further = rve.state().strain + axial<dim>(2e-4) + uneven<dim>(1e-5);
+      const auto trial = rve.trial(further, Bonds::may_break, true);
       EXPECT_TRUE(trial.in_equilibrium);
       EXPECT_GT(trial.breaks.size(), 0u);
-      EXPECT_EQ(hash(volume.state()), before);
+      EXPECT_EQ(hash(rve.state()), before);
       // Nor in the network all copies share: the same trial gives the same bits.
-      const auto again = volume.trial(further, Bonds::may_break, true);
+      const auto again = rve.trial(further, Bonds::may_break, true);
       EXPECT_EQ(hash(again.state), hash(trial.state));
       EXPECT_EQ(again.tangent->value, trial.tangent->value);
     }
 }
 
-TYPED_TEST(Volumes, IntactAnswerIsThatOfTheCascade)
+TYPED_TEST(Rves, IntactResponseIsThatOfTheCascade)
 {
   constexpr int dim = TypeParam::value;
-  // A volume told that it is not intact relaxes its grains one by one.
-  RepresentativeVolume<dim> volume = small_volume<dim>(1, sharp);
+  // An RVE told that it is not intact relaxes its grains one by one.
+  RepresentativeVolume<dim> rve = small_rve<dim>(1, sharp);
   const Voigt<dim> strain = uneven<dim>(5e-5);
-  const auto closed_form = volume.trial(strain);
+  const auto closed_form = rve.trial(strain);
   NetworkState<dim> state;
   state.intact = false;
-  volume.restore(state);
-  const auto relaxed = volume.trial(strain);
+  rve.restore(state);
+  const auto relaxed = rve.trial(strain);
   EXPECT_TRUE(relaxed.in_equilibrium);
   EXPECT_LT(relative(relaxed.state.stress, closed_form.state.stress), 1e-9);
   EXPECT_NEAR(relaxed.state.work.boundary, closed_form.state.work.boundary, 1e-9 * closed_form.state.work.boundary);
@@ -106,24 +106,24 @@ constexpr Friction frictions[] = {{1, 0.0}, {2, 0.0}, {3, 0.0}, {1, 1e9}, {2, 1e
 
 /// Faces close again, shear and turn.
 template <int dim>
-Voigt<dim> pressing(const RepresentativeVolume<dim>& volume)
+Voigt<dim> pressing(const RepresentativeVolume<dim>& rve)
 {
-  return volume.state().strain + axial<dim>(-2e-4) + uneven<dim>(3e-5);
+  return rve.state().strain + axial<dim>(-2e-4) + uneven<dim>(3e-5);
 }
 
-TYPED_TEST(Volumes, TangentIsThatOfADirectSolution)
+TYPED_TEST(Rves, TangentIsThatOfADirectSolution)
 {
   constexpr int dim = TypeParam::value;
   for (const Friction& friction : frictions)
     {
       SCOPED_TRACE(friction);
-      RepresentativeVolume<dim> volume = damaged_volume<dim>(friction.seed, friction.coefficient);
+      RepresentativeVolume<dim> rve = damaged_rve<dim>(friction.seed, friction.coefficient);
       for (const bool pressed : {false, true})
         {
           if (pressed)
-            strain_to(volume, pressing(volume), 10);
-          Equilibrium<dim> equilibrium(volume.network(), volume.state(), sharp);
-          const DirectSolution<dim> direct(volume.network(), equilibrium.link_tangents());
+            strain_to(rve, pressing(rve), 10);
+          Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp);
+          const DirectSolution<dim> direct(rve.network(), equilibrium.link_tangents());
           const Stiffness<dim> tangent = equilibrium.tangent();
           EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);
           EXPECT_EQ(tangent, tangent.transpose());
@@ -132,34 +132,34 @@ TYPED_TEST(Volumes, TangentIsThatOfADirectSolution)
           EXPECT_GT(difference.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0);
           if (!pressed)
             {
-              EXPECT_GT(relative(tangent, volume.network().intact_stiffness()), 0.02);
+              EXPECT_GT(relative(tangent, rve.network().intact_stiffness()), 0.02);
             }
         }
     }
 }
 
-TYPED_TEST(Volumes, TangentIsThatOfFiniteDifferences)
+TYPED_TEST(Rves, TangentIsThatOfFiniteDifferences)
 {
   constexpr int dim = TypeParam::value;
   for (const Friction& friction : frictions)
     {
       SCOPED_TRACE(friction);
       // Steps so small that no face opens, closes or begins to slide; the relaxation to 1e-11 leaves 1e-7 of them.
-      RepresentativeVolume<dim> volume = damaged_volume<dim>(friction.seed, friction.coefficient);
-      const Voigt<dim> pulled_further = volume.state().strain + axial<dim>(5e-6) + uneven<dim>(1e-6);
-      for (const Voigt<dim>& here : {pulled_further, pressing(volume)})
+      RepresentativeVolume<dim> rve = damaged_rve<dim>(friction.seed, friction.coefficient);
+      const Voigt<dim> pulled_further = rve.state().strain + axial<dim>(5e-6) + uneven<dim>(1e-6);
+      for (const Voigt<dim>& here : {pulled_further, pressing(rve)})
         {
           if (friction.coefficient > 0.0)
-            volume.accept(volume.trial(here, Bonds::frozen));
-          const auto centre = volume.trial(here, Bonds::frozen, true);
+            rve.accept(rve.trial(here, Bonds::frozen));
+          const auto centre = rve.trial(here, Bonds::frozen, true);
           ASSERT_TRUE(centre.in_equilibrium);
           constexpr double step = 1e-9;
           Stiffness<dim> differences;
           for (int k = 0; k < n_voigt<dim>; ++k)
             {
               const Voigt<dim> change = step * Voigt<dim>::Unit(k);
-              const auto plus = volume.trial(Voigt<dim>(here + change), Bonds::frozen);
-              const auto minus = volume.trial(Voigt<dim>(here - change), Bonds::frozen);
+              const auto plus = rve.trial(Voigt<dim>(here + change), Bonds::frozen);
+              const auto minus = rve.trial(Voigt<dim>(here - change), Bonds::frozen);
               ASSERT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
               differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
             }
@@ -168,19 +168,19 @@ TYPED_TEST(Volumes, TangentIsThatOfFiniteDifferences)
     }
 }
 
-TYPED_TEST(Volumes, IntactTangentIsThatOfFiniteDifferences)
+TYPED_TEST(Rves, IntactTangentIsThatOfFiniteDifferences)
 {
   constexpr int dim = TypeParam::value;
-  const auto volume = small_volume<dim>();
+  const auto rve = small_rve<dim>();
   constexpr double step = 1e-7;
   Stiffness<dim> differences;
   for (int k = 0; k < n_voigt<dim>; ++k)
-    differences.col(k) = volume.trial(Voigt<dim>(step * Voigt<dim>::Unit(k))).state.stress / step;
-  EXPECT_LT(relative(volume.trial(Voigt<dim>(Voigt<dim>::Zero()), Bonds::frozen, true).tangent->value, differences),
+    differences.col(k) = rve.trial(Voigt<dim>(step * Voigt<dim>::Unit(k))).state.stress / step;
+  EXPECT_LT(relative(rve.trial(Voigt<dim>(Voigt<dim>::Zero()), Bonds::frozen, true).tangent->value, differences),
             1e-12);
 }
 
-TEST(Volume, GrainsThatNothingJoinsComeToRestWhenTheyAreHit)
+TEST(Rve, GrainsThatNothingJoinsComeToRestWhenTheyAreHit)
 {
   const auto network = std::make_shared<const Network<2>>(periodic_specimen(1, 0.016));
   std::vector<bool> is_joined(network->n_grains(), false);
@@ -191,11 +191,11 @@ TEST(Volume, GrainsThatNothingJoinsComeToRestWhenTheyAreHit)
   // With the intact network's stiffness as mass a loose grain has next to none: then this flies apart.
   EquilibriumParameters parameters;
   parameters.most_iterations = 1; // of Newton's method: the rest by motion
-  const RepresentativeVolume<2> volume(network, parameters);
-  EXPECT_TRUE(volume.trial(Voigt<2>(-0.02, -0.02, 0.0), Bonds::frozen).in_equilibrium);
+  const RepresentativeVolume<2> rve(network, parameters);
+  EXPECT_TRUE(rve.trial(Voigt<2>(-0.02, -0.02, 0.0), Bonds::frozen).in_equilibrium);
 }
 
-TEST(LinkAnswer, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
+TEST(LinkResponse, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
 {
   // A joint broken throughout, pressed and sheared, turned until only an edge presses, slid on that and pulled open.
   const Network<2> network(periodic_specimen());
@@ -214,13 +214,13 @@ TEST(LinkAnswer, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
       const auto at = [&](const int k) {
         return Motion<2>(active.motion + double(k) / n_steps * (corner - active.motion));
       };
-      LinkAnswer<2> before = answer(network, active, active.motion);
+      LinkResponse<2> before = response(network, active, active.motion);
       const double stored_before = before.stored_energy;
       double work = 0.0;
       double slip = 0.0;
       for (int k = 1; k <= n_steps; ++k)
         {
-          const LinkAnswer<2> after = answer(network, active, at(k));
+          const LinkResponse<2> after = response(network, active, at(k));
           work += 0.5 * (before.forces + after.forces).dot(at(k) - at(k - 1));
           for (std::uint32_t i = 0; i < link.n_segments; ++i)
             slip += 0.5 * (before.segments[i].shear_stress[0] + after.segments[i].shear_stress[0]) *
@@ -240,7 +240,7 @@ TEST(LinkAnswer, WorkIsStoredOrSlidAwayAlsoWhereOnlyAnEdgePresses)
 
 /// The derivative by which a relaxation finds its way: of one joint whose segments are broken, pressed and slid in many
 /// directions, against central differences of its forces.
-TYPED_TEST(Volumes, DerivativeOfALinkIsThatOfFiniteDifferences)
+TYPED_TEST(Rves, DerivativeOfALinkIsThatOfFiniteDifferences)
 {
   constexpr int dim = TypeParam::value;
   const Network<dim> network(periodic_specimen<dim>());
@@ -264,7 +264,7 @@ TYPED_TEST(Volumes, DerivativeOfALinkIsThatOfFiniteDifferences)
         active.segments[i].bonded = false;
       Motion<dim> now = k % 3 == 0 ? draw() : Motion<dim>(active.motion + 0.1 * draw());
       now[0] = k % 5 == 0 ? now[0] : -1e-4 * length;
-      const auto here = answer(network, active, now);
+      const auto here = response(network, active, now);
       for (std::size_t i = 0; i < active.segments.size(); ++i)
         if (!active.segments[i].bonded && here.segments[i].shear_stress[0] != 0.0) // it presses
           ++(here.segments[i].slip[0] != 0.0 ? n_sliding : n_sticking);
@@ -274,9 +274,9 @@ TYPED_TEST(Volumes, DerivativeOfALinkIsThatOfFiniteDifferences)
       for (int c = 0; c < n_motions<dim>; ++c)
         {
           const Motion<dim> change = 1e-5 * size[c] * Motion<dim>::Unit(c);
-          differences.col(c) =
-            (answer<dim>(network, active, now + change).forces - answer<dim>(network, active, now - change).forces) /
-            (2e-5 * size[c]);
+          differences.col(c) = (response<dim>(network, active, now + change).forces -
+                                response<dim>(network, active, now - change).forces) /
+                               (2e-5 * size[c]);
         }
       // Per component in the units of its size; differences of second order in 1e-5.
       const auto in_units = [&](const JointStiffness<dim>& stiffness) {
@@ -288,7 +288,7 @@ TYPED_TEST(Volumes, DerivativeOfALinkIsThatOfFiniteDifferences)
   EXPECT_GT(n_sticking, 10u);
 }
 
-TYPED_TEST(Volumes, SmallInMemory)
+TYPED_TEST(Rves, SmallInMemory)
 {
   constexpr int dim = TypeParam::value;
   const auto bytes = [](const NetworkState<dim>& state) {
@@ -296,13 +296,13 @@ TYPED_TEST(Volumes, SmallInMemory)
            state.unbonded.capacity() * sizeof(UnbondedSegment<dim>);
   };
   // Some 400 discs; 125 spheres, of whose 600 500 kB are allowed.
-  RepresentativeVolume<dim> volume(
+  RepresentativeVolume<dim> rve(
     std::make_shared<const Network<dim>>(periodic_specimen<dim>(1, dim == 2 ? 0.032 : 0.008)), {});
-  EXPECT_GT(volume.network().n_grains(), dim == 2 ? 390u : 115u);
-  EXPECT_LT(bytes(volume.state()), 1000u);
-  strain_to(volume, axial<dim>(dim == 2 ? 1.6e-4 : 2.4e-4), 8);
-  EXPECT_GT(volume.state().n_tension_breaks, 20u);
-  EXPECT_LT(bytes(volume.state()), dim == 2 ? 64000u : 500000u * 125u / 600u);
+  EXPECT_GT(rve.network().n_grains(), dim == 2 ? 390u : 115u);
+  EXPECT_LT(bytes(rve.state()), 1000u);
+  strain_to(rve, axial<dim>(dim == 2 ? 1.6e-4 : 2.4e-4), 8);
+  EXPECT_GT(rve.state().n_tension_breaks, 20u);
+  EXPECT_LT(bytes(rve.state()), dim == 2 ? 64000u : 500000u * 125u / 600u);
 }
 } // namespace
 } // namespace feldspar

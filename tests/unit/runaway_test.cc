@@ -1,6 +1,6 @@
 #include "dem/dynamics/runaway.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
-#include "report/pictures/volume_pictures.h"
+#include "report/pictures/rve_pictures.h"
 #include "results/folder/result_folder.h"
 #include "tests/temporary_folder.h"
 
@@ -148,11 +148,14 @@ TEST(SamplePicture, StrokesLieInTheMeanCrack)
     fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = values;
   const auto strokes = rows_of(script_of(fields), "$strokes");
   ASSERT_EQ(strokes.size(), 3u); // none where nothing broke
-  // Normals all along y: a level crack, 0.8 of the cell's 10 mm. All along x: upright. Along the diagonal: across it.
+  // Normals all along y: a level crack, 0.8 of the cell's 10 mm, for no cell has more. All along x: upright, with two
+  // thirds of the cracks. Along the diagonal: across it, with a third.
   const std::vector<std::array<double, 2>> directions{{1.0, 0.0}, {0.0, 1.0}, {-along, along}};
+  const std::vector<double> lengths{8.0, 8.0 * 2.0 / 3.0, 8.0 / 3.0};
   for (std::size_t k = 0; k < 3; ++k)
     {
-      EXPECT_NEAR(std::abs(strokes[k].at(2) * directions[k][0] + strokes[k].at(3) * directions[k][1]), 8.0, 1e-4) << k;
+      EXPECT_NEAR(std::abs(strokes[k].at(2) * directions[k][0] + strokes[k].at(3) * directions[k][1]), lengths[k], 1e-4)
+        << k;
       EXPECT_NEAR(strokes[k].at(2) * directions[k][1] - strokes[k].at(3) * directions[k][0], 0.0, 1e-4) << k;
     }
   // As many cracks in either direction have none.
@@ -189,32 +192,31 @@ TEST(SamplePicture, NeedsGrains)
   EXPECT_TRUE(sample_picture(test_with({}), "Direct tension").empty());
 }
 
-PointVolume volume()
+PointRve rve()
 {
-  PointVolume volume{"most damaged", 3, 1, {0.015, 0.012, 0.0}, 200, {}, {}};
-  volume.grains = {{{0.01, 0.01, 0.0}, {0.0101, 0.01, 0.0}, 0.001, 0},
-                   {{0.012, 0.01, 0.0}, {0.012, 0.01, 0.0}, 0.001, 1}};
-  volume.cracks = {{CrackKind::tension, 4, 2, 9, 1e-4, {0.011, 0.01, 0.0}, {1.0, 0.0, 0.0}, 5e-4, 1e-3},
-                   {CrackKind::shear, 5, 0, 9, 1e-4, {0.011, 0.01, 0.0}, {0.0, 1.0, 0.0}, 5e-4, 1e-3}};
-  return volume;
+  PointRve rve{"most damaged", 3, 1, {0.015, 0.012, 0.0}, 200, {}, {}};
+  rve.grains = {{{0.01, 0.01, 0.0}, {0.0101, 0.01, 0.0}, 0.001, 0}, {{0.012, 0.01, 0.0}, {0.012, 0.01, 0.0}, 0.001, 1}};
+  rve.cracks = {{CrackKind::tension, 4, 2, 9, 1e-4, {0.011, 0.01, 0.0}, {1.0, 0.0, 0.0}, 5e-4, 1e-3},
+                {CrackKind::shear, 5, 0, 9, 1e-4, {0.011, 0.01, 0.0}, {0.0, 1.0, 0.0}, 5e-4, 1e-3}};
+  return rve;
 }
 
-TEST(SamplePicture, MarksTheVolumesThatAreDrawn)
+TEST(SamplePicture, MarksTheRvesThatAreDrawn)
 {
   auto test = test_with(blocks(2));
-  test.appearance.volumes = {volume()};
+  test.appearance.rves = {rve()};
   const auto sample = sample_picture(test, "Direct tension").at(0);
   EXPECT_NE(sample.script.find("set label 'A' at 15,12.6 "), std::string::npos); // lifted by 0.06 mm, ten times
-  const auto volumes = volume_picture(test, "Direct tension").at(0);
-  EXPECT_NE(volumes.script.find("'A: most damaged'"), std::string::npos);
-  EXPECT_EQ(rows_of(volumes.script, "$grains0").size(), 1u);
-  EXPECT_EQ(rows_of(volumes.script, "$loose0").size(), 1u);
+  const auto rves = rve_picture(test, "Direct tension").at(0);
+  EXPECT_NE(rves.script.find("'A: most damaged'"), std::string::npos);
+  EXPECT_EQ(rows_of(rves.script, "$grains0").size(), 1u);
+  EXPECT_EQ(rows_of(rves.script, "$loose0").size(), 1u);
   // A crack stands across its normal.
-  const auto tension = rows_of(volumes.script, "$tension0").at(0);
+  const auto tension = rows_of(rves.script, "$tension0").at(0);
   EXPECT_NEAR(tension.at(2), 0.0, 1e-12);
   EXPECT_NEAR(std::abs(tension.at(3)), 0.5, 1e-9);
-  EXPECT_EQ(broken_share(test.appearance.volumes[0]), 0.01);
-  EXPECT_EQ(standing_of(test.appearance.volumes[0], test.appearance.fields), "(15.0, 12.0) mm");
+  EXPECT_EQ(broken_share(test.appearance.rves[0]), 0.01);
+  EXPECT_EQ(standing_of(test.appearance.rves[0], test.appearance.fields), "(15.0, 12.0) mm");
 }
 
 /// As deal.II writes it, two times.
@@ -294,17 +296,17 @@ TEST(SampleFieldsFile, IsReadAsItLiesThere)
   EXPECT_NE(objection().find("test.xdmf: missing"), std::string::npos) << objection();
 }
 
-TEST(ResultFolder, KeepsTheVolumesOfASample)
+TEST(ResultFolder, KeepsTheRvesOfASample)
 {
   const TemporaryFolder folder;
   auto test = test_with({});
   test.record.curve.clear();
-  test.appearance.volumes = {volume()};
+  test.appearance.rves = {rve()};
   write_result_folder({}, {test}, {}, folder.path());
   const auto all = read_result_folder(folder.path(), test_kinds());
-  ASSERT_EQ(all.at(0).tests.at(0).appearance.volumes.size(), 1u);
-  const PointVolume& read = all[0].tests[0].appearance.volumes[0];
-  const PointVolume& was = test.appearance.volumes[0];
+  ASSERT_EQ(all.at(0).tests.at(0).appearance.rves.size(), 1u);
+  const PointRve& read = all[0].tests[0].appearance.rves[0];
+  const PointRve& was = test.appearance.rves[0];
   EXPECT_EQ(read.which, was.which);
   EXPECT_EQ(read.place(), "3:1");
   EXPECT_EQ(read.position, was.position);
@@ -318,7 +320,7 @@ TEST(ResultFolder, KeepsTheVolumesOfASample)
   // A folder that lost them says so, and the test is there without them.
   std::filesystem::remove(folder.path() / "points/direct_tension_seed_1_cell_3_point_1_grains.csv");
   const auto without = read_result_folder(folder.path(), test_kinds());
-  EXPECT_TRUE(without.at(0).tests.at(0).appearance.volumes.empty());
+  EXPECT_TRUE(without.at(0).tests.at(0).appearance.rves.empty());
   const auto& problems = without[0].problems;
   EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const std::string& problem) {
     return problem.find("point_1_grains.csv: cannot be read: No such file") != std::string::npos;

@@ -247,7 +247,7 @@ TEST(SpaceJoint, MovesInThePlaneAsThePlaneDoes)
 TEST(SpaceJoint, BrokenAndPressedItResistsRotationWhereAPointContactDoesNot)
 {
   // All elements broken, pressed by δ and bent by θ: while every centroid stays closed the couple is that of the bonded
-  // disk, and once an edge opens that of the elements still closed. A point contact has no answer to θ.
+  // disk, and once an edge opens that of the elements still closed. A point contact has no response to θ.
   auto wanted = verification_joint();
   wanted.slit_fraction = 1.0;
   const double radius = 6.25e-3;

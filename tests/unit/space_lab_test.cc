@@ -1,8 +1,8 @@
 // Laboratory tests on cylinders.
 
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

@@ -76,7 +76,7 @@ public:
   {
   }
 
-  MaterialAnswer<2> trial(const StrainVector<2>&) const override
+  MaterialResponse<2> trial(const StrainVector<2>&) const override
   {
     ++n_present;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);

@@ -3,7 +3,7 @@
 #include "coupling/rve/stiffness_bounds.h"
 
 #include "dem/genesis/coring.h"
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>

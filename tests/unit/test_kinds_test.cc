@@ -86,6 +86,7 @@ TEST(TestKinds, ThatSayTooLittleAreNoProtocol)
        {+[](LaboratoryProtocol& p) { p.kind.name = ""; }, +[](LaboratoryProtocol& p) { p.kind.title = ""; },
         +[](LaboratoryProtocol& p) { p.kind.strength = ""; },
         +[](LaboratoryProtocol& p) { p.kind.sign = TestKind{}.sign; },
+        +[](LaboratoryProtocol& p) { p.strain_rate = nullptr; },
         +[](LaboratoryProtocol& p) {
           p.set_up_2d.reset();
           p.set_up_3d.reset();
@@ -132,6 +133,11 @@ TEST(TestKinds, OfANameOnlyRunOnNoFiniteElementsUnderNoPressureAndGiveNoElasticC
   EXPECT_NE(objection_to_finite_elements(brazilian.kind), "");
   EXPECT_EQ(objection_to_finite_elements(triaxial_compression.kind), "");
 
+  EXPECT_EQ(objection_to_grains(three_point_bending.kind, Body::box), "");
+  EXPECT_EQ(objection_to_grains(three_point_bending.kind, Body::cylinder),
+            "Tests/List: three_point_bending: is not made on cylinders of spheres; tests that are: direct_tension, "
+            "uniaxial_compression, triaxial_compression, brazilian, semicircular_bending");
+
   EXPECT_FALSE(any_takes_confining_pressure({torsion, direct_tension.kind}));
   EXPECT_EQ(test_cases({torsion}, {5e6, 10e6}).size(), 1u);
   EXPECT_EQ(name(TestCase{torsion, 5e6}), "torsion");
@@ -144,6 +150,26 @@ TEST(TestKinds, OfANameOnlyRunOnNoFiniteElementsUnderNoPressureAndGiveNoElasticC
   EXPECT_FALSE(test.results.poissons_ratio_secant.value);
   EXPECT_FALSE(test.results.crack_damage_stress.value);
   EXPECT_TRUE(finished(uniaxial_compression.kind, 300e6).results.youngs_modulus_secant.value);
+}
+
+TEST(TestKinds, HaveAStrengthThatAReferenceCanGiveAndAComparisonFinds)
+{
+  for (const TestKind& kind : test_kinds())
+    if (kind.envelope_role == EnvelopeRole::none)
+      {
+        const FinishedTest test = finished(kind, 30e6, kind.takes_confining_pressure ? 5e6 : 0.0);
+        const TemporaryFolder folder;
+        const std::string key =
+          fmt::format("{}{}_strength_MPa", kind.name, kind.takes_confining_pressure ? "_5_MPa" : "");
+        const Reference reference = read_reference(
+          folder.write("rock.json", fmt::format("{{\"experiment\": {{\"{}\": {{\"mean\": 31}}}}}}", key)),
+          test_kinds());
+        const auto compared = compare({test}, reference);
+        EXPECT_TRUE(
+          std::any_of(compared.begin(), compared.end(),
+                      [](const ComparisonRow& row) { return row.experiment && *row.experiment->mean == 31.0; }))
+          << key;
+      }
 }
 
 TEST(TestKinds, OfANameOnlyAreComparedUnderTheirOwnName)

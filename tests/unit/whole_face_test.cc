@@ -1,4 +1,4 @@
-// A face whose segments are all bonded answers as one spring: the same forces, breaks and energies as segment by segment.
+// A face whose segments are all bonded responses as one spring: the same forces, breaks and energies as segment by segment.
 
 #include "dem/dynamics/joint_sweep_of_law.h"
 #include "tests/unit/small_specimen.h"
@@ -13,15 +13,15 @@ namespace feldspar
 {
 namespace
 {
-/// The flat joint without its answer as one: segment by segment from the first step on.
+/// The flat joint without its response as one: segment by segment from the first step on.
 template <int dim>
 struct SegmentBySegment : FlatJoint<dim>
 {
   using FlatJoint<dim>::FlatJoint;
   void whole_response() = delete;
 };
-static_assert(AnswersAsOne<FlatJoint<2>, 2, simd::Pack> && AnswersAsOne<FlatJoint<3>, 3, double>);
-static_assert(!AnswersAsOne<SegmentBySegment<2>, 2, simd::Pack> && !AnswersAsOne<SegmentBySegment<3>, 3, double>);
+static_assert(RespondsAsOne<FlatJoint<2>, 2, simd::Pack> && RespondsAsOne<FlatJoint<3>, 3, double>);
+static_assert(!RespondsAsOne<SegmentBySegment<2>, 2, simd::Pack> && !RespondsAsOne<SegmentBySegment<3>, 3, double>);
 
 template <int dim>
 Specimen<dim> specimen_of()
@@ -53,7 +53,7 @@ class WholeFace : public testing::Test
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(WholeFace, Dimensions, );
 
-TYPED_TEST(WholeFace, AnswersAndBreaksAsItsSegmentsDo)
+TYPED_TEST(WholeFace, RespondsAndBreaksAsItsSegmentsDo)
 {
   constexpr int dim = TypeParam::value;
   Specimen<dim> specimen = specimen_of<dim>();
@@ -137,8 +137,8 @@ TYPED_TEST(WholeFace, HasTheSameBitsWhateverItsNeighboursInAPack)
   for (std::size_t k = 0; k < kept.size(); ++k)
     {
       n_whole += others.holds_wholly(k);
-      for (std::size_t row = 0; row < all.answer.n_rows(); ++row)
-        EXPECT_EQ(*others.answer.at(row, k), *all.answer.at(row, kept[k]));
+      for (std::size_t row = 0; row < all.response.n_rows(); ++row)
+        EXPECT_EQ(*others.response.at(row, k), *all.response.at(row, kept[k]));
       for (std::size_t row = 0; row < all.state.n_rows(); ++row)
         EXPECT_EQ(*others.state.at(row, k), *all.state.at(row, kept[k]));
     }

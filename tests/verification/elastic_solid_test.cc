@@ -86,11 +86,11 @@ TEST(ElasticSample, BetweenSmoothPlatensIsHomogeneous)
       Solid<2> solid(mesh, {.order = order}, plane_strain);
       solve(solid, PlatenTest<2>().pressing(-1e-4));
       const double stress = plane_modulus * -1e-3;
-      for (const auto& answer : solid.answers())
+      for (const auto& response : solid.responses())
         {
-          EXPECT_NEAR(answer.stress[0], 0.0, 1e-9 * std::abs(stress));
-          EXPECT_NEAR(answer.stress[1], stress, 1e-9 * std::abs(stress));
-          EXPECT_NEAR(answer.stress[2], 0.0, 1e-9 * std::abs(stress));
+          EXPECT_NEAR(response.stress[0], 0.0, 1e-9 * std::abs(stress));
+          EXPECT_NEAR(response.stress[1], stress, 1e-9 * std::abs(stress));
+          EXPECT_NEAR(response.stress[2], 0.0, 1e-9 * std::abs(stress));
         }
       EXPECT_NEAR(solid.reaction("top", 1), stress * 0.05, 1e-9 * std::abs(stress) * 0.05);
       EXPECT_NEAR(solid.reaction("bottom", 1), -stress * 0.05, 1e-9 * std::abs(stress) * 0.05);
@@ -106,10 +106,10 @@ TEST(ElasticSample, GivesTheSameInThePlaneWithAMaterialOfTheSpace)
   Solid<2, 3> space(mesh, {}, in_space);
   solve(plane, load);
   solve(space, load);
-  for (std::size_t i = 0; i < plane.answers().size(); ++i)
+  for (std::size_t i = 0; i < plane.responses().size(); ++i)
     {
-      const auto& expected = plane.answers()[i].stress;
-      const auto& found = space.answers()[i].stress; // x, out of the plane, y
+      const auto& expected = plane.responses()[i].stress;
+      const auto& found = space.responses()[i].stress; // x, out of the plane, y
       const double scale = 1e-9 * expected.norm();
       EXPECT_NEAR(found[0], expected[0], scale);
       EXPECT_NEAR(found[2], expected[1], scale);
@@ -144,15 +144,15 @@ TEST(ElasticSample, IsSeatedUnderPressureThenLoadedByPlatens)
   const double p = 20e6;
   const PlatenTest<2> test{.confining_pressure = p};
   solve(solid, test.seating());
-  for (const auto& answer : solid.answers())
-    EXPECT_LT((answer.stress - StressVector<2>(-p, -p, 0.0)).norm(), 1e-9 * p);
+  for (const auto& response : solid.responses())
+    EXPECT_LT((response.stress - StressVector<2>(-p, -p, 0.0)).norm(), 1e-9 * p);
   EXPECT_NEAR(solid.reaction("bottom", 1), p * 0.05, 1e-9 * p * 0.05);
 
   const double seated = solid.mean_displacement("top", 1);
   solve(solid, test.pressing(seated - 1e-4));
   const double axial = -p + plane_modulus * -1e-3;
-  for (const auto& answer : solid.answers())
-    EXPECT_LT((answer.stress - StressVector<2>(-p, axial, 0.0)).norm(), 1e-9 * std::abs(axial));
+  for (const auto& response : solid.responses())
+    EXPECT_LT((response.stress - StressVector<2>(-p, axial, 0.0)).norm(), 1e-9 * std::abs(axial));
   // The pressure of the plate has gone over into the reaction.
   EXPECT_NEAR(solid.reaction("top", 1), axial * 0.05, 1e-9 * std::abs(axial) * 0.05);
 }
@@ -212,14 +212,14 @@ TEST(ElasticCylinder, InSpaceIsTheSameBetweenSmoothPlatens)
         Solid<3> solid(mesh, {.kinematics = Kinematics::full, .order = order}, in_space);
         const PlatenTest<3> test{.kinematics = Kinematics::full, .confining_pressure = p};
         solve(solid, test.seating());
-        for (const auto& answer : solid.answers())
-          EXPECT_LT((answer.stress - (StressVector<3>() << -p, -p, -p, 0.0, 0.0, 0.0).finished()).norm(), 1e-8 * p);
+        for (const auto& response : solid.responses())
+          EXPECT_LT((response.stress - (StressVector<3>() << -p, -p, -p, 0.0, 0.0, 0.0).finished()).norm(), 1e-8 * p);
         const double seated = solid.mean_displacement("top", 2);
         const double seated_side = solid.swept_volume("side");
         solve(solid, test.pressing(seated - 1e-4));
         const double axial = -p - E * 1e-3;
-        for (const auto& answer : solid.answers())
-          EXPECT_LT((answer.stress - (StressVector<3>() << -p, -p, axial, 0.0, 0.0, 0.0).finished()).norm(),
+        for (const auto& response : solid.responses())
+          EXPECT_LT((response.stress - (StressVector<3>() << -p, -p, axial, 0.0, 0.0, 0.0).finished()).norm(),
                     1e-8 * std::abs(axial));
         EXPECT_NEAR(solid.reaction("top", 2), axial * solid.area("top"), 1e-8 * std::abs(axial) * solid.area("top"));
         // Both ways across, whatever polygon the section is.
@@ -299,7 +299,7 @@ TEST(Lame, RingInThePlane)
                 const double r_squared = x * x + y * y;
                 const double c = x / std::sqrt(r_squared);
                 const double s = y / std::sqrt(r_squared);
-                const auto& stress = solid.answers()[i].stress;
+                const auto& stress = solid.responses()[i].stress;
                 const double hoop = s * s * stress[0] + c * c * stress[1] - 2.0 * s * c * stress[2];
                 // Issue: within 1 %, of the largest hoop stress. Stress of order 1 converges as h, at points as h².
                 EXPECT_NEAR(hoop, ring.A + ring.B / r_squared, 0.01 * (ring.A + ring.B / (ring.a * ring.a)));
@@ -458,7 +458,7 @@ TEST(Kirsch, HoleInAPlate)
                 {
                   const double x = solid.places()[i].position[0];
                   const double y = solid.places()[i].position[1];
-                  const auto& stress = solid.answers()[i].stress;
+                  const auto& stress = solid.responses()[i].stress;
                   const double hoop =
                     (y * y * stress[0] + x * x * stress[1] - 2.0 * x * y * stress[2]) / (x * x + y * y);
                   EXPECT_NEAR(hoop, hole.hoop_stress(x, y), 0.01 * 3.0 * hole.S);

@@ -2,8 +2,8 @@
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

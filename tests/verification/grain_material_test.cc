@@ -2,7 +2,7 @@
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
 #include "fem/solid/solid.h"
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -35,9 +35,9 @@ fem::Load<2> uniform_strain(const Voigt<2>& strain)
   return load;
 }
 
-// Strained the same way, an element of one realisation in its own axes and the bare volume take the same steps: intact,
+// Strained the same way, an element of one realisation in its own axes and the bare RVE take the same steps: intact,
 // and through breaks.
-TEST(GrainMaterial, OneElementIsTheBareVolume)
+TEST(GrainMaterial, OneElementIsTheBareRve)
 {
   const auto network = std::make_shared<const Network<2>>(periodic_specimen());
   RepresentativeVolume<2> bare(network, tight());
@@ -76,8 +76,8 @@ class GrainMaterials : public testing::Test
 };
 TYPED_TEST_SUITE(GrainMaterials, Dimensions);
 
-// A volume turned by 30° under a strain answers as the volume itself under the strain turned back.
-TYPED_TEST(GrainMaterials, ATurnedVolumeAnswersInTheAxesOfTheSample)
+// An RVE turned by 30° under a strain responds as the RVE itself under the strain turned back.
+TYPED_TEST(GrainMaterials, ATurnedRveRespondsInTheAxesOfTheSample)
 {
   constexpr int dim = TypeParam::value;
   const auto network = std::make_shared<const Network<dim>>(periodic_specimen<dim>());
@@ -86,19 +86,19 @@ TYPED_TEST(GrainMaterials, ATurnedVolumeAnswersInTheAxesOfTheSample)
   turn.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();
   const GrainPoint<dim> point(network, turn, tight());
   const Voigt<dim> strain = uneven<dim>(3e-5);
-  const auto answer = point.trial(strain);
-  const Tensor<dim> in_volume = turn.transpose() * strain_tensor<dim>(strain) * turn;
-  const Voigt<dim> of_volume = network->intact_stiffness() * strain_voigt<dim>(in_volume);
-  const Tensor<dim> expected = turn * stress_tensor<dim>(of_volume) * turn.transpose();
-  EXPECT_LT((stress_tensor<dim>(answer.stress) - expected).norm(), 1e-13 * expected.norm());
-  EXPECT_LT((answer.tangent * strain - answer.stress).norm(), 1e-13 * answer.stress.norm()); // linear so far
+  const auto response = point.trial(strain);
+  const Tensor<dim> in_rve = turn.transpose() * strain_tensor<dim>(strain) * turn;
+  const Voigt<dim> of_rve = network->intact_stiffness() * strain_voigt<dim>(in_rve);
+  const Tensor<dim> expected = turn * stress_tensor<dim>(of_rve) * turn.transpose();
+  EXPECT_LT((stress_tensor<dim>(response.stress) - expected).norm(), 1e-13 * expected.norm());
+  EXPECT_LT((response.tangent * strain - response.stress).norm(), 1e-13 * response.stress.norm()); // linear so far
 }
 
-// Between smooth platens a sample whose points all have the same volume strains evenly, each point with stress along the
-// axis only, until strain gathers somewhere: it follows the curve of the volume by itself under that control. Cascades run
+// Between smooth platens a sample whose points all have the same RVE strains evenly, each point with stress along the
+// axis only, until strain gathers somewhere: it follows the curve of the RVE by itself under that control. Cascades run
 // at constant strain here, at constant stress sideways there, so that a break may fall into the next step.
 // One element by itself differs by less.
-void expect_curve_of_volume(const std::array<unsigned int, 2>& n_elements, const double tolerance)
+void expect_curve_of_rve(const std::array<unsigned int, 2>& n_elements, const double tolerance)
 {
   std::size_t n_breaks = 0;
   for (const double step : {4e-6, -1e-4})
@@ -130,10 +130,10 @@ void expect_curve_of_volume(const std::array<unsigned int, 2>& n_elements, const
   EXPECT_GT(n_breaks, 5u);
 }
 
-TEST(GrainMaterial, OneElementBetweenPlatensFollowsTheCurveOfItsVolume) { expect_curve_of_volume({1, 1}, 1e-3); }
-TEST(GrainMaterial, AHomogeneousSampleFollowsTheCurveOfItsVolume) { expect_curve_of_volume({2, 4}, 5e-3); }
+TEST(GrainMaterial, OneElementBetweenPlatensFollowsTheCurveOfItsRve) { expect_curve_of_rve({1, 1}, 1e-3); }
+TEST(GrainMaterial, AHomogeneousSampleFollowsTheCurveOfItsRve) { expect_curve_of_rve({2, 4}, 5e-3); }
 
-// The work of platens and pressures goes into what the volumes store and lose and what elements set free on their way to
+// The work of platens and pressures goes into what the RVEs store and lose and what elements set free on their way to
 // equilibrium after breaks; none of them is computed from another. To round-off while nothing breaks, beyond to 1e-4 of the
 // work (3e-5 in the avalanche of the pull, of which a large part is set free between the elements).
 TEST(GrainMaterial, TheWorkOfThePlatensIsStoredLostAndSetFree)
@@ -189,7 +189,7 @@ TEST(GrainMaterial, TheWorkOfThePlatensIsStoredLostAndSetFree)
   EXPECT_GT(pressed.redistribution, 0.0);
 }
 
-// At a strain at which it has just been found stable a point accepts what was found there. At one where it has no answer it
+// At a strain at which it has just been found stable a point accepts what was found there. At one where it has no response it
 // says so, and stays as it was.
 TEST(GrainMaterial, AcceptsWhatWasFoundStableOrLeavesThePointAsItIs)
 {
@@ -211,7 +211,7 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   point.trial(strain);
   ASSERT_GT(point.relax(strain), 0u);
   point.reject();
-  EXPECT_TRUE(point.volume().state().intact);
+  EXPECT_TRUE(point.rve().state().intact);
   EXPECT_EQ(point.fields(), std::vector<double>(7, 0.0));
   EXPECT_TRUE(point.cracks_of_last_step().empty());
 
@@ -249,7 +249,7 @@ TEST(GrainMaterial, CracksAreFieldsInTheAxesOfTheSample)
 }
 
 // Each point draws by itself: the same seed deals the same whatever the order, another seed otherwise.
-TEST(GrainMaterial, VolumesAreDealtByTheSeed)
+TEST(GrainMaterial, RvesAreDealtByTheSeed)
 {
   std::vector<std::shared_ptr<const Network<2>>> realisations;
   for (const std::uint64_t seed : {1, 2, 3})
@@ -259,7 +259,7 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
     parameters.seed = seed;
     const auto point = grain_material<2>(realisations, parameters).make_point({"0_0:", 0, q, {0.0, 0.0}, 0.01});
     const auto& grains = dynamic_cast<const GrainPoint<2>&>(*point);
-    return std::pair(&grains.volume().network(), grains.orientation()(0, 0));
+    return std::pair(&grains.rve().network(), grains.orientation()(0, 0));
   };
   std::set<const Network<2>*> used;
   std::set<double> cosines;
@@ -276,7 +276,7 @@ TEST(GrainMaterial, VolumesAreDealtByTheSeed)
 
 // Two cells of four points. To elements: the points of one have the same network and orientation, those of the other
 // another orientation. In turn: with as many realisations as points (or elements) each is dealt once.
-TEST(GrainMaterial, VolumesAreDealtToElementsAndInTurn)
+TEST(GrainMaterial, RvesAreDealtToElementsAndInTurn)
 {
   std::vector<std::shared_ptr<const Network<2>>> realisations;
   for (std::uint64_t seed = 1; seed <= 8; ++seed)
@@ -288,7 +288,7 @@ TEST(GrainMaterial, VolumesAreDealtToElementsAndInTurn)
       grain_material<2>({realisations.begin(), realisations.begin() + std::ptrdiff_t(n)}, parameters);
     const auto point = material.make_point({cell == 0 ? "0_0:" : "1_0:", cell, q, {0.0, 0.0}, 0.01});
     const auto& grains = dynamic_cast<const GrainPoint<2>&>(*point);
-    return {&grains.volume().network(), grains.orientation()(0, 0)};
+    return {&grains.rve().network(), grains.orientation()(0, 0)};
   };
 
   GrainMaterialParameters to_elements;
@@ -313,9 +313,9 @@ TEST(GrainMaterial, VolumesAreDealtToElementsAndInTurn)
   EXPECT_EQ(dealt(in_turn, 2, 0, 3), dealt(in_turn, 2, 0, 0));
 }
 
-// Weak cells change nothing else: each of their points has the twin of the volume that it had without them, in the same
+// Weak cells change nothing else: each of their points has the twin of the RVE that it had without them, in the same
 // axes, and the twin is the same network with bonds of that share of their strengths.
-TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirVolumes)
+TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
 {
   constexpr double share = 0.8;
   std::vector<std::shared_ptr<const Network<2>>> realisations;
@@ -351,14 +351,14 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirVolumes)
         const auto without = plain.make_point(place);
         const auto with = seeded.make_point(place);
         EXPECT_EQ(grains_of(with).orientation(), grains_of(without).orientation());
-        const Network<2>* const usual = &grains_of(without).volume().network();
+        const Network<2>* const usual = &grains_of(without).rve().network();
         const Network<2>* expected = usual;
         if (cell == "1_0:")
           {
             expected = weak.twins[usual == realisations[0].get() ? 0 : 1].get();
             twins_used.insert(expected);
           }
-        EXPECT_EQ(&grains_of(with).volume().network(), expected);
+        EXPECT_EQ(&grains_of(with).rve().network(), expected);
       }
   EXPECT_EQ(twins_used.size(), 2u); // missing one in 20 draws has odds of 2e-6
 }

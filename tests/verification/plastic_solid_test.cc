@@ -77,9 +77,9 @@ TEST(MohrCoulombElement, InTriaxialCompressionOfACylinder)
 class WithElasticTangent : public MaterialPoint<3>
 {
 public:
-  MaterialAnswer<3> trial(const StrainVector<3>& strain) const override
+  MaterialResponse<3> trial(const StrainVector<3>& strain) const override
   {
-    return {update(rock, {}, strain).answer.stress, isotropic_stiffness<3>(E, nu)};
+    return {update(rock, {}, strain).response.stress, isotropic_stiffness<3>(E, nu)};
   }
 };
 
@@ -103,7 +103,7 @@ TEST(Newton, ConvergesQuadraticallyWithTheConsistentTangent)
   EXPECT_FALSE(wrong.solve(load).converged);
 }
 
-/// Springs along both axes, each σ = E ε + B ε³, that answer to small strains only.
+/// Springs along both axes, each σ = E ε + B ε³, that respond to small strains only.
 class StiffeningPoint : public MaterialPoint<2>
 {
 public:
@@ -113,17 +113,17 @@ public:
   {
   }
 
-  MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+  MaterialResponse<2> trial(const StrainVector<2>& strain) const override
   {
     if (strain.cwiseAbs().maxCoeff() > limit)
       throw PointFailure("too far");
-    MaterialAnswer<2> answer{StressVector<2>::Zero(), StiffnessMatrix<2>::Zero()};
+    MaterialResponse<2> response{StressVector<2>::Zero(), StiffnessMatrix<2>::Zero()};
     for (int i = 0; i < 3; ++i)
       {
-        answer.stress[i] = E * strain[i] + cubic * strain[i] * strain[i] * strain[i];
-        answer.tangent(i, i) = E + 3.0 * cubic * strain[i] * strain[i];
+        response.stress[i] = E * strain[i] + cubic * strain[i] * strain[i] * strain[i];
+        response.tangent(i, i) = E + 3.0 * cubic * strain[i] * strain[i];
       }
-    return answer;
+    return response;
   }
 
 private:
@@ -131,7 +131,7 @@ private:
   double limit;
 };
 
-TEST(Newton, GoesOnlyAsFarAsThePointsAnswer)
+TEST(Newton, GoesOnlyAsFarAsThePointsRespond)
 {
   // The strain is 0.4 P/E, for B = 0.6/0.4³ E³/P²; the first step of Newton's method would go to P/E.
   const double pressure = 10e6;
@@ -151,7 +151,7 @@ TEST(Newton, GoesOnlyAsFarAsThePointsAnswer)
     mesh, {}, {[&](const PointPlace&) { return std::make_unique<StiffeningPoint>(cubic, 0.01 * first); }, {}});
   report = short_of_breath.solve(test.seating());
   EXPECT_FALSE(report.converged);
-  EXPECT_EQ(report.failure, "a material point has no answer to its strain");
+  EXPECT_EQ(report.failure, "a material point has no response to its strain");
 }
 
 // ---- freeze, solve, break
@@ -212,7 +212,7 @@ TEST(Breaking, IsTakenBackByAStepThatIsNotAccepted)
   solid.reject();
   EXPECT_EQ(n_broken(solid), 0u);
   EXPECT_EQ(solid.reaction("top", 1), force);
-  // The points are whole at work too: the same strain answers as before.
+  // The points are whole at work too: the same strain responses as before.
   const auto again = solid.solve(pull(0.99 * limit_strain));
   EXPECT_EQ(again.n_events, 0u);
   solid.accept();
@@ -249,11 +249,11 @@ TEST(Breaking, IsTakenBackWhereTheRunIsInterrupted)
 
 // ---- cutting of steps
 
-/// Elastic, but with no answer to a strain along y that is more than a limit from the accepted one.
+/// Elastic, but with no response to a strain along y that is more than a limit from the accepted one.
 class ImpatientPoint : public MaterialPoint<2>
 {
 public:
-  MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+  MaterialResponse<2> trial(const StrainVector<2>& strain) const override
   {
     if (std::abs(strain[1] - accepted[1]) > 2.1e-4)
       throw PointFailure("too far");
@@ -297,7 +297,7 @@ TEST(Advance, StopsWhereNoStepGoesAndKeepsWhatWasReached)
     }
   catch (const StepFailure& failure)
     {
-      EXPECT_NE(std::string(failure.what()).find("a material point has no answer to its strain"), std::string::npos);
+      EXPECT_NE(std::string(failure.what()).find("a material point has no response to its strain"), std::string::npos);
     }
   EXPECT_NEAR(solid.mean_displacement("top", 1) / 0.1, 2e-4, 1e-12);
 }

@@ -127,7 +127,7 @@ TEST(Granite, BreakingTheNearlyWorstTooChangesLittleInTension)
   EXPECT_NEAR(strength[0], strength[1], 0.02 * strength[1]);
 }
 
-// In one increment of the first a crack runs through the volume, in which little beside the contact forces is not little
+// In one increment of the first a crack runs through the RVE, in which little beside the contact forces is not little
 // beside the work; the second is in two pieces at its end, where all work is round-off.
 TEST(Granite, BalancesHoldWhereACrackRunsThroughAndWhereNothingIsLeft)
 {
@@ -199,7 +199,7 @@ TEST(GraniteInSpace, BalancesHoldAlongATensionPathWithCracks)
   EXPECT_GT(run.record().cracks.size(), 100u);
   EXPECT_LT(run.record().samples.back().stress[2], 0.5 * peak(run.record())); // past its peak
   // Across the pull.
-  const auto cracks = crack_measures(*network, run.volume().state());
+  const auto cracks = crack_measures(*network, run.rve().state());
   EXPECT_GT(cracks.orientation(2, 2), 0.5 * cracks.density);
   EXPECT_NEAR(cracks.orientation.trace(), cracks.density, 1e-12 * cracks.density);
 }

@@ -43,7 +43,7 @@ void expect_same_fields(const Solid<dim, material_dim>& together, const Solid<di
     {
       const std::size_t other = index.at({together.places()[i].cell, together.places()[i].quadrature_point});
       EXPECT_EQ(together.places()[i].position, alone.places()[other].position);
-      EXPECT_LT((together.answers()[i].stress - alone.answers()[other].stress).norm(), tolerance * stress_scale);
+      EXPECT_LT((together.responses()[i].stress - alone.responses()[other].stress).norm(), tolerance * stress_scale);
       EXPECT_LT((together.strains()[i] - alone.strains()[other]).norm(), tolerance * strain_scale);
       EXPECT_NEAR(together.material_points()[i].fields().empty() ? 0.0 : together.material_points()[i].fields()[0],
                   alone.material_points()[other].fields().empty() ? 0.0 : alone.material_points()[other].fields()[0],
@@ -192,7 +192,7 @@ TEST(SeveralRanks, CellsMoveToWhereThereIsTime)
       , is_slow(its_limit < 1.15e-4)
     {
     }
-    MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+    MaterialResponse<2> trial(const StrainVector<2>& strain) const override
     {
       volatile int work = 0;
       while (is_slow && work < 5'000'000)
@@ -241,7 +241,7 @@ TEST(SeveralRanks, FailureOfAPointOfOneRankIsKnownToAll)
   {
   public:
     using LinearElasticPoint<2>::LinearElasticPoint;
-    MaterialAnswer<2> trial(const StrainVector<2>& strain) const override
+    MaterialResponse<2> trial(const StrainVector<2>& strain) const override
     {
       if (strain.norm() > 0.0)
         throw PointFailure("never");
@@ -258,7 +258,7 @@ TEST(SeveralRanks, FailureOfAPointOfOneRankIsKnownToAll)
   Solid<2> solid(mesh, {}, material);
   const auto report = solid.solve(PlatenTest<2>{.platens = Platens::rough}.pressing(-1e-5));
   EXPECT_FALSE(report.converged);
-  EXPECT_EQ(report.failure, "a material point has no answer to its strain");
+  EXPECT_EQ(report.failure, "a material point has no response to its strain");
 }
 } // namespace
 } // namespace feldspar::fem

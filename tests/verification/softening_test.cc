@@ -5,7 +5,7 @@
 #include "fem/materials/linear_elasticity.h"
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
-#include "tests/unit/small_volume.h"
+#include "tests/unit/small_rve.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ public:
   {
   }
 
-  fem::MaterialAnswer<2> trial(const Voigt<2>& strain) const override
+  fem::MaterialResponse<2> trial(const Voigt<2>& strain) const override
   {
     Stiffness<2> now = fem::isotropic_stiffness<2>(E, 0.0);
     now(1, 1) *= 1.0 - damage;
@@ -86,7 +86,7 @@ private:
 
 constexpr double end = 10.0 * strain_at_peak;
 
-// A band of height h = κℓ follows σ(e) of the volume with ε = σ/E + (e - σ/E)/κ, and has lost g ℓ per area in the end,
+// A band of height h = κℓ follows σ(e) of the RVE with ε = σ/E + (e - σ/E)/κ, and has lost g ℓ per area in the end,
 // g = ½ σ_t e_f, whatever h is.
 TEST(ScaledSoftening, ABandLosesTheSamePerAreaWhateverItsHeight)
 {
@@ -120,9 +120,9 @@ TEST(ScaledSoftening, ABandLosesTheSamePerAreaWhateverItsHeight)
     }
 }
 
-// The tangent is the derivative of the answer with bonds frozen, and what is accepted obeys the relation; a state put back
+// The tangent is the derivative of the response with bonds frozen, and what is accepted obeys the relation; a state put back
 // goes on to the same bits.
-TEST(ScaledSoftening, OfAVolumeOfGrainsHoldsItsRelation)
+TEST(ScaledSoftening, OfAnRveOfGrainsHoldsItsRelation)
 {
   EquilibriumParameters tight;
   tight.event_tolerance = tight.final_tolerance = 1e-10;
@@ -137,7 +137,7 @@ TEST(ScaledSoftening, OfAVolumeOfGrainsHoldsItsRelation)
   const Stiffness<2> compliance = point.trial(direction).tangent.inverse();
   struct Inelastic
   {
-    Voigt<2> piece, volume;
+    Voigt<2> piece, rve;
   };
   std::optional<Inelastic> first;
   std::string half_way;
@@ -148,18 +148,17 @@ TEST(ScaledSoftening, OfAVolumeOfGrainsHoldsItsRelation)
       const Voigt<2> strain = double(k) * direction;
       point.trial(strain);
       point.relax(strain);
-      const auto answer = point.trial(strain);
+      const auto response = point.trial(strain);
       point.accept(strain);
       if (!point.has_localised())
         continue;
-      const Inelastic now{strain - compliance * answer.stress, point.volume_strain() - compliance * answer.stress};
+      const Inelastic now{strain - compliance * response.stress, point.rve_strain() - compliance * response.stress};
       if (!first)
         first = now;
       else
         {
           ++n_checked;
-          EXPECT_LT(((now.volume - first->volume) - scale * (now.piece - first->piece)).norm(), 1e-6 * strain.norm())
-            << k;
+          EXPECT_LT(((now.rve - first->rve) - scale * (now.piece - first->piece)).norm(), 1e-6 * strain.norm()) << k;
         }
       if (k == n_steps / 2)
         half_way = point.stored();
@@ -190,9 +189,9 @@ TEST(ScaledSoftening, OfAVolumeOfGrainsHoldsItsRelation)
   EXPECT_EQ(again.trial(strain).stress, stress);
 }
 
-// Stress times strain of the piece, followed in small steps between its events, is what it has stored and lost, for volumes
+// Stress times strain of the piece, followed in small steps between its events, is what it has stored and lost, for RVEs
 // of one size in pieces of several. While the events of a step run the piece stands still: no work is done on it. If what the
-// rest of the volume takes as it unloads were counted as work of the piece, the sum would be 2 % off at κ = 0.5, 5 % at 0.2.
+// rest of the RVE takes as it unloads were counted as work of the piece, the sum would be 2 % off at κ = 0.5, 5 % at 0.2.
 TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
 {
   EquilibriumParameters tight;
@@ -227,28 +226,28 @@ TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
     }
 }
 
-// A bar of 100 mm with a weak row of elements, of volumes of 25 mm: its strength is that of the weak row, and with scaled
+// A bar of 100 mm with a weak row of elements, of RVEs of 25 mm: its strength is that of the weak row, and with scaled
 // softening the work to pull it apart is g ℓ per area on every mesh; as it is it is g h, or less than the bar has stored.
 TEST(ScaledSoftening, WorkToPullABarApartDoesNotDependOnTheMesh)
 {
   constexpr double height = 0.1;
-  constexpr double volume_size = 0.025;
+  constexpr double rve_size = 0.025;
   constexpr double weak = 0.98 * strength;
   const auto work_and_strength = [&](const unsigned int n_along, const bool scaled) {
     const double h = height / n_along;
     // Square elements, so that their size is their height.
     const auto mesh = fem::plane_sample(MPI_COMM_WORLD, h, height, {1, n_along}, 0);
-    const fem::Material<2> volumes{[&](const fem::PointPlace& place) {
-                                     return std::make_unique<StraightlySofteningPoint>(
-                                       end, place.position[1] < h ? weak : strength);
-                                   },
-                                   {}};
-    fem::Solid<2> solid(mesh, {.newton_tolerance = 1e-6}, scaled_softening(volumes, scaled ? volume_size : 0.0));
+    const fem::Material<2> rves{[&](const fem::PointPlace& place) {
+                                  return std::make_unique<StraightlySofteningPoint>(
+                                    end, place.position[1] < h ? weak : strength);
+                                },
+                                {}};
+    fem::Solid<2> solid(mesh, {.newton_tolerance = 1e-6}, scaled_softening(rves, scaled ? rve_size : 0.0));
     double work = 0.0;
     double highest = 0.0;
     double before = 0.0;
     constexpr int n_steps = 100;
-    const double step = 1.1 * end * volume_size / n_steps;
+    const double step = 1.1 * end * rve_size / n_steps;
     for (int k = 1; k <= n_steps; ++k)
       {
         fem::advance<2, 2>(solid, fem::PlatenTest<2>().pressing(k * step), {1.0, 1e-3, 1.0});
@@ -261,7 +260,7 @@ TEST(ScaledSoftening, WorkToPullABarApartDoesNotDependOnTheMesh)
       }
     return std::pair(work, highest);
   };
-  const double lost = 0.5 * weak * end * volume_size;
+  const double lost = 0.5 * weak * end * rve_size;
   for (const unsigned int n_along : {4u, 8u, 16u})
     {
       const auto [work, highest] = work_and_strength(n_along, true);

@@ -1,20 +1,18 @@
 #include "coupling/sample/continua/continua.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace feldspar
 {
-const Continuum& continuum_of(const SampleMaterial material)
+const Continuum& continuum_of(const std::string_view name)
 {
-  switch (material) // without a default: the compiler names the material that is missing here
-    {
-    case SampleMaterial::linear_elasticity:
-      return continua::linear_elasticity;
-    case SampleMaterial::mohr_coulomb:
-      return continua::mohr_coulomb;
-    case SampleMaterial::grains:
-      break;
-    }
-  throw std::invalid_argument("a sample of grains is no continuum");
+  static const std::array<const Continuum*, continuum_names.size()> all{&continua::linear_elasticity,
+                                                                        &continua::mohr_coulomb};
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Continuum* one) { return one->name == name; });
+  if (found == all.end())
+    throw std::invalid_argument("\"" + std::string(name) + "\" is in no list of materials without grains");
+  return **found;
 }
 } // namespace feldspar

@@ -3,16 +3,24 @@
 #include "coupling/sample/sample_parameters.h"
 #include "fem/materials/material.h"
 
-/// The materials without grains that a sample may be made of, for comparison. Each is a constant in a file of its name;
-/// continuum_of() lists them.
+#include <array>
+#include <string_view>
+
+/// The materials without grains that a sample may be made of, for comparison. Each is a constant in a file of its name. To
+/// add one: its file, its lines here and in the list of continua.cc, its file in CMakeLists.txt.
 namespace feldspar
 {
-/// How a material is made of the entries of section Continuum.
+/// A material, all there is to know about it: how it is made of the entries of section Continuum.
 struct Continuum
 {
-  fem::Material<2> (*in_plane)(const ContinuumParameters&); ///< shows its modulus and ratio free across the plane
-  fem::Material<3> (*in_space)(const ContinuumParameters&);
+  std::string_view name; ///< in the input
+  bool softens = false;  ///< else a test of it ends at a strain that is given
+  fem::Material<2> (*in_plane)(const ContinuumParameters&) = nullptr; ///< its modulus and ratio free across the plane
+  fem::Material<3> (*in_space)(const ContinuumParameters&) = nullptr;
 };
+
+/// Their names, in the order of the list, for an input that is read without finite elements.
+inline constexpr std::array<std::string_view, 2> continuum_names{"linear elasticity", "Mohr-Coulomb"};
 
 namespace continua
 {
@@ -20,6 +28,6 @@ extern const Continuum linear_elasticity;
 extern const Continuum mohr_coulomb;
 } // namespace continua
 
-/// Throws std::invalid_argument for a material of grains. A material that is not listed does not compile.
-const Continuum& continuum_of(SampleMaterial material);
+/// Throws std::invalid_argument for a name that is not in the list.
+const Continuum& continuum_of(std::string_view name);
 } // namespace feldspar

@@ -14,10 +14,13 @@ fem::Material<dim> elastic(const fem::ElasticConstants& constants)
 } // namespace
 
 const Continuum linear_elasticity{
-  [](const ContinuumParameters& of) {
-    return elastic<2>(fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio}));
-  },
-  [](const ContinuumParameters& of) {
-    return elastic<3>({of.modulus, of.poissons_ratio});
-  }};
+  .name = "linear elasticity",
+  .in_plane =
+    [](const ContinuumParameters& of) {
+      return elastic<2>(fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio}));
+    },
+  .in_space =
+    [](const ContinuumParameters& of) {
+      return elastic<3>({of.modulus, of.poissons_ratio});
+    }};
 } // namespace feldspar::continua

@@ -16,10 +16,13 @@ fem::Material<3> plastic(const fem::ElasticConstants& constants, const Continuum
 } // namespace
 
 const Continuum mohr_coulomb{
-  [](const ContinuumParameters& of) {
-    return fem::plane_strain(plastic(fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio}), of));
-  },
-  [](const ContinuumParameters& of) {
-    return plastic({of.modulus, of.poissons_ratio}, of);
-  }};
+  .name = "Mohr-Coulomb",
+  .in_plane =
+    [](const ContinuumParameters& of) {
+      return fem::plane_strain(plastic(fem::plane_strain_equal_to_plate({of.modulus, of.poissons_ratio}), of));
+    },
+  .in_space =
+    [](const ContinuumParameters& of) {
+      return plastic({of.modulus, of.poissons_ratio}, of);
+    }};
 } // namespace feldspar::continua

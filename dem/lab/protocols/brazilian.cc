@@ -1,7 +1,7 @@
 #include "base/input_error.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
@@ -99,9 +99,13 @@ constinit const LaboratoryProtocol brazilian = complete({
            .title = "Brazilian test",
            .strength = "Brazilian tensile strength",
            .sign = -1.0,
+           .channel = {&CurveSample::axial_stress, "splitting stress 2P/(πDt)", "shortening over diameter"},
            .peak_rule = PeakRule::first_before_a_fall,
            .envelope_role = EnvelopeRole::indirect_tension,
            .strength_decimals = 2},
+  .strain_rate = &TestParameters::brazilian_strain_rate,
+  .forecast = {PeakForecast::With::tension, 4.0},
+  .takes_cylinders = true,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

@@ -1,10 +1,7 @@
-#include "base/input_error.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/lab/servo.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +40,6 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double normal_stress,
                       const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  if (specimen.round)
-    throw InputError("Tests/List: direct_shear: the shear box takes a box of grains, not a cylinder");
   const double height = specimen.size[axis];
   const double area = specimen.size[0] * (dim == 2 ? specimen.thickness : specimen.size[1]);
   const double speed = wanted.shear_strain_rate * specimen.size[0];
@@ -62,26 +57,16 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double normal_stress,
     hold_pressure(state, platens.upper, area, share * normal_stress, largest_servo_speed);
   };
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
-    const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
-    const double ramp = wanted.seating_transits * height / wave_speed;
-    constexpr double tolerance = 0.005;
-    constexpr double most_ramps = 20.0;
-    for (;;)
-      {
-        check();
-        hold(state, std::min(1.0, state.time() / ramp));
-        state.step();
-        if (state.time() > most_ramps * ramp)
-          throw InputError(
-            fmt::format("Tests/Confinements: the platen cannot hold {:g} MPa on this specimen", normal_stress / 1e6));
-        if (state.time() < 1.5 * ramp)
-          continue;
-        double worst = 0.0;
-        for (const std::size_t platen : {platens.lower, platens.upper})
-          worst = std::max(worst, std::abs(state.wall_force(platen) / area / normal_stress - 1.0));
-        if (worst < tolerance)
-          break;
-      }
+    const auto largest_deviation = [&] {
+      double largest = 0.0;
+      for (const std::size_t platen : {platens.lower, platens.upper})
+        largest = std::max(largest, std::abs(state.wall_force(platen) / area / normal_stress - 1.0));
+      return largest;
+    };
+    raise_pressures<dim>(state,
+                         {normal_stress, wanted.seating_transits * height / wave_speed(state.specimen()),
+                          [&](const double share) { hold(state, share); }, largest_deviation},
+                         check);
     for (const std::size_t end : {upper.low, upper.high})
       state.wall(end).velocity = 0.5 * speed;
     for (const std::size_t end : {lower.low, lower.high})
@@ -104,10 +89,11 @@ constinit const LaboratoryProtocol direct_shear = complete({
            .title = "Direct shear",
            .strength = "shear strength",
            .sign = -1.0,
-           .channel = {&CurveSample::axial_stress, "shear stress"},
+           .channel = {&CurveSample::axial_stress, "shear stress", "shear displacement over length"},
            .takes_confining_pressure = true,
            .pressure_acts_across = true,
            .strength_decimals = 2},
+  .strain_rate = &TestParameters::shear_strain_rate,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

@@ -1,7 +1,7 @@
 #include "base/input_error.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +54,9 @@ constinit const LaboratoryProtocol direct_tension = complete({
            .has_uniform_stress = true,
            .runs_on_finite_elements = true,
            .strength_decimals = 2},
+  .strain_rate = &TestParameters::tension_strain_rate,
+  .forecast = {PeakForecast::With::tension},
+  .takes_cylinders = true,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

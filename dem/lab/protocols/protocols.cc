@@ -56,14 +56,18 @@ std::string objection_to_finite_elements(const TestKind& kind)
                      names_of([](const auto& one) { return one.kind.runs_on_finite_elements; }));
 }
 
-std::string objection_to_grains(const TestKind& kind, const unsigned int dimension)
+std::string objection_to_grains(const TestKind& kind, const Body body)
 {
   const auto is_made = [=](const LaboratoryProtocol& one) {
-    return dimension == 2 ? one.set_up_2d.has_value() : one.set_up_3d.has_value();
+    return body == Body::plane_box ? one.set_up_2d.has_value()
+                                   : one.set_up_3d.has_value() && (body != Body::cylinder || one.takes_cylinders);
   };
   if (is_made(protocol_of(kind)))
     return "";
-  return fmt::format("Tests/List: {}: is not made on specimens in {} dimensions; those that are: {}", kind.name,
-                     dimension, names_of(is_made));
+  return fmt::format("Tests/List: {}: is not made on {}; tests that are: {}", kind.name,
+                     body == Body::plane_box ? "boxes of discs"
+                     : body == Body::box     ? "boxes of spheres"
+                                             : "cylinders of spheres",
+                     names_of(is_made));
 }
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/body.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "results/kinds.h"
 
@@ -38,6 +39,6 @@ const LaboratoryProtocol& protocol_of(const TestKind& kind);
 /// Why this test cannot be made on finite elements, and which can, in the words of an error of the input; empty if it
 /// can.
 std::string objection_to_finite_elements(const TestKind& kind);
-/// The same of specimens of grains.
-std::string objection_to_grains(const TestKind& kind, unsigned int dimension);
+/// The same of a specimen of grains of this shape.
+std::string objection_to_grains(const TestKind& kind, Body body);
 } // namespace feldspar

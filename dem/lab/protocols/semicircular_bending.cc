@@ -74,7 +74,11 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
            .title = "Bending of a notched half disc",
            .strength = "load over section, notched",
            .sign = -1.0,
+           .channel = {&CurveSample::axial_stress, "load over section", "deflection over radius"},
            .strength_decimals = 2},
+  .strain_rate = &TestParameters::bending_strain_rate,
+  .forecast = {PeakForecast::With::tension, 1.3},
+  .takes_cylinders = true,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

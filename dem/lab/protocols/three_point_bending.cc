@@ -1,4 +1,3 @@
-#include "base/input_error.h"
 #include "dem/lab/bending.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
@@ -27,10 +26,6 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
                       const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  if (specimen.round)
-    throw InputError(
-      "Tests/List: three_point_bending: a beam is cut from a box of grains; a core is bent as a half disc "
-      "(semicircular_bending)");
   // Its longer side is the beam's length.
   Specimen<dim> beam = specimen.size[0] >= specimen.size[axis] ? specimen : quarter_turned(specimen);
   const double length = beam.size[0];
@@ -66,7 +61,10 @@ constinit const LaboratoryProtocol three_point_bending = complete({
            .title = "Three-point bending of a notched beam",
            .strength = "bending strength, notched",
            .sign = -1.0,
+           .channel = {&CurveSample::axial_stress, "bending stress", "deflection over depth"},
            .strength_decimals = 2},
+  .strain_rate = &TestParameters::bending_strain_rate,
+  .forecast = {PeakForecast::With::tension, 4.0},
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

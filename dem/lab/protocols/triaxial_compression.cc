@@ -1,11 +1,8 @@
-#include "base/input_error.h"
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 #include "dem/lab/servo.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -147,38 +144,29 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double confining_pres
     return membrane && state.n_steps() % steps_between_fits == 0;
   };
 
-  // All walls press, raised over some transits of a wave so as not to hit the specimen.
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
-    const double wave_speed = std::sqrt(state.specimen().particle_contact.modulus / state.specimen().bulk_density);
-    const double ramp = wanted.seating_transits * height / wave_speed;
-    constexpr double tolerance = 0.005;
-    constexpr double most_ramps = 20.0;
-    for (;;)
-      {
-        check();
-        const double share = std::min(1.0, state.time() / ramp);
-        for (const auto& side : around.sides)
-          hold(state, side, share);
-        if (membrane_is_due(state) || (membrane && share < 1.0 && state.n_steps() % 20 == 0))
-          press_membrane(state, ends, share * confining_pressure);
-        hold(state, end_press, share);
-        state.step();
-        if (state.time() > most_ramps * ramp)
-          throw InputError(fmt::format("Tests/Confinements: the walls cannot hold {:g} MPa on this specimen",
-                                       confining_pressure / 1e6));
-        if (state.time() < 1.5 * ramp)
-          continue;
-        double worst = 0.0;
-        const auto look = [&](const Press<dim>& press) {
-          for (const std::size_t wall : press.walls)
-            worst = std::max(worst, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
-        };
-        for (const auto& side : around.sides)
-          look(side);
-        look(end_press);
-        if (worst < tolerance)
-          break;
-      }
+    const auto hold_all = [&](const double share) {
+      for (const auto& side : around.sides)
+        hold(state, side, share);
+      if (membrane_is_due(state) || (membrane && share < 1.0 && state.n_steps() % 20 == 0))
+        press_membrane(state, ends, share * confining_pressure);
+      hold(state, end_press, share);
+    };
+    const auto largest_deviation = [&] {
+      double largest = 0.0;
+      const auto look = [&](const Press<dim>& press) {
+        for (const std::size_t wall : press.walls)
+          largest = std::max(largest, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
+      };
+      for (const auto& side : around.sides)
+        look(side);
+      look(end_press);
+      return largest;
+    };
+    raise_pressures<dim>(state,
+                         {confining_pressure, wanted.seating_transits * height / wave_speed(state.specimen()), hold_all,
+                          largest_deviation},
+                         check);
     if (membrane)
       press_membrane(state, ends, confining_pressure);
     start_steadily(state, -wanted.compression_strain_rate);
@@ -219,6 +207,9 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
            .takes_confining_pressure = true,
            .runs_on_finite_elements = true,
            .duration_rank = 1},
+  .strain_rate = &TestParameters::compression_strain_rate,
+  .forecast = {PeakForecast::With::compression},
+  .takes_cylinders = true,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

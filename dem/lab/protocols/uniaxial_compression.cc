@@ -1,6 +1,6 @@
-#include "dem/lab/laboratory_test.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
 
 namespace feldspar
 {
@@ -34,6 +34,9 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
            .has_uniform_stress = true,
            .runs_on_finite_elements = true,
            .duration_rank = 1},
+  .strain_rate = &TestParameters::compression_strain_rate,
+  .forecast = {PeakForecast::With::compression},
+  .takes_cylinders = true,
   .set_up_2d = set_up<2>,
   .set_up_3d = set_up<3>,
 });

@@ -1,0 +1,373 @@
+#include "app/calibration/calibration_run.h"
+
+#include "app/calibration/calibrated_input.h"
+#include "app/calibration/calibration_results.h"
+#include "app/calibration/elastic_cells.h"
+#include "app/calibration/problem.h"
+#include "app/calibration/tested_points.h"
+#include "app/programme/lab_run.h"
+#include "app/programme/specimen_source.h"
+#include "app/run/interrupt.h"
+#include "app/screen/progress.h"
+#include "base/whole_file.h"
+#include "calibration/fit.h"
+#include "calibration/target_outcomes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace feldspar::calibration
+{
+namespace
+{
+/// Seeds of the packings, stage by stage.
+struct Packings
+{
+  std::uint64_t next;
+
+  std::vector<std::uint64_t> take(const std::size_t n)
+  {
+    std::vector<std::uint64_t> seeds(n);
+    std::iota(seeds.begin(), seeds.end(), next);
+    next += n;
+    return seeds;
+  }
+};
+
+/// Everything that a calibration knows while it runs.
+template <int dim>
+class CalibrationRun
+{
+public:
+  explicit CalibrationRun(const Run& of)
+    : run(of)
+    , input(of.input)
+    , wanted(of.input.calibration)
+    , problem(problem_of(of.input))
+    , progress(of.quiet)
+    , packings{of.input.seeds.front()}
+  {
+  }
+
+  RunEnd go()
+  {
+    tell_cost();
+    ResponseModel model = elastic_stage();
+    if (const std::string objection = design_stage(model); !objection.empty())
+      return {false, objection}; // its tests stay
+
+    FitFreedom freedom{problem.has_modulus, problem.has_strength, UnitPoint(problem.unknowns.size(), 0.5), 0.5};
+    Fit fit = best_fit(model, problem.targets, wanted.tolerance, freedom, start);
+    if (is_out_of_reach(fit, problem.targets, model, wanted.tolerance, wanted.n_packings))
+      return end_out_of_reach(model, fit);
+
+    fit = steps(model, fit);
+    test_strain_scale(model, fit.place);
+    return answer(model, fit);
+  }
+
+private:
+  void tell_cost()
+  {
+    const std::size_t n_tests = test_cases(input.test_list, input.confinements).size();
+    const std::size_t n_design = wanted.n_points * wanted.n_packings;
+    const std::size_t n_of_steps = wanted.most_steps * wanted.n_step_packings;
+    progress.remark(fmt::format(
+      "{} target(s), {} unknown ratio(s){}{}. The design takes {} specimens of some {:.0f} grains, {} test(s) each; "
+      "steps up to {} specimens, the answer up to {} for each of at most {} rounds.",
+      problem.targets.size(), problem.unknowns.size(), problem.has_modulus ? ", the modulus" : "",
+      problem.has_strength ? ", the strength" : "", n_design, expected_grains(input.specimen), n_tests, n_of_steps,
+      wanted.most_packings, most_rounds));
+  }
+
+  /// The intact rock, and a place to begin at.
+  ResponseModel elastic_stage()
+  {
+    progress.start("elastic constants of intact cells");
+    const MicroParameters fixed = micro_parameters(input);
+    const double gap = installation_gap<dim>(input, packings.next);
+    const ElasticTable elastic =
+      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap);
+    check_poissons_ratio(problem, wanted, elastic);
+    progress.finish(fmt::format("E {:.2f} to {:.2f} of the joints', nu {:.3f} to {:.3f}", elastic.least().modulus_ratio,
+                                elastic.largest().modulus_ratio, elastic.least().poissons_ratio,
+                                elastic.largest().poissons_ratio));
+    start.point.assign(problem.unknowns.size(), 0.5);
+    start.log_strength = std::log(problem.has_strength ? first_bond_strength(problem, fixed.bond_tensile_strength)
+                                                       : fixed.bond_tensile_strength);
+    const MicroParameters middle = parameters_at(start.point, problem.unknowns, fixed);
+    const auto modulus = target_of(problem, ResponseScale::modulus);
+    start.log_modulus = std::log(
+      modulus ? *modulus / elastic.at(middle.stiffness_ratio, middle.gap.value_or(gap)).modulus_ratio : fixed.modulus);
+    return {problem.responses, problem.unknowns, fixed, elastic, gap};
+  }
+
+  /// Learns how the responses depend on the ratios.
+  /// Why it cannot; empty if it could.
+  std::string design_stage(ResponseModel& model)
+  {
+    const auto seeds = packings.take(wanted.n_packings);
+    std::vector<PointOrder> orders;
+    const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (const std::uint64_t seed : seeds)
+        orders.push_back(
+          {"design", i, seed, points[i], model.parameters({points[i], start.log_modulus, start.log_strength})});
+    add(test("design", orders));
+    model.learn(tested);
+    for (const Target& target : problem.targets)
+      if (!model.knows(target.response))
+        return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: "
+                           "raise Calibration/Design points, or narrow its bounds",
+                           problem.response_of(target).title);
+    return "";
+  }
+
+  /// Steps in a region about the last place, each confirmed on the same packings, until the targets are met there.
+  Fit steps(ResponseModel& model, Fit fit)
+  {
+    const auto seeds = packings.take(wanted.n_step_packings);
+    Fit best = fit;
+    std::optional<double> least;
+    double half_width = 0.25;
+    const auto is_near = [&](const TargetOutcome& outcome) { return is_nearly_met(outcome, wanted.tolerance); };
+    for (n_steps = 0; n_steps < wanted.most_steps;)
+      {
+        ++n_steps;
+        const Place place = fit.place;
+        std::vector<PointOrder> orders;
+        for (const std::uint64_t seed : seeds)
+          orders.push_back({fmt::format("step {}", n_steps), 0, seed, place.point, model.parameters(place)});
+        auto of_step = test(fmt::format("step {}", n_steps), orders);
+        const std::vector<TargetOutcome> outcomes = outcomes_of(of_step, problem.targets, model, place);
+        corrections.insert(corrections.end(), of_step.begin(), of_step.end());
+        add(std::move(of_step));
+        double misfit = 0.0;
+        for (const TargetOutcome& outcome : outcomes)
+          misfit += std::pow(outcome.deviation(), 2);
+        if (!least || misfit < *least)
+          {
+            least = misfit;
+            best = fit;
+            model.correct(corrections);
+          }
+        else
+          half_width *= 0.5; // the region in which the corrections hold was too large
+        if (std::all_of(outcomes.begin(), outcomes.end(), is_near))
+          break;
+        model.correct(corrections);
+        fit = best_fit(model, problem.targets, wanted.tolerance,
+                       {problem.has_modulus, problem.has_strength, best.place.point, half_width}, best.place);
+      }
+    // By all that was learnt on the way.
+    model.correct(corrections);
+    return best_fit(model, problem.targets, wanted.tolerance,
+                    {problem.has_modulus, problem.has_strength, best.place.point, 0.5 * half_width}, best.place);
+  }
+
+  /// Whether strengths go with the bonds' at another ratio of strength to stiffness: then strains are larger.
+  void test_strain_scale(const ResponseModel& model, const Place& place)
+  {
+    if (!problem.has_strength)
+      return;
+    constexpr double factor = 1.5;
+    const std::uint64_t seed = tested.back().seed;
+    MicroParameters as_is = model.parameters(place);
+    MicroParameters stronger = as_is;
+    stronger.bond_tensile_strength *= factor;
+    const auto both =
+      test("strain scale", {{"scale", 0, seed, place.point, as_is}, {"scale", 1, seed, place.point, stronger}});
+    for (std::size_t j = 0; j < problem.responses.size(); ++j)
+      if (const Response& response = problem.responses[j]; response.scale == ResponseScale::strength &&
+                                                           !response.name.starts_with("strength_at_") &&
+                                                           both[0].values[j] && both[1].values[j])
+        scale_effects[response.name] = *both[1].values[j] / *both[0].values[j] / factor - 1.0;
+    tested.insert(tested.end(), both.begin(), both.end());
+  }
+
+  /// Tests the answer on packings by which nothing was chosen, as many as its standard errors ask for. One that misses
+  /// by more than they explain is mended once or twice, and tested on others.
+  RunEnd answer(ResponseModel& model, Fit fit)
+  {
+    std::vector<FinishedTest> finished_tests;
+    Input best_input;
+    std::vector<TargetOutcome> outcomes;
+    Place place = fit.place;
+    for (std::size_t round = 1;; ++round)
+      {
+        place = rounded_place(model, fit.place);
+        const std::uint64_t first = packings.next;
+        finished_tests.clear();
+        std::vector<TestedPoint> points;
+        std::size_t n = 0;
+        std::size_t needed = std::min<std::size_t>(3, wanted.most_packings);
+        while (n < needed)
+          {
+            const auto folder = run.folder / "calibration" / fmt::format("answer_{}_from_{}", round, n);
+            std::filesystem::create_directories(folder);
+            const Input batch = input_of(model.parameters(place), first + n, needed - n);
+            for (auto& one : run_answer(batch, folder, round))
+              finished_tests.push_back(std::move(one));
+            n = needed;
+            points = as_tested_points(finished_tests, fmt::format("answer {}", round), model, place);
+            outcomes = outcomes_of(points, problem.targets, model, place);
+            needed = std::min<std::size_t>(packings_needed(outcomes, wanted.tolerance), wanted.most_packings);
+          }
+        best_input = input_of(model.parameters(place), first, n);
+        packings.next = first + wanted.most_packings;
+        corrections.insert(corrections.end(), points.begin(), points.end());
+        add(points);
+        model.correct(corrections);
+        if (round == most_rounds || all_met(outcomes, wanted.tolerance))
+          break;
+        fit = best_fit(model, problem.targets, wanted.tolerance,
+                       {problem.has_modulus, problem.has_strength, place.point, 0.1}, place);
+      }
+
+    const bool has_reached = all_met(outcomes, wanted.tolerance);
+    const std::string statement = statement_of(outcomes, model, wanted.tolerance, n_steps);
+    const FitFreedom freedom{problem.has_modulus, problem.has_strength, place.point, 0.5};
+    CalibrationOutcome outcome = outcome_of(model, place, outcomes, has_reached, statement);
+    progress.start("posterior");
+    outcome.posterior = posterior(model, problem.targets, freedom, place, wanted.n_samples, input.seeds.front());
+    for (std::size_t j = 0; j < problem.responses.size(); ++j)
+      if (model.knows(j))
+        outcome.sensitivities[problem.responses[j].name] =
+          sobol_indices([&](const UnitPoint& point) { return model.learnt(j, point); }, problem.unknowns.size(), 1024,
+                        input.seeds.front());
+    progress.finish(fmt::format("{} samples", outcome.posterior.samples.size()));
+    finish(run, model, outcome, tested, best_input, finished_tests);
+    return {false, has_reached ? "" : statement};
+  }
+
+  /// Where the surrogates already tell that the targets contradict each other.
+  RunEnd end_out_of_reach(const ResponseModel& model, const Fit& fit)
+  {
+    const std::vector<TargetOutcome> outcomes = predicted_outcomes(problem.targets, fit);
+    const std::string objection = nearest_in_words(outcomes, model);
+    const CalibrationOutcome outcome = outcome_of(model, fit.place, outcomes, false, objection);
+    finish(run, model, outcome, tested, input_of(rounded(model.parameters(fit.place)), input.seeds.front(), 3), {});
+    return {false, objection};
+  }
+
+  CalibrationOutcome outcome_of(const ResponseModel& model, const Place& place,
+                                const std::vector<TargetOutcome>& outcomes, const bool has_reached,
+                                const std::string& statement) const
+  {
+    CalibrationOutcome outcome;
+    outcome.rock = problem.reference.rock;
+    outcome.statement = statement;
+    outcome.has_reached = has_reached;
+    outcome.tolerance = wanted.tolerance;
+    outcome.targets = outcomes;
+    outcome.scale_effects = scale_effects;
+    outcome.n_steps = n_steps;
+    outcome.best = model.parameters(place);
+    for (std::size_t j = 0; j < problem.responses.size(); ++j)
+      if (problem.responses[j].scale == ResponseScale::modulus && model.knows(j))
+        outcome.modulus_of_specimens_over_cells = std::exp(model.learnt(j, place.point) + model.correction(j));
+    return outcome;
+  }
+
+  /// A run of `feldspar lab` of the same input gives the same tests.
+  Input input_of(const MicroParameters& parameters, const std::uint64_t first_seed, const std::size_t n) const
+  {
+    Input result = with_parameters(input, parameters);
+    result.seeds.resize(n);
+    std::iota(result.seeds.begin(), result.seeds.end(), first_seed);
+    result.calibration = {};
+    result.reference_file = std::filesystem::absolute(input.reference_file).string();
+    // As a reader of the file would have it, to the last bit.
+    const auto file = run.folder / "calibration" / "answer.prm";
+    std::filesystem::create_directories(file.parent_path());
+    write_whole_file(file, as_prm(result, ""));
+    return read_input(file);
+  }
+
+  Place rounded_place(const ResponseModel& model, const Place& place) const
+  {
+    const MicroParameters parameters = rounded(model.parameters(place));
+    Place result = place;
+    for (std::size_t k = 0; k < problem.unknowns.size(); ++k)
+      {
+        const Unknown& unknown = problem.unknowns[k];
+        result.point[k] = unknown.coordinate(unknown.member ? parameters.*unknown.member : *parameters.gap);
+      }
+    result.log_modulus = std::log(parameters.modulus);
+    result.log_strength = std::log(parameters.bond_tensile_strength);
+    return result;
+  }
+
+  std::vector<FinishedTest> run_answer(const Input& best_input, const std::filesystem::path& folder,
+                                       const std::size_t round)
+  {
+    progress.remark(fmt::format("Answer, round {}: {} fresh packings.", round, best_input.seeds.size()));
+    const std::vector<Variant> one{{"", best_input}};
+    const auto orders = specimen_orders(one);
+    const auto specimens = provide_specimens<dim>(one, orders, folder, progress);
+    auto finished_tests = run_programme(one, orders, specimens, folder, progress);
+    end_if_interrupted();
+    return finished_tests;
+  }
+
+  std::vector<TestedPoint> as_tested_points(const std::vector<FinishedTest>& finished_tests, const std::string& stage,
+                                            const ResponseModel& model, const Place& place) const
+  {
+    std::vector<std::uint64_t> seeds;
+    for (const FinishedTest& one : finished_tests)
+      if (std::find(seeds.begin(), seeds.end(), one.record.seed) == seeds.end())
+        seeds.push_back(one.record.seed);
+    std::vector<TestedPoint> points;
+    for (const std::uint64_t seed : seeds)
+      {
+        std::vector<FinishedTest> of_seed;
+        std::copy_if(finished_tests.begin(), finished_tests.end(), std::back_inserter(of_seed),
+                     [&](const FinishedTest& one) { return one.record.seed == seed; });
+        points.push_back({stage, 0, seed, place.point, model.parameters(place), values_of(problem.responses, of_seed)});
+      }
+    return points;
+  }
+
+  std::vector<TestedPoint> test(const std::string& title, const std::vector<PointOrder>& orders)
+  {
+    progress.start(title);
+    auto points = test_points<dim>(input, problem.responses, orders, run.folder, progress);
+    progress.finish(fmt::format("{} specimen(s)", orders.size()));
+    return points;
+  }
+
+  void add(std::vector<TestedPoint> points)
+  {
+    tested.insert(tested.end(), std::make_move_iterator(points.begin()), std::make_move_iterator(points.end()));
+  }
+
+  static constexpr std::size_t most_rounds = 3;
+
+  const Run& run;
+  const Input& input;
+  const CalibrationParameters& wanted;
+  Problem problem;
+  Progress progress;
+  Packings packings;
+  Place start{};
+  std::vector<TestedPoint> tested;      ///< all
+  std::vector<TestedPoint> corrections; ///< after the design
+  std::map<std::string, double> scale_effects;
+  std::size_t n_steps = 0;
+};
+} // namespace
+
+template <int dim>
+RunEnd calibrate(const Run& run)
+{
+  return CalibrationRun<dim>(run).go();
+}
+
+template RunEnd calibrate<2>(const Run&);
+template RunEnd calibrate<3>(const Run&);
+} // namespace feldspar::calibration

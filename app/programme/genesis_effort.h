@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "app/programme/specimen_source.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// Free memory of the machine, or what is left of the limit of the control group [bytes]; none where that is not told.
+std::optional<double> free_memory();
+
+/// Of memory, by a grain of a specimen.
+double bytes_of_grain(int dimension);
+
+/// What the genesis of one specimen will probably take. All 0 of one that is read from a specimen file.
+struct GenesisEffort
+{
+  double n_grains = 0.0;
+  double n_steps = 0.0; ///< of the packing
+  double bytes = 0.0;   ///< of memory
+  double seconds = 0.0; ///< of one core
+};
+
+GenesisEffort expected_effort(const SpecimenParameters& specimen);
+
+/// The effort of all of them in a sentence; empty where nothing is made.
+std::string describe_effort(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+
+/// Refuses specimens that would not fit into the memory that is free now: throws InputError, before any work.
+void check_memory(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+} // namespace feldspar

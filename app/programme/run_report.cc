@@ -1,0 +1,93 @@
+#include "app/programme/run_report.h"
+
+#include "app/input/laboratory_curve.h"
+#include "app/run/interrupt.h"
+#include "app/screen/print_result.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+#include "dem/lab/protocols/protocols.h"
+#include "report/report.h"
+#include "results/fits/strength_data.h"
+#include "results/folder/calibration_record.h"
+#include "results/folder/field_output.h"
+#include "results/folder/reference.h"
+#include "results/folder/result_folder.h"
+
+#include <utility>
+
+namespace feldspar
+{
+std::vector<std::string> report_on(const ReportOrder& order)
+{
+  ReportInput input;
+  input.one_folder = order.result_folders.size() == 1;
+  std::optional<std::filesystem::path> reference = order.reference;
+  for (const auto& folder : order.result_folders)
+    {
+      for (auto& series : read_result_folder(folder, test_kinds()))
+        input.all.push_back(std::move(series));
+      if (!reference && std::filesystem::exists(folder / result_file::reference))
+        reference = folder / result_file::reference;
+    }
+  std::string calibration_problem;
+  if (input.one_folder)
+    try
+      {
+        input.calibration = read_calibration(order.result_folders.front());
+      }
+    catch (const InputError& error)
+      {
+        calibration_problem = error.what(); // the tests are there none the less
+      }
+  for (const auto& curve : order.curves)
+    input.all.push_back(read_laboratory_curve(curve));
+  for (const auto& series : input.all)
+    {
+      const auto fitted = order.envelopes.find(series.tests.front().variant);
+      input.envelopes.push_back(fitted != order.envelopes.end() ? fitted->second
+                                                                : fit_strength_envelopes(strength_data(series.tests)));
+    }
+  if (reference)
+    try
+      {
+        input.reference = read_reference(*reference, test_kinds());
+      }
+    catch (const InputError& error)
+      {
+        input.reference_problem = error.what();
+      }
+  else
+    input.reference_problem =
+      "there is no reference file to compare with: name one by Report/Reference file, or by feldspar report --reference";
+  auto missing = write_report(input, order.output, order.is_over);
+  if (!calibration_problem.empty())
+    missing.push_back(calibration_problem);
+  return missing;
+}
+
+ReportedTests write_and_report(const Provenance& made_by, const std::vector<FinishedTest>& tests,
+                               const std::filesystem::path& reference_file, const std::filesystem::path& folder)
+{
+  ReportedTests reported{fit_each_rock(tests), {}};
+  write_result_folder(made_by, tests, reported.envelopes, folder);
+  std::filesystem::create_directories(folder / result_file::fields);
+  for (const auto& test : tests)
+    if (test.record.body == TestBody::grains) // a sample writes its fields step by step
+      write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields);
+  if (!reference_file.empty())
+    std::filesystem::copy_file(reference_file, folder / result_file::reference,
+                               std::filesystem::copy_options::overwrite_existing);
+  if (!tests.empty())
+    reported.missing = report_on({{folder}, {}, {}, folder, reported.envelopes, EndOfPatience()});
+  return reported;
+}
+
+void write_log(const std::filesystem::path& folder, const std::string& text, const bool quiet)
+{
+  write_whole_file(folder / "log.txt", text);
+  const auto columns = columns_of_terminal();
+  if (!quiet)
+    print_result("\n{}\n", columns ? wrapped(text, *columns) : text);
+  print_result("{}\n", folder.string());
+}
+} // namespace feldspar

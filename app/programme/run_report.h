@@ -1,0 +1,43 @@
+#pragma once
+
+#include "results/fits/run_envelopes.h"
+#include "results/run.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What a report is to be made of and where.
+struct ReportOrder
+{
+  std::vector<std::filesystem::path> result_folders;
+  std::vector<std::filesystem::path> curves;      ///< measured in a laboratory, one file a test
+  std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
+  std::filesystem::path output;                   ///< exists
+  RunEnvelopes envelopes{}; ///< of the one folder of a run that has just fitted them; what is not there is fitted
+  /// Asked again and again: whether no more pictures are to be drawn.
+  std::function<bool()> is_over = [] { return false; };
+};
+
+/// Reads, and writes the report. Returns what is missing in it and why. Throws InputError for a folder that holds no
+/// results and for a curve that cannot be read.
+std::vector<std::string> report_on(const ReportOrder& order);
+
+/// The tests of a run in its folder, and their report.
+struct ReportedTests
+{
+  RunEnvelopes envelopes;
+  std::vector<std::string> missing; ///< in the report, and why
+};
+
+/// Writes results, fields of grains, reference file (empty: none) and report.
+ReportedTests write_and_report(const Provenance& made_by, const std::vector<FinishedTest>& tests,
+                               const std::filesystem::path& reference_file, const std::filesystem::path& folder);
+
+/// The words of a run: into its log.txt, unless quiet onto the terminal, and last the folder's name.
+void write_log(const std::filesystem::path& folder, const std::string& text, bool quiet);
+} // namespace feldspar

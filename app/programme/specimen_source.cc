@@ -1,0 +1,248 @@
+#include "app/programme/specimen_source.h"
+
+#include "app/input/joint_sections.h"
+#include "app/input/parameter_table.h"
+#include "app/programme/genesis_effort.h"
+#include "app/run/interrupt.h"
+#include "app/run/jobs.h"
+#include "base/input_error.h"
+#include "dem/flaws/apply.h"
+#include "dem/flaws/clumps.h"
+#include "dem/flaws/mineral_grains.h"
+#include "dem/genesis/genesis.h"
+#include "dem/specimen/specimen_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <variant>
+
+namespace feldspar
+{
+namespace
+{
+/// The entries that genesis reads, and their values.
+std::string rock(const Input& input)
+{
+  std::string text;
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.flags.of_specimen && has_use_for(input, parameter))
+      text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
+  return text;
+}
+
+/// Tells the progress how far genesis is, by its steps and those that it will probably take.
+class GenesisBoard
+{
+public:
+  GenesisBoard(Progress& shown, const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+    : progress(shown)
+  {
+    for (const SpecimenOrder& order : orders)
+      entries.push_back({expected_effort(variants[order.variants.front()].input.specimen)});
+    progress.start("genesis");
+  }
+
+  void step(const std::size_t k)
+  {
+    constexpr std::uint64_t steps_between_looks = 100;
+    if (++entries[k].n_steps % steps_between_looks == 0)
+      draw(k);
+  }
+
+  void finish(const std::size_t k)
+  {
+    entries[k].finished = true;
+    draw(k);
+  }
+
+  /// A sentence that stays.
+  void say(const std::string& sentence)
+  {
+    const std::lock_guard lock(showing);
+    progress.note(sentence);
+  }
+
+private:
+  struct Entry
+  {
+    GenesisEffort expected;
+    std::uint64_t n_steps = 0; ///< of its own thread, which alone looks at it
+    double share = 0.0;
+    bool finished = false;
+  };
+
+  void draw(const std::size_t k)
+  {
+    const std::lock_guard lock(showing);
+    constexpr double beyond = 1.2; // of one that takes longer than expected
+    const double n = double(entries[k].n_steps);
+    entries[k].share = entries[k].finished ? 1.0 : n / std::max({entries[k].expected.n_steps, beyond * n, 1.0});
+    double spent = 0.0;
+    double all = 0.0;
+    std::size_t n_finished = 0;
+    for (const Entry& entry : entries)
+      {
+        spent += entry.share * entry.expected.seconds;
+        all += entry.expected.seconds;
+        n_finished += entry.share == 1.0;
+      }
+    progress.update(all > 0.0 ? spent / all : 1.0, fmt::format("{} of {} done", n_finished, entries.size()));
+  }
+
+  Progress& progress;
+  std::mutex showing;
+  std::vector<Entry> entries;
+};
+
+/// A specimen out of a file brings its own joint law, which must be the one that the input speaks of.
+template <int dim>
+Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted)
+{
+  auto specimen = read_specimen<dim>(wanted.specimen_file);
+  const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
+  if (law != wanted.joint_law)
+    throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
+                                 wanted.specimen_file, law));
+  return specimen;
+}
+} // namespace
+
+std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
+{
+  std::vector<std::string> rocks;
+  std::vector<std::vector<std::size_t>> of_rock;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    {
+      const std::string wanted = rock(variants[v].input);
+      const auto known = std::find(rocks.begin(), rocks.end(), wanted);
+      if (known != rocks.end())
+        of_rock[std::size_t(known - rocks.begin())].push_back(v);
+      else
+        {
+          rocks.push_back(wanted);
+          of_rock.push_back({v});
+        }
+    }
+
+  std::vector<SpecimenOrder> orders;
+  for (const auto& users : of_rock)
+    for (const std::uint64_t seed : variants[users.front()].input.seeds)
+      {
+        std::string name = "specimen";
+        if (of_rock.size() > 1)
+          name += fmt::format("_variant_{}", users.front() + 1);
+        if (variants[users.front()].input.seeds.size() > 1)
+          name += fmt::format("_seed_{}", seed);
+        orders.push_back({users, seed, name});
+      }
+  return orders;
+}
+
+template <int dim>
+std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variants,
+                                             const std::vector<SpecimenOrder>& orders,
+                                             const std::filesystem::path& folder, Progress& progress)
+{
+  check_memory(variants, orders);
+  if (const std::string effort = describe_effort(variants, orders); !effort.empty())
+    progress.remark(effort);
+  std::vector<Specimen<dim>> specimens(orders.size());
+  GenesisBoard board(progress, variants, orders);
+  for_each_job(orders.size(), [&](const std::size_t k) {
+    const auto step = [&] {
+      end_if_interrupted();
+      board.step(k);
+    };
+    const Input& input = variants[orders[k].variants.front()].input;
+    const auto file = folder / (orders[k].name + ".h5");
+    if (std::filesystem::exists(file))
+      try
+        {
+          specimens[k] = read_specimen<dim>(file);
+          board.finish(k);
+          return;
+        }
+      catch (const InputError& error)
+        {
+          board.say(fmt::format("{}; making it anew", error.what()));
+        }
+    specimens[k] = input.specimen.specimen_file.empty()
+                     ? make_specimen<dim>(
+                         input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
+                         [](std::string_view, double) {}, step)
+                     : read_finished_specimen<dim>(input.specimen);
+    put_in_flaws(specimens[k], input.flaws.all(), input.smooth_joint);
+    put_in_mineral_grains(specimens[k], input.mineral_grains, input.smooth_joint);
+    put_in_clumps(specimens[k], input.clumps);
+    write_specimen(specimens[k], file);
+    board.finish(k);
+  });
+  progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
+  return specimens;
+}
+
+std::string describe(const SpecimenReport& report)
+{
+  const std::string smooth = report.n_smooth_joints == 0
+                               ? ""
+                               : fmt::format("  smooth ones among them                 {}\n", report.n_smooth_joints);
+  const std::string clumps =
+    report.n_clumps == 0 ? "" : fmt::format("rigid groups of grains                   {}\n", report.n_clumps);
+  const std::string coring =
+    report.n_cut_joints == 0
+      ? ""
+      : fmt::format("cored: joints cut / grains removed       {} / {}\n", report.n_cut_joints, report.n_removed_grains);
+  return fmt::format("grains                                   {}\n{}"
+                     "joints                                   {}\n{}"
+                     "coordination number                      {:.3f}\n"
+                     "  of grains 3 diameters from the walls   {:.3f}\n"
+                     "installation gap over mean radius        {:.4f}\n"
+                     "porosity                                 {:.4f}\n"
+                     "overlap over mean radius, mean / largest {:.2e} / {:.2e}\n"
+                     "width over mean grain diameter           {:.1f}\n"
+                     "radii scaled by                          {:.4f}\n{}",
+                     report.n_grains, clumps, report.n_joints, smooth, report.coordination_number,
+                     report.coordination_number_core, report.installation_gap_ratio, report.porosity,
+                     report.mean_overlap_ratio, report.largest_overlap_ratio, report.resolution,
+                     report.radius_multiplier, coring);
+}
+
+template <int dim>
+std::string describe(const std::vector<Flaw<dim>>& flaws)
+{
+  // A joint set has many traces: kinds in the order in which they come first.
+  struct Sum
+  {
+    std::string name;
+    bool open;
+    std::uint64_t n;
+    std::uint64_t n_grains;
+    std::uint64_t n_joints;
+  };
+  std::vector<Sum> sums;
+  for (const auto& flaw : flaws)
+    {
+      auto sum = std::find_if(sums.begin(), sums.end(), [&](const Sum& one) { return one.name == flaw.name; });
+      if (sum == sums.end())
+        sum = sums.insert(sums.end(), {flaw.name, flaw.open, 0, 0, 0});
+      ++sum->n;
+      sum->n_grains += flaw.n_grains;
+      sum->n_joints += flaw.n_joints;
+    }
+  std::string text;
+  for (const Sum& sum : sums)
+    text += sum.open
+              ? fmt::format("{} × {}: {} grains and {} joints taken out\n", sum.n, sum.name, sum.n_grains, sum.n_joints)
+              : fmt::format("{} × {}: {} joints unbonded or smooth\n", sum.n, sum.name, sum.n_joints);
+  return text;
+}
+
+template std::string describe<2>(const std::vector<Flaw<2>>&);
+template std::string describe<3>(const std::vector<Flaw<3>>&);
+template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                       const std::filesystem::path&, Progress&);
+template std::vector<Specimen<2>> provide_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                                       const std::filesystem::path&, Progress&);
+} // namespace feldspar

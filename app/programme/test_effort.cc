@@ -1,0 +1,152 @@
+#include "app/programme/test_effort.h"
+
+#include "app/programme/genesis_effort.h"
+#include "app/screen/test_length.h"
+#include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <variant>
+
+namespace feldspar
+{
+namespace
+{
+// Measured on lattices of 30 000 and 100 000 discs and of 8 000 and 40 000 spheres, as differences of the peak between
+// runs of one and of four tests, on one and on two threads (benchmarks/load.py has them larger).
+constexpr double bytes_of_running_joint = 1300.0;
+constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
+constexpr double bytes_of_program = 1.8e8;
+/// Of a step: with the cracks of a test past its peak (benchmarks/README.md).
+constexpr double seconds_of_joint_and_step(const int dimension) { return dimension == 2 ? 2e-8 : 5e-8; }
+
+double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
+{
+  const double at_a_time = std::min<double>(n_tests, oneapi::tbb::this_task_arena::max_concurrency());
+  return at_a_time * n_joints * bytes_of_running_joint + n_tests * n_grains * bytes_of_kept_grain(dimension);
+}
+
+/// [s]; of an intact body, by the mean of its directions.
+template <int dim>
+double expected_time_step(const Specimen<dim>& specimen, const double safety)
+{
+  const auto& joints = specimen.joints;
+  const auto& grains = specimen.grains;
+  std::vector<double> moving(grains.size(), 0.0);
+  std::vector<double> turning(grains.size(), 0.0);
+  std::visit(
+    [&](const auto& law) {
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        {
+          const FaceSprings springs = law.stiffest(joints.face(j));
+          for (const std::uint32_t i : {joints.grain_1[j], joints.grain_2[j]})
+            {
+              moving[i] += (springs.normal + (dim - 1) * springs.shear) / dim;
+              const double arm = grains.radius[i];
+              turning[i] += (springs.shear * arm * arm + springs.bending) * (dim == 2 ? 1.0 : 2.0 / 3.0);
+            }
+        }
+    },
+    joints.law);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    largest = std::max({largest, moving[i] / grains.mass[i], turning[i] / grains.moment_of_inertia[i]});
+  return largest > 0.0 ? safety / std::sqrt(largest) : 0.0;
+}
+
+std::string in_words(const double seconds)
+{
+  return seconds < 90.0     ? fmt::format("{:.0f} s", std::max(1.0, seconds))
+         : seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0)
+                            : fmt::format("{:.0f} h", seconds / 3600.0);
+}
+
+template <int dim>
+double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
+{
+  std::map<const Specimen<dim>*, double> bytes;
+  for (const auto& one : tests)
+    bytes[one.specimen] = double(one.specimen->grains.size()) * bytes_of_grain(dim);
+  double sum = 0.0;
+  for (const auto& [specimen, of_one] : bytes)
+    sum += of_one;
+  return sum;
+}
+} // namespace
+
+template <int dim>
+TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
+{
+  TestEffort effort;
+  effort.n_tests = tests.size();
+  std::map<std::pair<const Specimen<dim>*, double>, double> time_steps;
+  double seconds = 0.0;
+  double most_grains = 0.0;
+  double most_joints = 0.0;
+  for (const auto& [test, input, specimen] : tests)
+    {
+      const double safety = input->dynamics.time_step_safety;
+      const auto [known, is_new] = time_steps.try_emplace({specimen, safety}, 0.0);
+      if (is_new)
+        known->second = expected_time_step(*specimen, safety);
+      // A test without a forecast is left out of the time.
+      const double strain = expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
+      const double rate = input->tests.*protocol_of(test->kind).strain_rate;
+      const double n_steps = known->second > 0.0 ? strain / (rate * known->second) : 0.0;
+      const double of_one = n_steps * double(specimen->joints.size()) * seconds_of_joint_and_step(dim);
+      effort.n_steps = std::max(effort.n_steps, n_steps);
+      seconds += of_one;
+      most_grains = std::max(most_grains, double(specimen->grains.size()));
+      most_joints = std::max(most_joints, double(specimen->joints.size()));
+    }
+  // Threads help each other within a test too.
+  effort.seconds = seconds / oneapi::tbb::this_task_arena::max_concurrency();
+  effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints);
+  return effort;
+}
+
+template <int dim>
+std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
+{
+  const TestEffort effort = expected_effort(tests);
+  return fmt::format("{} {:.0f} steps: about {:.0f} MB with specimens and program, {}",
+                     effort.n_tests == 1 ? "1 test of some" : fmt::format("{} tests of up to", effort.n_tests),
+                     effort.n_steps, (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6,
+                     in_words(effort.seconds));
+}
+
+void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
+{
+  double of_specimens = 0.0;
+  double most_grains = 0.0;
+  double n_tests = 0.0;
+  int dimension = 2;
+  for (const SpecimenOrder& order : orders)
+    {
+      const GenesisEffort genesis = expected_effort(variants[order.variants.front()].input.specimen);
+      of_specimens += genesis.bytes;
+      most_grains = std::max(most_grains, genesis.n_grains);
+      dimension = variants[order.variants.front()].input.specimen.dimension;
+      for (const std::size_t v : order.variants)
+        n_tests += double(test_cases(variants[v].input.test_list, variants[v].input.confinements).size());
+    }
+  const double joints_of_grain = dimension == 2 ? 2.1 : 2.5;
+  const double of_tests = bytes_of_tests(dimension, n_tests, most_grains, joints_of_grain * most_grains);
+  const auto free = free_memory();
+  if (free && of_specimens + of_tests > *free)
+    throw InputError(fmt::format("Tests: {:.0f} test(s) of {} specimen(s) of some {:.1e} grains need some {:.1f} GB of "
+                                 "memory, and {:.1f} GB are free; make the specimens smaller, the tests or variants "
+                                 "fewer, or use fewer threads (--threads)",
+                                 n_tests, orders.size(), most_grains, (of_specimens + of_tests) / 1e9, *free / 1e9));
+}
+
+template TestEffort expected_effort<2>(const std::vector<TestOrder<2>>&);
+template TestEffort expected_effort<3>(const std::vector<TestOrder<3>>&);
+template std::string describe_effort<2>(const std::vector<TestOrder<2>>&);
+template std::string describe_effort<3>(const std::vector<TestOrder<3>>&);
+} // namespace feldspar

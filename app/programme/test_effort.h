@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/input/input.h"
+#include "app/programme/specimen_source.h"
+#include "dem/specimen/specimen.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// What tests of specimens will probably take, besides the specimens. Times are right within a factor of two or three,
+/// memory within a third.
+struct TestEffort
+{
+  std::size_t n_tests = 0;
+  double n_steps = 0.0; ///< of the longest
+  double bytes = 0.0;   ///< of memory: of those that run at the same time, and of the records of all
+  double seconds = 0.0; ///< by the clock, on all threads
+};
+
+/// One test of a programme.
+template <int dim>
+struct TestOrder
+{
+  const TestCase* test;
+  const Input* input;
+  const Specimen<dim>* specimen;
+};
+
+template <int dim>
+TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests);
+
+/// In a sentence, with the memory of the specimens and of the program itself.
+template <int dim>
+std::string describe_effort(const std::vector<TestOrder<dim>>& tests);
+
+/// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
+/// work.
+void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders);
+} // namespace feldspar

@@ -1,0 +1,100 @@
+#include "app/run/launched.h"
+
+#include "app/run/interrupt.h"
+#include "coupling/sample/ranks.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <exception>
+
+namespace feldspar
+{
+namespace
+{
+RunEnd go(const Run& run, const SharedRun& shared)
+{
+  Progress progress(run.quiet || !ranks::is_first());
+  if (ranks::number() == 1)
+    return shared.go_alone(run, progress);
+  shared.share_out(run, progress);
+  RunEnd end{};
+  together_or_interrupted([&] {
+    if (ranks::is_first())
+      end = shared.go_alone(run, progress);
+  });
+  end.was_interrupted = ranks::any(end.was_interrupted);
+  return end;
+}
+} // namespace
+
+bool is_launched()
+{
+  // Of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
+  constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
+  return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+int with_mpi(const std::function<int()>& program)
+{
+  // No limit of threads here, as deal.II's tutorials have it: it would leave the RVEs one worker.
+  int n_arguments = 0;
+  char** no_arguments = nullptr;
+  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
+  // File pointers that processes share, which HDF5 has no use for. By default Open MPI keeps them in its folder for temporary
+  // files and waits without end where that is full; and it guards each by a semaphore of the file's name, which a run that
+  // is killed meanwhile leaves taken, so that every later run with such a file would wait for ever.
+  setenv("OMPI_MCA_sharedfp", "individual", 0);
+  int exit_code = 0;
+  std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
+  {
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+    try
+      {
+        exit_code = ranks::guarded(program);
+      }
+    catch (...)
+      {
+        failure = std::current_exception();
+      }
+  }
+  if (failure)
+    std::rethrow_exception(failure);
+  return exit_code;
+}
+
+void together_or_interrupted(const std::function<void()>& work)
+{
+  bool was_interrupted = false;
+  ranks::together([&] {
+    try
+      {
+        work();
+      }
+    catch (const Interrupted&)
+      {
+        was_interrupted = true;
+      }
+  });
+  if (ranks::any(was_interrupted))
+    throw Interrupted();
+}
+
+Processes all_processes() { return {ranks::is_first(), ranks::first, ranks::of_first}; }
+
+int run_shared(const std::string& name,
+               const std::function<void(const Input&, const std::filesystem::path& input_file)>& check,
+               const SharedRun& plane, const SharedRun& space, const CommonOptions& options)
+{
+  const auto program = [&] {
+    const auto by_dimension = [&](const Run& run) {
+      return go(run, run.input.specimen.dimension == 2 ? plane : space);
+    };
+    return run_command({name, check, by_dimension, all_processes()}, options);
+  };
+  return is_launched() ? with_mpi(program) : program();
+}
+} // namespace feldspar

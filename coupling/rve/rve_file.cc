@@ -1,0 +1,71 @@
+#include "coupling/rve/rve_file.h"
+
+#include "base/hdf5_archive.h"
+#include "coupling/rve/parameters.h"
+#include "coupling/rve/state_archive.h"
+#include "dem/specimen/specimen_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+constexpr const char* group_of_state = "state";
+
+template <int dim>
+bool fits(const NetworkState<dim>& state, const Network<dim>& network)
+{
+  std::size_t n_segments = network.n_segments();
+  for (const Link<dim>& link : network.links())
+    n_segments = std::max(n_segments, std::size_t(link.first_segment) + link.n_segments);
+  const auto by_segment = [](const UnbondedSegment<dim>& a, const UnbondedSegment<dim>& b) {
+    return a.segment < b.segment;
+  };
+  const auto is_finite = [](const std::array<double, dim - 1>& shear) {
+    return std::all_of(shear.begin(), shear.end(), [](const double stress) { return std::isfinite(stress); });
+  };
+  const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
+    return unbonded.segment < n_segments && is_finite(unbonded.shear_stress);
+  };
+  return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
+         (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
+         state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
+         std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
+         (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
+         std::all_of(state.contact_shear.begin(), state.contact_shear.end(), is_finite) &&
+         std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);
+}
+} // namespace
+
+template <int dim>
+void write_rve(const Specimen<dim>& specimen, const NetworkState<dim>& state, const std::filesystem::path& file)
+{
+  write_specimen<dim>(specimen, file, [&](Hdf5Writer& root) {
+    auto group = root.subgroup(group_of_state);
+    NetworkState<dim> copy = state; // one description serves writing and reading, and reading changes
+    transfer(group, copy);
+  });
+}
+
+template <int dim>
+std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& file, const Network<dim>& network)
+{
+  std::optional<NetworkState<dim>> state;
+  read_foreign_hdf5(file, "an RVE of `feldspar multiscale --extract`, or a specimen.h5", [&](Hdf5Reader& root) {
+    if (!root.has(group_of_state))
+      return;
+    auto group = root.subgroup(group_of_state);
+    transfer(group, state.emplace());
+    if (!fits(*state, network))
+      throw InputError("its state is not that of its specimen");
+  });
+  return state;
+}
+
+template void write_rve<2>(const Specimen<2>&, const NetworkState<2>&, const std::filesystem::path&);
+template void write_rve<3>(const Specimen<3>&, const NetworkState<3>&, const std::filesystem::path&);
+template std::optional<NetworkState<2>> read_rve_state<2>(const std::filesystem::path&, const Network<2>&);
+template std::optional<NetworkState<3>> read_rve_state<3>(const std::filesystem::path&, const Network<3>&);
+} // namespace feldspar

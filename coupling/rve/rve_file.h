@@ -1,0 +1,19 @@
+#pragma once
+
+#include "coupling/network/network_state.h"
+#include "dem/specimen/specimen.h"
+
+#include <filesystem>
+#include <optional>
+
+/// A representative volume as a file: its specimen at rest, as write_specimen() has it, and the state it is in.
+namespace feldspar
+{
+template <int dim>
+void write_rve(const Specimen<dim>& specimen, const NetworkState<dim>& state, const std::filesystem::path& file);
+
+/// The state in a file that read_specimen() takes; none where it holds a specimen only. Throws InputError where it is not
+/// a state of this network.
+template <int dim>
+std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& file, const Network<dim>& network);
+} // namespace feldspar

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "dem/dynamics/energies.h"
+#include "dem/dynamics/joint_sweep.h"
+#include "dem/specimen/specimen.h"
+
+#include <vector>
+
+/// The sweep over the smooth joints of a specimen; docs/theory.md §1.9.
+namespace feldspar
+{
+/// Carries every smooth joint over one step of dt [s], as sweep_joints() does the others: reads the grains' positions (at
+/// its end) and spins (at its middle), leaves forces and couples in the joints. Breaks count their joints from the number
+/// of the other joints on.
+template <int dim>
+std::vector<Break> sweep_smooth_joints(Specimen<dim>& body, double dt);
+
+/// Adds their forces and couples to those of the grains.
+template <int dim>
+void add_smooth_forces(Specimen<dim>& body);
+
+/// `sum` with what they store and have dissipated.
+template <int dim>
+Energies with_smooth_joints(Energies sum, const Specimen<dim>& body);
+
+/// A smooth joint that has come to its end.
+struct EndedSmoothJoint
+{
+  GrainPair ends;
+  double energy = 0.0; ///< that it dissipated and stored [J]
+};
+
+/// Drops those without a bond, pressed by nothing, whose sides are farther apart than the grains are wide, or whose grains
+/// have lost each other: they touch as any grains again.
+template <int dim>
+std::vector<EndedSmoothJoint> remove_ended_smooth_joints(Specimen<dim>& body);
+} // namespace feldspar

@@ -1,0 +1,125 @@
+#include "dem/flaws/clumps.h"
+
+#include "base/input_error.h"
+#include "base/random.h"
+#include "dem/flaws/seeds.h"
+#include "dem/flaws/smooth_planes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace feldspar
+{
+namespace
+{
+constexpr const char* size_entry = "Clumps/Diameter";
+
+template <int dim>
+void check(const Specimen<dim>& specimen, const double diameter)
+{
+  const auto refuse = [&](const char* why) {
+    throw InputError(fmt::format("{} = {:g} mm: {}", size_entry, 1e3 * diameter, why));
+  };
+  if (dim == 3)
+    refuse("clumps are of the plane; Specimen/Dimension must be 2");
+  if (specimen.periodic)
+    refuse("a periodic specimen has no clumps; Specimen/Shape must be box");
+  if (!specimen.groups.empty())
+    refuse("the specimen has mineral grains or clumps already; leave it out");
+  if (!specimen.flaws.empty() || !specimen.smooth_joints.empty())
+    refuse("the specimen has flaws, which clumps cannot have; leave one of both out");
+  if (diameter < 4.0 * specimen.report.mean_radius)
+    throw InputError(fmt::format("{} = {:g} mm: must be at least two mean diameters of the grains, {:.3g} mm",
+                                 size_entry, 1e3 * diameter, 4e3 * specimen.report.mean_radius));
+}
+
+/// Of each grain those that it is joined to, by the numbers of the joints.
+template <int dim>
+std::vector<std::vector<std::uint32_t>> joined(const Specimen<dim>& specimen)
+{
+  const auto& joints = specimen.joints;
+  std::vector<std::vector<std::uint32_t>> others(specimen.grains.size());
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints.holds(j))
+      {
+        others[joints.grain_1[j]].push_back(joints.grain_2[j]);
+        others[joints.grain_2[j]].push_back(joints.grain_1[j]);
+      }
+  return others;
+}
+} // namespace
+
+template <int dim>
+void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
+{
+  if (!wanted.diameter)
+    return;
+  check(specimen, *wanted.diameter);
+  const auto& grains = specimen.grains;
+  const auto n_grains = std::uint32_t(grains.size());
+  std::vector<std::uint32_t> order(n_grains);
+  std::iota(order.begin(), order.end(), 0u);
+  std::function<bool(std::uint32_t, std::uint32_t)> belong_together;
+  if (wanted.form == ClumpForm::stamped)
+    {
+      Random(specimen.seed, RandomStream::clumps).shuffle(order);
+      const double reach = 0.5 * *wanted.diameter;
+      belong_together = [&, reach](const std::uint32_t middle, const std::uint32_t other) {
+        return (at<dim>(grains.position, other) - at<dim>(grains.position, middle)).norm() < reach;
+      };
+    }
+  else
+    {
+      const auto seeds = throw_seeds(specimen, *wanted.diameter, RandomStream::clumps, size_entry, "clump");
+      std::vector<std::uint32_t> cell;
+      for (std::uint32_t i = 0; i < n_grains; ++i)
+        cell.push_back(nearest<dim>(seeds, at<dim>(grains.position, i)));
+      belong_together = [cell](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; };
+    }
+
+  // From the middle of each stamp, or any grain of a cell, along the joints: what hangs together only across another
+  // group stays apart.
+  const auto others = joined(specimen);
+  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> group(n_grains, none);
+  std::uint32_t n_groups = 0;
+  for (const std::uint32_t middle : order)
+    {
+      if (group[middle] != none)
+        continue;
+      std::vector<std::uint32_t> reached{middle};
+      group[middle] = n_groups;
+      for (std::size_t k = 0; k < reached.size(); ++k)
+        for (const std::uint32_t other : others[reached[k]])
+          if (group[other] == none && belong_together(middle, other))
+            {
+              group[other] = n_groups;
+              reached.push_back(other);
+            }
+      ++n_groups;
+    }
+
+  specimen.groups = std::move(group);
+  specimen.groups_are_rigid = true;
+  specimen.report.n_clumps = n_groups;
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
+    if (specimen.groups[specimen.joints.grain_1[j]] != specimen.groups[specimen.joints.grain_2[j]])
+      kept.push_back(j);
+  specimen.joints.keep(kept);
+  if (specimen.joints.size() == 0)
+    throw InputError(fmt::format("{} = {:g} mm: leaves no joint between two clumps; make it smaller", size_entry,
+                                 1e3 * *wanted.diameter));
+  specimen.report.n_joints = specimen.n_joints();
+  number_joints(specimen);
+}
+
+template void put_in_clumps<2>(Specimen<2>&, const ClumpParameters&);
+template void put_in_clumps<3>(Specimen<3>&, const ClumpParameters&);
+} // namespace feldspar

@@ -1,0 +1,46 @@
+#include "dem/flaws/mineral_grains.h"
+
+#include "base/input_error.h"
+#include "dem/flaws/seeds.h"
+#include "dem/flaws/smooth_planes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace feldspar
+{
+template <int dim>
+void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters& wanted,
+                           const SmoothJointParameters& boundary)
+{
+  if (!wanted.mean_size)
+    return;
+  if (!specimen.groups.empty())
+    throw InputError("Mineral grains/Mean size: the specimen has mineral grains or clumps already; leave it out");
+  if (specimen.periodic)
+    throw InputError(
+      "Mineral grains/Mean size: a periodic specimen has no smooth joints; Specimen/Shape must be box or "
+      "cylinder");
+  if (const std::string what = objection(boundary); !what.empty())
+    throw InputError("Smooth joint: " + what);
+  const auto seeds =
+    throw_seeds(specimen, *wanted.mean_size, RandomStream::mineral_grains, "Mineral grains/Mean size", "mineral grain");
+  specimen.groups.clear();
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    specimen.groups.push_back(nearest<dim>(seeds, at<dim>(specimen.grains.position, i)));
+
+  const auto& joints = specimen.joints;
+  std::vector<SmoothPlace<dim>> places;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      const std::uint32_t one = specimen.groups[joints.grain_1[j]];
+      const std::uint32_t two = specimen.groups[joints.grain_2[j]];
+      if (one != two && joints.holds(j))
+        places.push_back({j, (seeds[two] - seeds[one]).normalized(), joints.face_area(j)});
+    }
+  put_smooth_joints(specimen, places, boundary, true);
+}
+
+template void put_in_mineral_grains<2>(Specimen<2>&, const MineralGrainParameters&, const SmoothJointParameters&);
+template void put_in_mineral_grains<3>(Specimen<3>&, const MineralGrainParameters&, const SmoothJointParameters&);
+} // namespace feldspar

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "dem/specimen/specimen.h"
+
+#include <functional>
+
+namespace feldspar
+{
+/// How a packing came to rest.
+struct StaticPacking
+{
+  double multiplier = 1.0;       ///< by which all radii were scaled
+  double stress = 0.0;           ///< mean, compression positive [Pa]
+  double unbalanced_ratio = 0.0; ///< mean unbalanced force over mean contact force
+  unsigned int n_iterations = 0;
+};
+
+/// Brings grains that were thrown into their box, cylinder or periodic cell to rest under frictionless contacts and walls
+/// at a mean stress [Pa, compression positive] by descent: positions and the logarithm of the radius multiplier move
+/// together to where forces balance and the stress is the wanted one, from the dense side; docs/theory.md §3. Leaves
+/// radii and positions, grains in spatial order, without mass. `check` is called at every iteration and may throw to end
+/// it. Throws InputError where no rest is found.
+template <int dim>
+StaticPacking pack_by_descent(Specimen<dim>& loose, double stress, const std::function<void()>& check);
+} // namespace feldspar

@@ -1,0 +1,387 @@
+#include "dem/lab/running_test.h"
+
+#include "base/hdf5_archive.h"
+#include "dem/specimen/fragments.h"
+#include "dem/specimen/rigid_groups.h"
+#include "dem/storage/segment_place.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+                         const DynamicsParameters& dynamics)
+{
+  const std::optional<SetUp<dim>>& set_up = test.protocol.set_up<dim>();
+  if (!set_up)
+    throw std::logic_error(fmt::format("{} has no set-up in {} dimensions", test.protocol.kind.name, dim));
+  return (*set_up)(specimen, test.confining_pressure, wanted, dynamics);
+}
+
+/// The grains of the joint that broke.
+template <int dim>
+GrainPair ends_of(const Specimen<dim>& body, const Break& event)
+{
+  const std::size_t n = body.joints.size();
+  return event.joint < n ? GrainPair(body.joints.grain_1[event.joint], body.joints.grain_2[event.joint])
+                         : body.smooth_joints[event.joint - n].ends();
+}
+
+template <int dim>
+Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
+{
+  const Specimen<dim>& body = dynamics.specimen();
+  const auto& joints = body.joints;
+  Crack result;
+  result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
+  result.segment = event.segment;
+  result.step = dynamics.n_steps();
+  result.axial_strain = axial_strain;
+  result.on_smooth_joint = event.joint >= joints.size();
+  SegmentPlace<dim> place;
+  if (result.on_smooth_joint)
+    {
+      const auto& joint = body.smooth_joints[event.joint - joints.size()];
+      const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
+      place = {at<dim>(body.grains.position, joint.grain_1) + share_of_grain_1(joint, branch) * branch,
+               Eigen::Map<const Vector<dim>>(joint.normal.data()), joint.size(body.thickness)};
+      result.joint = joint.number;
+    }
+  else
+    {
+      place = segment_place<dim>(body.grains, joints, event.joint, event.segment);
+      result.joint = joints.number[event.joint];
+    }
+  result.centroid = in_space<dim>(place.centroid);
+  result.normal = in_space<dim>(place.normal);
+  result.size = place.size;
+  result.released_energy = event.released_energy;
+  return result;
+}
+} // namespace
+
+template <int dim>
+LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
+                      const DynamicsParameters& dynamics)
+  : wanted(parameters)
+  , stop_rule(test.protocol.kind)
+  , set_up(set_up_of(test, specimen, parameters, dynamics))
+{
+  const Specimen<dim>& tested = set_up.dynamics.specimen();
+  record.kind = test.protocol.kind;
+  record.confining_pressure = test.confining_pressure;
+  record.intermediate_stress = set_up.loading.intermediate_stress;
+  record.seed = tested.seed;
+  record.has_servo = bool(set_up.loading.servo_stress);
+  record.strain_rate = std::abs(set_up.loading.strain_rate);
+  record.size = in_space<dim>(tested.size);
+  record.specimen = tested.report;
+  record.bulk_density = tested.bulk_density;
+  record.notch = set_up.loading.notch;
+  stop_rule.needs_crack = record.notch.has_value(); // a slender body
+  n_broken_segments.assign(tested.grains.size(), 0);
+  jointed.assign(tested.grains.size(), false);
+  for (std::size_t j = 0; j < tested.joints.size(); ++j)
+    jointed[tested.joints.grain_1[j]] = jointed[tested.joints.grain_2[j]] = true;
+  for (const auto& joint : tested.smooth_joints)
+    jointed[joint.grain_1] = jointed[joint.grain_2] = true;
+  if (tested.groups_are_rigid)
+    {
+      std::vector<bool> group_is_jointed(tested.report.n_clumps, false);
+      for (std::size_t i = 0; i < jointed.size(); ++i)
+        if (jointed[i])
+          group_is_jointed[tested.groups[i]] = true;
+      for (std::size_t i = 0; i < jointed.size(); ++i)
+        jointed[i] = group_is_jointed[tested.groups[i]];
+    }
+}
+
+template <int dim>
+void LabTest<dim>::start_gauge()
+{
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, BodyCentres<dim>(specimen, gauge_positions).all(), jointed);
+}
+
+template <int dim>
+bool LabTest<dim>::advance(const std::function<void()>& check)
+{
+  const auto clock = std::chrono::steady_clock::now();
+  try
+    {
+      if (!seated)
+        seat(check);
+      load_to_next_row(check);
+      ended = stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
+    }
+  catch (const Runaway& error)
+    {
+      record.failure = error.what();
+      ended = true;
+    }
+  wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  return !ended;
+}
+
+template <int dim>
+void LabTest<dim>::seat(const std::function<void()>& check)
+{
+  auto& dynamics = set_up.dynamics;
+  if (set_up.loading.seat)
+    set_up.loading.seat(dynamics, check);
+  gauge_positions = dynamics.specimen().grains.position;
+  start_gauge();
+  time_at_start = time_of_last_row = dynamics.time();
+  seated = true;
+  record.curve.push_back(sample());
+  energy_watch.has_grown_without_work(record.curve.back().energies);
+  take_snapshot();
+}
+
+template <int dim>
+void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
+{
+  auto& dynamics = set_up.dynamics;
+  const auto& loading = set_up.loading;
+  const double next_strain = double(record.curve.size()) * loading.sampling_strain;
+  const auto strain = [&] { return loading.strain_rate * (dynamics.time() - time_at_start); };
+  do // at least one step, however long steps are
+    {
+      check();
+      if (loading.drive)
+        loading.drive(dynamics);
+      const auto breaks = dynamics.step();
+      lateral_stress_over_time += dynamics.time_step() * lateral_stress();
+      for (const auto& event : breaks)
+        {
+          record.cracks.push_back(crack(dynamics, event, strain()));
+          ++(event.in_tension ? n_tension : n_shear);
+          const auto [one, two] = ends_of(dynamics.specimen(), event);
+          ++n_broken_segments[one];
+          ++n_broken_segments[two];
+        }
+    }
+  while (std::abs(strain()) < next_strain);
+  dynamics.check_motion();
+  CurveSample row = sample();
+  if (energy_watch.has_grown_without_work(row.energies))
+    throw dynamics.runaway(
+      fmt::format("energy grows without work ({:.3g} J more than were put in)", -row.energies.unaccounted()));
+  row.lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
+  record.curve.push_back(row);
+  time_of_last_row = dynamics.time();
+  lateral_stress_over_time = 0.0;
+  if ((record.curve.size() - 1) % rows_between_snapshots == 0)
+    take_snapshot();
+}
+
+template <int dim>
+double LabTest<dim>::lateral_stress() const
+{
+  return record.has_servo ? set_up.loading.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
+}
+
+template <int dim>
+CurveSample LabTest<dim>::sample() const
+{
+  constexpr int axis = dim - 1;
+  const auto& dynamics = set_up.dynamics;
+  const Specimen<dim>& specimen = dynamics.specimen();
+  CurveSample row;
+  row.step = dynamics.n_steps();
+  row.time = dynamics.time() - time_at_start;
+  row.axial_strain = set_up.loading.strain_rate * row.time;
+  const EndStress stress = set_up.loading.end_stress(dynamics);
+  row.axial_stress = 0.5 * (stress.lower + stress.upper);
+  row.end_stress_difference = stress.upper - stress.lower;
+  row.lateral_stress = lateral_stress();
+  const double area = specimen.volume() / specimen.size[axis];
+  row.mid_stress = -dynamics.force_across(0.5 * specimen.size[axis]) / area; // pulled down from below: tension
+  const Tensor<dim> gradient = gauge.displacement_gradient(BodyCentres<dim>(specimen).all());
+  row.gauge_axial_strain = gradient(axis, axis);
+  row.gauge_volumetric_strain = gradient.trace();
+  row.gauge_lateral_strain = (gradient.trace() - gradient(axis, axis)) / (dim - 1);
+  row.n_tension_cracks = n_tension;
+  row.n_shear_cracks = n_shear;
+  row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();
+  row.energies = dynamics.energies();
+  return row;
+}
+
+template <int dim>
+Snapshot LabTest<dim>::snapshot() const
+{
+  const auto& specimen = set_up.dynamics.specimen();
+  Snapshot now;
+  now.step = set_up.dynamics.n_steps();
+  now.axial_strain = record.curve.back().axial_strain;
+  now.axial_stress = record.curve.back().axial_stress;
+  for (int c = 0; c < dim; ++c)
+    now.position[c] = specimen.grains.position[c];
+  for (auto& component : now.stress)
+    component.reserve(specimen.grains.size());
+  for (const Tensor<dim>& stress : set_up.dynamics.grain_stresses())
+    {
+      const Tensor<dim> symmetric = 0.5 * (stress + stress.transpose());
+      std::size_t k = 0;
+      for (int a = 0; a < 3; ++a)
+        for (int b = a; b < 3; ++b)
+          now.stress[k++].push_back(b < dim ? symmetric(a, b) : 0.0);
+    }
+  now.fragment = fragments(specimen);
+  now.n_broken_segments = n_broken_segments;
+  return now;
+}
+
+/// How long the curve will be is not known: when there are too many, every second one goes. The last one comes when the
+/// test is finished.
+template <int dim>
+void LabTest<dim>::take_snapshot()
+{
+  snapshots.push_back(snapshot());
+  constexpr std::size_t most_snapshots = 32;
+  if (snapshots.size() < most_snapshots)
+    return;
+  std::vector<Snapshot> kept;
+  for (std::size_t k = 0; k < snapshots.size(); k += 2)
+    kept.push_back(std::move(snapshots[k]));
+  snapshots = std::move(kept);
+  rows_between_snapshots *= 2;
+}
+
+template <int dim>
+TestOutcome LabTest<dim>::finish(const bool interrupted) const
+{
+  const Specimen<dim>& specimen = set_up.dynamics.specimen();
+  TestOutcome result{record, {}, {}};
+  result.record.interrupted = interrupted || !record.failure.empty();
+  if (!record.curve.empty()) // of a row that was begun nothing is reported yet
+    result.record.cracks.resize(record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
+  result.bookkeeping.steps = set_up.dynamics.n_steps();
+  result.bookkeeping.time_step = set_up.dynamics.time_step();
+  result.bookkeeping.wall_time = wall_time;
+  result.appearance.snapshots = snapshots;
+  // The end, unless a row was begun or numbers went wrong in it.
+  if (record.failure.empty() && !snapshots.empty() && snapshots.back().step < record.curve.back().step &&
+      record.curve.back().step == set_up.dynamics.n_steps())
+    result.appearance.snapshots.push_back(snapshot());
+  for (const auto& flaw : specimen.flaws)
+    {
+      FlawPicture picture{flaw.name, flaw.open, {}};
+      for (const auto& point : flaw.outline)
+        picture.outline.push_back(in_space<dim>(point));
+      result.appearance.flaws.push_back(std::move(picture));
+    }
+
+  // Where numbers went wrong, the grains stand as they last stood right.
+  const bool went_wrong = !record.failure.empty();
+  if (went_wrong && snapshots.empty())
+    return result;
+  const auto fragment = went_wrong ? snapshots.back().fragment : fragments(specimen);
+  const auto position_of = [&](const std::size_t i) {
+    if (!went_wrong)
+      return in_space<dim>(at<dim>(specimen.grains.position, i));
+    std::array<double, 3> position{};
+    for (int c = 0; c < dim; ++c)
+      position[c] = snapshots.back().position[c][i];
+    return position;
+  };
+  auto& grains = result.appearance.grains_at_end;
+  for (std::size_t i = 0; i < specimen.grains.size(); ++i)
+    grains.push_back({in_space<dim>(at<dim>(seated ? gauge_positions : specimen.grains.position, i)), position_of(i),
+                      specimen.grains.radius[i], fragment[i], specimen.groups.empty() ? 0 : specimen.groups[i] + 1});
+  result.record.fragments = fragments_of(grains, dim);
+  return result;
+}
+
+template <int dim>
+template <typename Archive>
+void LabTest<dim>::transfer(Archive& archive)
+{
+  auto dynamics = archive.subgroup("dynamics");
+  set_up.dynamics.transfer(dynamics);
+  archive.bytes("curve", record.curve);
+  archive.bytes("cracks", record.cracks);
+  for (std::size_t c = 0; c < gauge_positions.size(); ++c)
+    archive.array(fmt::format("gauge_position_{}", "xyz"[c]), gauge_positions[c]);
+  archive.value("wall_time", wall_time);
+  archive.value("time_at_start", time_at_start);
+  archive.value("time_of_last_row", time_of_last_row);
+  archive.value("lateral_stress_over_time", lateral_stress_over_time);
+  archive.value("n_tension", n_tension);
+  archive.value("n_shear", n_shear);
+  stop_rule.transfer(archive);
+  std::uint32_t has_ended = ended;
+  archive.value("ended", has_ended);
+  ended = has_ended;
+  archive.array("n_broken_segments", n_broken_segments);
+  archive.value("rows_between_snapshots", rows_between_snapshots);
+  std::uint64_t n_snapshots = snapshots.size();
+  archive.value("n_snapshots", n_snapshots);
+  snapshots.resize(n_snapshots);
+  for (std::size_t k = 0; k < n_snapshots; ++k)
+    {
+      Snapshot& snapshot = snapshots[k];
+      auto group = archive.subgroup(fmt::format("snapshot_{}", k));
+      group.value("step", snapshot.step);
+      group.value("axial_strain", snapshot.axial_strain);
+      group.value("axial_stress", snapshot.axial_stress);
+      for (int c = 0; c < dim; ++c)
+        group.array(fmt::format("position_{}", "xyz"[c]), snapshot.position[c]);
+      for (std::size_t c = 0; c < snapshot.stress.size(); ++c)
+        group.array(fmt::format("stress_{}", c), snapshot.stress[c]);
+      group.array("fragment", snapshot.fragment);
+      group.array("n_broken_segments", snapshot.n_broken_segments);
+    }
+}
+
+namespace
+{
+const std::string checkpoint_format = "feldspar checkpoint";
+
+/// What must agree before the rest is worth reading.
+template <typename Archive>
+void transfer_identity(Archive& archive, const std::string& identity)
+{
+  std::string format = checkpoint_format;
+  std::string whose = identity;
+  archive.text("format", format);
+  archive.text("identity", whose);
+  if (format != checkpoint_format)
+    throw InputError("another kind of file");
+  if (whose != identity)
+    throw InputError("of another test, input or version of this program");
+}
+} // namespace
+
+template <int dim>
+void LabTest<dim>::write_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  write_hdf5(file, [&](Hdf5Writer& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+}
+
+template <int dim>
+void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std::string& identity)
+{
+  read_hdf5(file, "a checkpoint of this test", [&](Hdf5Reader& archive) {
+    transfer_identity(archive, identity);
+    transfer(archive);
+  });
+  start_gauge();
+  for (const CurveSample& row : record.curve)
+    energy_watch.has_grown_without_work(row.energies);
+  seated = true;
+}
+
+template class LabTest<2>;
+template class LabTest<3>;
+} // namespace feldspar

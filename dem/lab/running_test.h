@@ -1,0 +1,116 @@
+#pragma once
+
+#include "dem/dynamics/dynamics.h"
+#include "dem/lab/energy_watch.h"
+#include "dem/lab/laboratory_protocol.h"
+#include "dem/lab/parameters.h"
+#include "dem/lab/stop_rule.h"
+#include "dem/lab/strain_gauge.h"
+#include "results/test_outcome.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace feldspar
+{
+/// Stresses at the ends of a specimen [Pa], tension positive.
+struct EndStress
+{
+  double lower;
+  double upper;
+};
+
+/// How a specimen is loaded and measured once its walls or grips stand; keeps no state of its own.
+template <int dim>
+struct Loading
+{
+  double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
+  double sampling_strain = 0.0;              ///< between two rows of the curve
+  std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
+  std::optional<NotchGeometry> notch;
+  /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
+  std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
+  std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
+  std::function<EndStress(const Dynamics<dim>&)> end_stress;
+  std::function<double(const Dynamics<dim>&)> servo_stress; ///< on the sides [Pa]; empty where no servo holds it
+};
+
+/// A specimen between walls or grips, ready to be loaded.
+template <int dim>
+struct SetUpTest
+{
+  Dynamics<dim> dynamics;
+  Loading<dim> loading;
+};
+
+/// A protocol under the pressure that it takes [Pa]; compression positive, 0 where it takes none.
+struct LaboratoryCase
+{
+  const LaboratoryProtocol& protocol;
+  double confining_pressure = 0.0;
+};
+
+/// A laboratory test that can be left and taken up again: run row by row of its curve.
+template <int dim>
+class LabTest
+{
+public:
+  LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+          const DynamicsParameters& dynamics);
+
+  /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
+  /// the stop rule, or because numbers went wrong, which its record then says. Calls check() at every step, which may
+  /// throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws InputError where the
+  /// confinement cannot be reached.
+  bool advance(const std::function<void()>& check = [] {});
+
+  bool has_ended() const { return ended; }
+  bool is_seated() const { return seated; }
+  /// Whether it has ended because of its numbers.
+  bool went_wrong() const { return !record.failure.empty(); }
+  std::uint64_t n_steps() const { return set_up.dynamics.n_steps(); }
+  const std::vector<CurveSample>& curve() const { return record.curve; }
+
+  /// The test as it stands, whether it has ended or not. Of one whose numbers went wrong, all that was before the row in
+  /// which they did.
+  TestOutcome finish(bool interrupted) const;
+
+  /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.
+  void write_checkpoint(const std::filesystem::path& file, const std::string& identity);
+  /// Throws InputError where the file is missing, torn, foreign or of another identity; the test is then unusable.
+  void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
+
+private:
+  template <typename Archive>
+  void transfer(Archive& archive);
+  double lateral_stress() const;
+  CurveSample sample() const;
+  void seat(const std::function<void()>& check);
+  void load_to_next_row(const std::function<void()>& check);
+  Snapshot snapshot() const;
+  void take_snapshot();
+  void start_gauge();
+
+  TestParameters wanted;
+  StopRule stop_rule;
+  SetUpTest<dim> set_up;
+  TestRecord record;
+  std::vector<Snapshot> snapshots;
+  EnergyWatch energy_watch;
+  double wall_time = 0.0;    ///< [s]
+  std::vector<bool> jointed; ///< each grain, before anything broke
+  StrainGauge<dim> gauge;
+  bool seated = false;
+  bool ended = false;
+  Components<dim> gauge_positions;       ///< of all grains when the gauge was set
+  double time_at_start = 0.0;            ///< of the loading, after seating [s]
+  double time_of_last_row = 0.0;         ///< of the dynamics [s]
+  double lateral_stress_over_time = 0.0; ///< since then [Pa s]
+  std::uint64_t n_tension = 0;
+  std::uint64_t n_shear = 0;
+  std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints
+  std::uint64_t rows_between_snapshots = 1;
+};
+} // namespace feldspar

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "dem/specimen/specimen.h"
+
+#include <cstdint>
+#include <vector>
+
+/// Grains that move as one rigid body: the groups of a specimen of clumps, in the plane; docs/theory.md §2.6.
+namespace feldspar
+{
+/// Where the body stands that each grain is a part of: the centre of its group, or its own.
+template <int dim>
+class BodyCentres
+{
+public:
+  explicit BodyCentres(const Specimen<dim>& specimen)
+    : BodyCentres(specimen, specimen.grains.position)
+  {
+  }
+  /// Of grains that stand at these positions, which must outlive it [m].
+  BodyCentres(const Specimen<dim>& specimen, const Components<dim>& positions);
+  BodyCentres(const BodyCentres&) = delete;
+  BodyCentres& operator=(const BodyCentres&) = delete;
+
+  /// Of each grain's body [m]; [n_grains].
+  const Components<dim>& all() const { return *centre; }
+  /// Of one grain's body [m].
+  Vector<dim> of(const std::uint32_t grain) const { return at<dim>(*centre, grain); }
+
+private:
+  Components<dim> own;
+  const Components<dim>* centre;
+};
+
+/// The groups of a specimen as bodies of their own; empty where grains move each for itself. A group has the mass of its
+/// members, Σm, their centre and the moment of inertia Σ(I + m d²) about it, with d from that centre.
+template <int dim>
+class RigidGroups
+{
+public:
+  /// Takes the members where they stand, at rest.
+  explicit RigidGroups(const Specimen<dim>& specimen);
+
+  bool empty() const { return of.empty(); }
+  std::size_t size() const { return bodies.size(); }
+  /// The group that a grain is a part of.
+  std::uint32_t body_of(const std::uint32_t grain) const { return of[grain]; }
+
+  /// They move as grains do: mass, motion, forces. Their radii are those of discs of their volumes.
+  Grains<dim> bodies;
+
+  /// An impulse m Δv at the centre of a member [m/s]: pushes its group and turns it.
+  void push(Grains<dim>& grains, std::uint32_t grain, const Vector<dim>& velocity);
+  /// Forces and couples of the groups from those of their members, in the order of these.
+  void gather(const Grains<dim>& grains);
+  /// After the groups have moved by a step [s]: turns them, and their members go along. These have the velocity of their
+  /// way and the spin of their group.
+  void carry_members(Grains<dim>& grains, double dt);
+
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    if (empty())
+      return;
+    const auto all_of = [&](const std::string& name, auto& components) {
+      for (std::size_t c = 0; c < components.size(); ++c)
+        archive.array("group_" + name + "_" + "xyz"[c], components[c]);
+    };
+    all_of("position", bodies.position);
+    all_of("velocity", bodies.velocity);
+    all_of("spin", bodies.spin);
+    all_of("force", bodies.force);
+    all_of("couple", bodies.couple);
+    archive.array("group_angle", angle);
+  }
+
+private:
+  std::vector<std::uint32_t> of;      ///< group of each grain
+  std::vector<std::uint32_t> first;   ///< of each group's among the members; [n_groups + 1]
+  std::vector<std::uint32_t> members; ///< by group, ascending
+  Components<dim> arm;                ///< of each grain from the centre of its group, before it turned [m]
+  std::vector<double> angle;          ///< by which each group has turned
+};
+} // namespace feldspar

@@ -1,0 +1,322 @@
+// Shows in the place of pictures what answers to the pointer: curves by Chart.js, and the cracks of a test one after the
+// other. Without it, and on paper, the page has its pictures. All texts go through the canvas or textContent.
+"use strict";
+(() => {
+  const dashes = {1: [], 2: [8, 5], 3: [2, 4], 4: [9, 4, 2, 4], 5: [9, 4, 2, 4, 2, 4]};
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const theme = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const explained = {};
+  const drawn = []; // of each figure on the screen what draws it anew
+
+  const element = (tag, parent, properties = {}) =>
+    parent.appendChild(Object.assign(document.createElement(tag), properties));
+
+  // Black is the rock's colour and turns with the page's.
+  const shade = colour => (colour === "#000000" ? theme("--text") : colour === "#332288" && dark.matches ? "#8f83e0" : colour);
+  const digits = value => (value === 0 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−"));
+
+  function dataset(line) {
+    const colour = shade(line.colour);
+    const marks = line.kind === "marks";
+    const area = line.kind === "area";
+    return {
+      label: line.label,
+      goesWith: line.goes_with,
+      // A gap is null there.
+      data: line.points.map(point => ({x: point ? point[0] : NaN, y: point ? point[1] : NaN})),
+      showLine: !marks,
+      fill: area ? "shape" : false,
+      stepped: line.kind === "steps" ? "middle" : false,
+      borderColor: line.goes_with && line.width < 1 ? colour + "88" : colour,
+      backgroundColor: area ? colour + "2e" : colour,
+      borderWidth: area ? 0 : line.width,
+      borderDash: dashes[line.dashes] || [],
+      pointStyle: marks ? "circle" : "line",
+      pointRadius: marks ? 4 : 0,
+      pointHoverRadius: marks ? 6 : area || line.kind === "bars" ? 0 : 3,
+      pointHitRadius: area || line.kind === "bars" ? 0 : 6,
+      silent: area || line.kind === "bars",
+      yAxisID: line.right ? "right" : "y",
+      order: area ? 3 : line.goes_with ? 2 : 1,
+    };
+  }
+
+  // What stands for a line in the key: itself, as Chart.js draws neither dashes nor round points there.
+  function sample(of) {
+    const canvas = document.createElement("canvas");
+    canvas.width = 32;
+    canvas.height = 12;
+    const pen = canvas.getContext("2d");
+    pen.strokeStyle = pen.fillStyle = of.borderColor;
+    if (of.showLine) {
+      pen.setLineDash(of.borderDash);
+      pen.lineWidth = of.borderWidth;
+      pen.moveTo(0, 6);
+      pen.lineTo(32, 6);
+      pen.stroke();
+    } else {
+      pen.arc(16, 6, 4, 0, 2 * Math.PI);
+      pen.fill();
+    }
+    return canvas;
+  }
+
+  function axis(title, position, fromZero) {
+    const text = theme("--text");
+    return {
+      type: "linear",
+      position,
+      min: fromZero ? 0 : undefined,
+      title: {display: true, text: title, color: text},
+      ticks: {color: text, maxRotation: 0, autoSkipPadding: 12, includeBounds: false},
+      grid: {color: theme("--line"), drawOnChartArea: position !== "right"},
+    };
+  }
+
+  function chart(figure, data) {
+    const box = element("div", figure.stage, {className: "chart"});
+    box.style.aspectRatio = matchMedia("(max-width: 40rem)").matches ? "1 / 1.05" : figure.ratio;
+    const canvas = element("canvas", box);
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", figure.alternative);
+    const scales = {x: axis(data.x, "bottom", false), y: axis(data.y, "left", data.from_zero)};
+    if (data.right)
+      scales.right = axis(data.right, "right", true);
+    const plot = new Chart(canvas, {
+      type: "scatter",
+      data: {datasets: data.lines.map(dataset)},
+      options: {
+        animation: false,
+        responsive: true,
+        maintainAspectRatio: false,
+        interaction: {mode: "nearest", intersect: false, axis: "xy"},
+        scales,
+        plugins: {
+          legend: {
+            position: "bottom",
+            labels: {
+              color: theme("--text"),
+              usePointStyle: true,
+              pointStyleWidth: 32,
+              generateLabels: plot => plot.data.datasets.map((one, k) => ({
+                text: one.label, datasetIndex: k, hidden: !plot.isDatasetVisible(k), fontColor: theme("--text"),
+                pointStyle: sample(one), lineWidth: 0,
+              })).filter(item => !plot.data.datasets[item.datasetIndex].goesWith),
+            },
+            // What goes with a line comes and goes with it.
+            onClick: (event, item, legend) => {
+              const all = legend.chart.data.datasets;
+              const shown = legend.chart.isDatasetVisible(item.datasetIndex);
+              all.forEach((one, k) => {
+                if (k === item.datasetIndex || one.goesWith === item.text)
+                  legend.chart.setDatasetVisibility(k, !shown);
+              });
+              legend.chart.update();
+            },
+          },
+          tooltip: {
+            filter: item => !item.dataset.silent,
+            callbacks: {
+              title: () => "",
+              label: item => `${item.dataset.label}: ${digits(item.parsed.y)} at ${digits(item.parsed.x)}`,
+            },
+          },
+          zoom: {
+            zoom: {
+              drag: {enabled: true, threshold: 6},
+              wheel: {enabled: true, modifierKey: "ctrl"},
+              mode: "xy",
+            },
+          },
+        },
+      },
+    });
+    // A long key takes no room from the axes.
+    const wanted = Math.max(200, 0.58 * plot.width);
+    const area = plot.chartArea.bottom - plot.chartArea.top;
+    if (area < wanted) {
+      box.style.aspectRatio = "auto";
+      box.style.maxHeight = "none";
+      box.style.height = `${plot.height - area + wanted}px`;
+      plot.resize();
+    }
+    if (data.equal) {
+      const equalise = () => {
+        const {width, height} = plot.chartArea;
+        const {min, max} = plot.scales.x;
+        plot.options.scales.x.min = min;
+        plot.options.scales.x.max = max;
+        plot.options.scales.y.max = ((max - min) * height) / width;
+        plot.update("none");
+      };
+      equalise();
+      plot.options.onResize = () => requestAnimationFrame(equalise);
+    }
+    canvas.addEventListener("dblclick", () => plot.resetZoom());
+    figure.buttons([["whole range", () => plot.resetZoom()]]);
+    figure.hint("chart", "Drag a rectangle to enlarge it, double-click for the whole range; click an entry of the key to hide or show it.");
+    return () => plot.destroy();
+  }
+
+  function cracks(figure, data) {
+    const box = element("div", figure.stage, {className: "story"});
+    const canvas = element("canvas", box);
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", figure.alternative);
+    const output = element("output", box);
+    const slider = element("input", box, {type: "range", min: 0, max: data.rows.length - 1, step: 1});
+    slider.setAttribute("aria-label", "How far the test has gone");
+    let highest = 0;
+    data.rows.forEach((row, k) => {
+      if (row[1] > data.rows[highest][1])
+        highest = k;
+    });
+    slider.value = figure.kept ?? highest;
+
+    let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const grain of data.grains)
+      for (const c of [0, 1]) {
+        low[c] = Math.min(low[c], grain[c] - grain[2]);
+        high[c] = Math.max(high[c], grain[c] + grain[2]);
+      }
+    const pen = canvas.getContext("2d");
+    const draw = () => {
+      const margin = 40;
+      const width = box.clientWidth;
+      const scale = Math.min((width - margin - 10) / (high[0] - low[0]), (Math.min(0.75 * innerHeight, 720) - margin) / (high[1] - low[1]));
+      const height = scale * (high[1] - low[1]) + margin + 6;
+      const pixels = devicePixelRatio || 1;
+      canvas.width = width * pixels;
+      canvas.height = height * pixels;
+      canvas.style.height = height + "px";
+      const left = margin + (width - margin - scale * (high[0] - low[0])) / 2;
+      const x = value => left + scale * (value - low[0]);
+      const y = value => height - margin - scale * (value - low[1]);
+      pen.setTransform(pixels, 0, 0, pixels, 0, 0);
+      pen.clearRect(0, 0, width, height);
+      pen.fillStyle = theme("--line");
+      for (const grain of data.grains) {
+        pen.beginPath();
+        pen.arc(x(grain[0]), y(grain[1]), scale * grain[2], 0, 2 * Math.PI);
+        pen.fill();
+      }
+      pen.fillStyle = theme("--text");
+      pen.strokeStyle = theme("--text");
+      pen.lineWidth = 1;
+      pen.font = "12px system-ui, sans-serif";
+      const step = [1, 2, 5, 10, 20, 50, 100, 200].find(one => (high[1] - low[1]) / one <= 8) || 500;
+      pen.textAlign = "center";
+      for (let v = step * Math.ceil(low[0] / step); v <= high[0]; v += step)
+        pen.fillText(v, x(v), height - margin + 16);
+      pen.fillText(data.across, x((low[0] + high[0]) / 2), height - margin + 32);
+      pen.textAlign = "right";
+      for (let v = step * Math.ceil(low[1] / step); v <= high[1]; v += step)
+        pen.fillText(v, left - 6, y(v) + 4);
+      pen.save();
+      pen.translate(left - 32, y((low[1] + high[1]) / 2));
+      pen.rotate(-Math.PI / 2);
+      pen.textAlign = "center";
+      pen.fillText(data.up, 0, 0);
+      pen.restore();
+      const now = Number(slider.value);
+      pen.lineWidth = Math.min(3, Math.max(1.2, 0.25 * scale)); // [px], of 0.25 mm
+      for (const kind of [0, 1]) {
+        pen.strokeStyle = kind ? "#0072B2" : "#D55E00";
+        if (kind && dark.matches)
+          pen.strokeStyle = "#4aa8e0";
+        pen.beginPath();
+        for (const crack of data.cracks)
+          if (crack[4] === kind && crack[5] <= now) {
+            pen.moveTo(x(crack[0] - crack[2] / 2), y(crack[1] - crack[3] / 2));
+            pen.lineTo(x(crack[0] + crack[2] / 2), y(crack[1] + crack[3] / 2));
+          }
+        pen.stroke();
+      }
+      const row = data.rows[now];
+      output.textContent =
+        `${data.strain}: ${digits(row[0])}; ${data.stress}: ${digits(row[1])}; broken segments: ` +
+        `${row[2]} in tension (orange), ${row[3]} in shear (blue)`;
+    };
+    slider.addEventListener("input", () => {
+      figure.kept = Number(slider.value);
+      draw();
+    });
+    const watch = new ResizeObserver(draw);
+    watch.observe(box);
+    draw();
+    figure.hint("", "Move the slider along the test. Grains lie where they were when the loading began, cracks where they broke.");
+    return () => watch.disconnect();
+  }
+
+  for (const source of document.querySelectorAll("script.live-data")) {
+    const frame = source.closest("figure");
+    const image = frame.querySelector("img");
+    const figure = {
+      ratio: image ? `${image.getAttribute("width")} / ${image.getAttribute("height")}` : "4 / 3",
+      alternative: image ? image.alt : "",
+      stage: null,
+      kept: undefined,
+    };
+    const bar = document.createElement("div");
+    bar.className = "bar";
+    figure.buttons = all => {
+      for (const [text, action] of all)
+        element("button", bar, {type: "button", textContent: text, onclick: action});
+    };
+    // Said under the first of its kind; without a kind under each.
+    figure.hint = (kind, text) => {
+      if (!kind || (explained[kind] ||= frame) === frame)
+        element("p", figure.stage, {className: "hint", textContent: text});
+      else
+        figure.stage.title = text;
+    };
+    let end = null;
+    const begin = () => {
+      const data = JSON.parse(source.textContent);
+      frame.classList.add("live");
+      figure.stage = document.createElement("div");
+      figure.stage.className = "stage";
+      frame.insertBefore(figure.stage, frame.firstChild);
+      bar.textContent = "";
+      end = data.what === "cracks" ? cracks(figure, data) : chart(figure, data);
+      if (image)
+        figure.buttons([["as printed", stop]]);
+      figure.stage.appendChild(bar);
+    };
+    const stop = () => {
+      end();
+      end = null;
+      figure.stage.remove();
+      frame.classList.remove("live");
+      const again = element("button", frame, {type: "button", textContent: "interactive", className: "again"});
+      again.onclick = () => {
+        again.remove();
+        begin();
+      };
+    };
+    drawn.push(() => {
+      if (end) {
+        end();
+        figure.stage.remove();
+        begin();
+      }
+    });
+    // A figure is made when it comes near the screen: a long page opens at once.
+    new IntersectionObserver((seen, observer) => {
+      if (seen.some(one => one.isIntersecting)) {
+        observer.disconnect();
+        begin();
+      }
+    }, {rootMargin: "800px"}).observe(frame);
+  }
+  dark.addEventListener("change", () => drawn.forEach(anew => anew()));
+
+  // The picture that is shown is in the page: its link works where the page was mailed alone.
+  for (const link of document.querySelectorAll("a[data-shown]")) {
+    const image = link.closest("figure").querySelector("img");
+    if (image) {
+      link.download = link.getAttribute("href").split("/").pop();
+      link.href = image.src;
+    }
+  }
+})();

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace feldspar
+{
+/// A file of points and what lies on them, as VTK reads it by default (.vtp): XML with its numbers behind it, in single
+/// precision. Format: VTK File Formats, "XML File Formats", appended data in raw encoding.
+class VtkPolyData
+{
+public:
+  using Components = std::vector<std::array<double, 3>>;
+
+  enum class Cells
+  {
+    points, ///< each point by itself
+    lines,  ///< each two points
+    squares ///< each four
+  };
+
+  VtkPolyData(const Components& points, Cells cells);
+
+  // Of each cell; of points their own. Names end in the SI unit, where there is one.
+  void scalar(const std::string& name, const std::vector<double>& values);
+  void count(const std::string& name, const std::vector<std::uint32_t>& values);
+  void vector(const std::string& name, const Components& values);
+  /// Symmetric: xx, xy, xz, yy, yz, zz; nine components in the file.
+  void tensor(const std::string& name, const std::vector<std::array<double, 6>>& values);
+
+  /// Of all.
+  void of_all(const std::string& name, double value);
+
+  /// Throws OutputError.
+  void write(const std::filesystem::path& file) const;
+
+private:
+  std::string array(const std::string& name, std::string_view type, std::size_t n_components, const void* data,
+                    std::size_t n_bytes);
+  std::string reals(const std::string& name, std::size_t n_components, const std::vector<float>& values);
+
+  std::size_t n_points;
+  std::size_t n_cells;
+  Cells kind;
+  std::string geometry;
+  std::string connectivity;
+  std::string of_cells;
+  std::string of_whole;
+  std::string appended;
+};
+
+/// One of the files of a time series.
+struct VtkTime
+{
+  double time;
+  std::string file; ///< from the folder of the series
+};
+
+/// The files of a series with their times (.pvd). Throws OutputError.
+void write_vtk_series(const std::vector<VtkTime>& times, const std::filesystem::path& file);
+} // namespace feldspar

@@ -1,0 +1,210 @@
+// Representative volumes of parallel bonds: the response of one face, the tangent, balances through breakage, explicit
+// dynamics beside, and a path taken up again.
+
+#include "coupling/network/link_response.h"
+#include "coupling/rve/equilibrium.h"
+#include "coupling/rve/explicit_run.h"
+#include "coupling/rve/path_run.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/parallel_bonds.h"
+#include "tests/unit/small_rve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+template <typename Case>
+class ParallelBondRves : public testing::Test
+{
+};
+TYPED_TEST_SUITE(ParallelBondRves, Dimensions);
+
+constexpr EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
+
+template <int dim>
+Specimen<dim> bonded_cell()
+{
+  SpecimenParameters wanted;
+  wanted.dimension = dim;
+  wanted.shape = "periodic";
+  wanted.width = wanted.height = dim == 2 ? 0.012 : 0.006;
+  wanted.porosity = dim == 2 ? 0.16 : 0.36;
+  ParallelBondParameters bonds = test_bonds();
+  bonds.bond_tensile_strength_deviation = bonds.bond_cohesion_deviation = 10e6;
+  bonds.installation_gap_ratio = 0.05;
+  return make_specimen<dim>(wanted, bonds, {}, 1, [](std::string_view, double) {});
+}
+
+template <int dim>
+RepresentativeVolume<dim> bonded_rve(const EquilibriumParameters& parameters = sharp)
+{
+  return {std::make_shared<const Network<dim>>(bonded_cell<dim>()), parameters};
+}
+
+/// Shortened with free sides.
+template <int dim>
+std::vector<PathLeg<dim>> shortening(const double strain)
+{
+  Control<dim> control;
+  control.stress_given.fill(true);
+  control.stress_given[dim - 1] = false;
+  control.strain[dim - 1] = -strain;
+  return {{control, true}};
+}
+
+TYPED_TEST(ParallelBondRves, AFaceRespondsAsTheLawOfTheSweep)
+{
+  // One step from rest, sticking and sliding, bonded and not: forces and energy as of the update in dem/, and the
+  // derivative as by differences.
+  constexpr int dim = TypeParam::value;
+  const auto specimen = bonded_cell<dim>();
+  const Network<dim> network(specimen);
+  const ParallelBond<dim> law(test_bonds(), {});
+  const Face<double> face = specimen.joints.face(0);
+  for (const bool bonded : {true, false})
+    for (const double slip : {1e-9, 3e-7})
+      for (const double opening : {-2e-7, 2e-7})
+        {
+          Motion<dim> motion = Motion<dim>::Constant(1e-5); // turns
+          motion[0] = opening;
+          for (int c = 1; c < dim; ++c)
+            motion[c] = slip * c;
+          ActiveLink<dim> active{0, Motion<dim>::Zero(), {SegmentHistory<dim>{bonded, {}}}};
+          const LinkResponse<dim> found = response(network, active, motion);
+
+          struct Elements
+          {
+            typename ParallelBond<dim>::template Update<double> update{};
+            Bond<double> bond(unsigned int) const { return {1e30, 1e30, 0.0}; }
+            const auto& state(unsigned int) const { return update.state; }
+            void set(unsigned int, const typename ParallelBond<dim>::template Update<double>& now) { update = now; }
+          } elements;
+          elements.update.state.bonded = bonded;
+          FaceMotion<dim, double> step{};
+          step.opening = motion[0];
+          for (int c = 0; c < dim - 1; ++c)
+            step.slip_increment[c] = motion[1 + c];
+          for (int c = 0; c < n_rotations<dim>; ++c)
+            step.rotation[c] = motion[dim + c];
+          const auto sum = law.template update<double>(face, specimen.joints.elements, step, elements);
+          Motion<dim> forces;
+          forces[0] = -sum.normal_force;
+          for (int c = 0; c < dim - 1; ++c)
+            forces[1 + c] = -sum.shear_force[c];
+          for (int c = 0; c < n_rotations<dim>; ++c)
+            forces[dim + c] = -sum.moment[c];
+          EXPECT_LE((found.forces - forces).norm(), 1e-12 * forces.norm());
+          const double stored = law.stored_energy(face, specimen.joints.elements, step.opening, step.rotation,
+                                                  [&](unsigned int) { return elements.update.state; });
+          EXPECT_NEAR(found.stored_energy, stored, 1e-12 * stored);
+
+          for (int c = 0; c < n_motions<dim>; ++c)
+            {
+              const double by = c < dim ? 1e-12 : 1e-9;
+              const Motion<dim> way = by * Motion<dim>::Unit(c);
+              const Motion<dim> slope =
+                (response(network, active, motion + way).forces - response(network, active, motion - way).forces) /
+                (2.0 * by);
+              // Forces of some 1e4 N to 1e-16 of them, over 2e-12 m.
+              EXPECT_LT((found.derivative.col(c) - slope).norm(), 1e-4 * found.derivative.col(c).norm() + 10.0) << c;
+            }
+        }
+}
+
+TYPED_TEST(ParallelBondRves, TheirTangentIsThatOfADirectSolution)
+{
+  constexpr int dim = TypeParam::value;
+  RepresentativeVolume<dim> rve = bonded_rve<dim>();
+  for (const double strain : {1e-5, -2e-4})
+    {
+      // Pulled, then pressed: other contacts act.
+      strain_to(rve, axial<dim>(strain) + uneven<dim>(0.1 * strain), 5);
+      Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp);
+      const DirectSolution<dim> direct(rve.network(), equilibrium.link_tangents());
+      EXPECT_LT(relative(equilibrium.tangent(), direct.stiffness), 1e-8);
+      // Softer than with all contacts pressed and none sliding.
+      const Stiffness<dim> difference = rve.network().intact_stiffness() - equilibrium.tangent();
+      EXPECT_GT(difference(dim - 1, dim - 1), 0.01 * rve.network().intact_stiffness()(dim - 1, dim - 1));
+    }
+  EXPECT_FALSE(rve.state().intact);
+}
+
+TYPED_TEST(ParallelBondRves, WorkBalancesThroughBreakage)
+{
+  constexpr int dim = TypeParam::value;
+  PathRun<dim> run(std::make_shared<const Network<dim>>(bonded_cell<dim>()), shortening<dim>(3e-3),
+                   {.largest_step = 5e-5});
+  while (!run.has_ended() && run.record().cracks.size() < 30)
+    run.advance();
+  EXPECT_EQ(run.record().failure, "");
+  EXPECT_GT(run.record().cracks.size(), 3u);
+  for (const auto& sample : run.record().samples)
+    {
+      EXPECT_LE(sample.energy_imbalance(), 1e-3);
+      EXPECT_LE(sample.unbalanced_ratio, EquilibriumParameters{}.final_tolerance);
+      EXPECT_LE(sample.hill_mandel_residual, 10.0 * EquilibriumParameters{}.final_tolerance);
+    }
+  EXPECT_GT(run.record().samples.back().work.slip, 0.0);
+}
+
+TEST(ParallelBondRve, IsThatOfSlowExplicitDynamics)
+{
+  // Shortened by 4e-4 with the sides held: nothing breaks, but contacts press and slide. The slower, the nearer.
+  const auto specimen = bonded_cell<2>();
+  const auto network = std::make_shared<const Network<2>>(specimen);
+  const Voigt<2> strain(0.0, -4e-4, 0.0);
+  const std::vector<PathLeg<2>> legs{{strain_control<2>(strain), false}};
+  PathRun<2> by_events(network, legs, {.largest_step = 2e-5});
+  while (!by_events.has_ended())
+    by_events.advance();
+  ASSERT_TRUE(by_events.record().cracks.empty());
+  const auto& expected = by_events.record().samples.back().stress;
+  const auto error = [&](const std::uint64_t steps_per_millistrain) {
+    ExplicitRun<2> run(specimen, network, legs, {.steps_per_millistrain = steps_per_millistrain});
+    while (!run.has_ended())
+      run.advance();
+    const auto& stress = run.record().samples.back().stress;
+    EXPECT_LT(run.record().samples.back().energy_imbalance(), 0.01);
+    return std::hypot(stress[0] - expected[0], stress[1] - expected[1], stress[2] - expected[2]) /
+           std::abs(expected[1]);
+  };
+  const double fast = error(100);
+  const double slow = error(10000);
+  EXPECT_LT(slow, fast);
+  // What small strains leave out is of the order of the strain, the way of friction from step to step a little more.
+  EXPECT_LT(slow, 2e-3);
+}
+
+TEST(ParallelBondRve, TakenUpGivesTheBitsOfTheUnbrokenRun)
+{
+  const auto begin = [] {
+    return PathRun<2>(std::make_shared<const Network<2>>(bonded_cell<2>()), shortening<2>(3e-3),
+                      {.largest_step = 1e-4});
+  };
+  auto whole = begin();
+  const tests::TemporaryFolder folder;
+  auto broken = begin();
+  for (unsigned int k = 0; !broken.has_ended(); ++k)
+    {
+      whole.advance();
+      broken.advance();
+      if (k % 4 == 3)
+        {
+          broken.write_checkpoint(folder.path() / "checkpoint.h5", "the same");
+          auto next = begin();
+          next.read_checkpoint(folder.path() / "checkpoint.h5", "the same");
+          broken = next;
+        }
+    }
+  ASSERT_TRUE(whole.has_ended());
+  EXPECT_GT(whole.record().cracks.size(), 0u);
+  EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
+  EXPECT_EQ(broken.rve().state().contact_shear, whole.rve().state().contact_shear);
+  EXPECT_EQ(broken.record().samples.back().work.slip, whole.record().samples.back().work.slip);
+}
+} // namespace
+} // namespace feldspar

@@ -1,0 +1,151 @@
+#pragma once
+
+#include "base/random.h"
+#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/representative_volume.h"
+#include "dem/genesis/genesis.h"
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <type_traits>
+
+/// Periodic specimens for tests that need one quickly, and oracles for the responses of their networks.
+namespace feldspar
+{
+/// For tests of both kinds: TYPED_TEST_SUITE(Suite, Dimensions).
+template <int n>
+using Dimension = std::integral_constant<int, n>;
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+
+/// Table 1 in a periodic cell: some 50 grains in 12 × 12 mm, 96 in 16 × 16 mm; 50 spheres in 6 × 6 × 6 mm.
+template <int dim = 2>
+Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge = dim == 2 ? 0.012 : 0.006)
+{
+  SpecimenParameters wanted;
+  wanted.shape = "periodic";
+  wanted.width = edge;
+  wanted.height = edge;
+  FlatJointParameters joint;
+  if constexpr (dim == 2)
+    joint.coordination_number = 4.2;
+  else
+    {
+      wanted.dimension = 3;
+      wanted.porosity = 0.36;
+      joint.installation_gap_ratio = 0.05;
+    }
+  return make_specimen<dim>(wanted, joint, {}, seed, [](std::string_view, double) {});
+}
+
+template <int dim = 2>
+RepresentativeVolume<dim> small_rve(const std::uint64_t seed = 1, const EquilibriumParameters& parameters = {},
+                                    const double friction = 0.5)
+{
+  Specimen<dim> specimen = periodic_specimen<dim>(seed);
+  specimen.joints.friction = friction;
+  specimen.particle_contact.friction = friction;
+  return {std::make_shared<const Network<dim>>(specimen), parameters};
+}
+
+/// Along the last axis.
+template <int dim>
+Voigt<dim> axial(const double strain)
+{
+  return strain * Voigt<dim>::Unit(dim - 1);
+}
+
+/// No component is nothing, none is another.
+template <int dim>
+Voigt<dim> uneven(const double strain)
+{
+  const double components[] = {0.4, 1.0, -0.6, 0.3, -0.5, 0.2};
+  return strain * Eigen::Map<const Voigt<dim>>(components);
+}
+
+/// Leads an RVE straight to a strain in so many steps; what broke on the way.
+template <int dim>
+std::size_t strain_to(RepresentativeVolume<dim>& rve, const std::type_identity_t<Voigt<dim>>& strain,
+                      const unsigned int n_steps)
+{
+  const Voigt<dim> start = rve.state().strain;
+  std::size_t n_breaks = 0;
+  for (unsigned int k = 1; k <= n_steps; ++k)
+    {
+      auto trial = rve.trial(Voigt<dim>(start + double(k) / n_steps * (strain - start)));
+      if (!trial.in_equilibrium)
+        throw std::runtime_error("no equilibrium");
+      n_breaks += trial.breaks.size();
+      rve.accept(std::move(trial));
+    }
+  return n_breaks;
+}
+
+template <int dim>
+Voigt<dim> random_direction(Random& random)
+{
+  Voigt<dim> direction;
+  do
+    direction = Voigt<dim>::NullaryExpr([&](Eigen::Index) { return random.uniform(-1.0, 1.0); });
+  while (direction.norm() > 1.0 || direction.norm() < 0.1);
+  return direction.normalized();
+}
+
+/// |found - expected| / |expected|.
+template <typename Found, typename Expected>
+double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<Expected>& expected)
+{
+  return (found - expected).norm() / expected.norm();
+}
+
+/// Condensation by a dense factor with full pivoting, from the links' stiffnesses alone: shares neither iterations nor
+/// preconditioner with what it checks. Where grains float the motions of least norm are taken.
+template <int dim>
+struct DirectSolution
+{
+  DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses)
+    : network(of)
+  {
+    constexpr int n_strains = n_voigt<dim>;
+    const Eigen::Index n = network.n_unknowns();
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index c = 0; c < n; ++c)
+      {
+        const Unknowns unit = Unknowns::Unit(n, c);
+        Unknowns column = Unknowns::Zero(n);
+        for (std::size_t k = 0; k < link_stiffnesses.size(); ++k)
+          add_forces<dim>(network.links()[k], link_stiffnesses[k] * link_motion(network.links()[k], unit), column);
+        all.col(c) = column;
+      }
+    const Eigen::Index n_own = n - n_strains;
+    motions =
+      all.topLeftCorner(n_own, n_own).completeOrthogonalDecomposition().solve(-all.topRightCorner(n_own, n_strains));
+    stiffness = (all.bottomRightCorner(n_strains, n_strains) + all.bottomLeftCorner(n_strains, n_own) * motions) /
+                network.volume();
+    affine_stiffness = all.bottomRightCorner(n_strains, n_strains) / network.volume();
+  }
+
+  /// Grains and strain under a strain.
+  Unknowns at(const Voigt<dim>& strain) const
+  {
+    Unknowns unknowns(network.n_unknowns());
+    unknowns << motions * strain, strain;
+    return unknowns;
+  }
+
+  const Network<dim>& network;
+  Eigen::MatrixXd motions; ///< under unit strains
+  Stiffness<dim> stiffness;
+  Stiffness<dim> affine_stiffness;
+};
+
+template <int dim>
+std::vector<JointStiffness<dim>> intact_stiffnesses(const Network<dim>& network)
+{
+  std::vector<JointStiffness<dim>> result;
+  for (std::size_t j = 0; j < network.n_joints(); ++j)
+    result.push_back(network.bonded_stiffness(j));
+  return result;
+}
+} // namespace feldspar
