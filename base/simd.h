@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -46,6 +47,18 @@ inline Pack absolute(const Pack& value) { return std::experimental::abs(value); 
 
 inline double square_root(const double value) { return std::sqrt(value); }
 inline Pack square_root(const Pack& value) { return std::experimental::sqrt(value); }
+
+/// Length of a vector in the plane of a face: one number in two dimensions, two in three.
+template <typename Real>
+Real magnitude(const std::array<Real, 1>& v)
+{
+  return absolute(v[0]);
+}
+template <typename Real>
+Real magnitude(const std::array<Real, 2>& v)
+{
+  return square_root(v[0] * v[0] + v[1] * v[1]);
+}
 
 inline double larger(const double a, const double b) { return a < b ? b : a; }
 inline Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }

@@ -142,7 +142,7 @@ double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches
   for (const auto& touch : touches.list())
     if (touch.touching)
       {
-        sum += std::hypot(touch.normal_force, flat_joint::magnitude(touch.shear_force));
+        sum += std::hypot(touch.normal_force, simd::magnitude(touch.shear_force));
         ++n_contacts;
       }
   return n_contacts > 0 ? sum / double(n_contacts) : 0.0;

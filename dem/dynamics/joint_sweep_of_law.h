@@ -381,7 +381,7 @@ bool has_face(const Law&, const Joints<dim>& joints, const std::size_t j)
   std::array<double, dim - 1> slip;
   for (int c = 0; c < dim - 1; ++c)
     slip[c] = joints.slip[c][j];
-  return flat_joint::magnitude(slip) <= reach && joints.opening[j] <= reach;
+  return simd::magnitude(slip) <= reach && joints.opening[j] <= reach;
 }
 } // namespace feldspar
 

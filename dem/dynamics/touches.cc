@@ -168,8 +168,8 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
             if constexpr (dim == 3)
               touch.frame.tangent = space::tangent_to(touch.frame.normal);
           }
-        const auto response = linear_contact::update<dim>(touch.stiffness, friction, touch.shear_force,
-                                                          touch.zero_distance - touch.frame.distance, slip);
+        const auto response = linear_contact::update<dim, double>(touch.stiffness, friction, touch.shear_force,
+                                                                  touch.zero_distance - touch.frame.distance, slip);
         if (!was_touching)
           std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
         touch.normal_force = response.normal_force;

@@ -21,7 +21,7 @@ template <int dim>
 struct Touch
 {
   std::uint32_t grain_1, grain_2;
-  linear_contact::Stiffness stiffness;
+  linear_contact::Stiffness<double> stiffness;
   double zero_distance;          ///< centre distance below which they press [m]
   double half_radius_difference; ///< [m]
   bool touching = false;

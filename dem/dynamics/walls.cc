@@ -203,8 +203,8 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body)
           std::array<double, dim - 1> slip{};
           if (wall.friction > 0.0 && touch.overlap > 0.0)
             slip = slip_on_wall(grains, wall, i, distance, dt);
-          const auto response = linear_contact::update<dim>({k_n, k_n / body.particle_contact.stiffness_ratio},
-                                                            wall.friction, touch.shear_force, overlap, slip);
+          const auto response = linear_contact::update<dim, double>({k_n, k_n / body.particle_contact.stiffness_ratio},
+                                                                    wall.friction, touch.shear_force, overlap, slip);
           touch.overlap = std::max(0.0, overlap);
           touch.shear_force = response.shear_force;
           touch.slip_energy += response.slip_energy;

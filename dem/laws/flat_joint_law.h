@@ -20,6 +20,7 @@ namespace feldspar::flat_joint
 using feldspar::Bond;
 using simd::absolute;
 using simd::larger;
+using simd::magnitude;
 using simd::select;
 
 /// A segment of a face in two dimensions.
@@ -198,18 +199,6 @@ Real closed_share(const Real& gap_before, const Real& gap)
   const Real change = select(was_closed == is_closed, Real(1.0), gap - gap_before);
   return select(was_closed, select(is_closed, Real(1.0), -gap_before / change),
                 select(is_closed, gap / change, Real(0.0)));
-}
-
-template <typename Real>
-Real magnitude(const std::array<Real, 1>& shear)
-{
-  return absolute(shear[0]);
-}
-
-template <typename Real>
-Real magnitude(const std::array<Real, 2>& shear)
-{
-  return simd::square_root(shear[0] * shear[0] + shear[1] * shear[1]);
 }
 
 /// One update of one segment, in this order: tension, trial shear, friction or shear strength, response.

@@ -1,54 +1,57 @@
 #pragma once
 
-#include <array>
-#include <cmath>
+#include "base/simd.h"
 
-/// The linear law of two grains without a face, or of a grain at a wall: repulsion by overlap, Coulomb friction, no
-/// tension, no moment. docs/theory.md §1.6. Units SI; signs as in the flat-joint law (Cundall and Strack 1979).
+#include <array>
+
+/// The linear law of two grains without a face, of those beside a parallel bond, or of a grain at a wall: repulsion by
+/// overlap, Coulomb friction, no tension, no moment. docs/theory.md §1.6. Units SI; signs as in the flat-joint law
+/// (Cundall and Strack 1979).
 namespace feldspar::linear_contact
 {
+template <typename Real>
 struct Stiffness
 {
-  double normal; ///< k_n [N/m]
-  double shear;  ///< k_s [N/m]
+  Real normal; ///< k_n [N/m]
+  Real shear;  ///< k_s [N/m]
 };
 
 /// Response of a contact.
-template <int dim>
+template <int dim, typename Real>
 struct Response
 {
-  double normal_force;                     ///< F_n [N], compression positive
-  std::array<double, dim - 1> shear_force; ///< F_s [N], the only state
-  double slip_energy;                      ///< dissipated by friction in this step [J]
+  Real normal_force;                     ///< F_n [N], compression positive
+  std::array<Real, dim - 1> shear_force; ///< F_s [N], the only state
+  Real slip_energy;                      ///< dissipated in this step by friction, and by coming apart [J]
 };
 
 /// overlap [m] positive when pressed together; shear_increment ΔU_s over the step [m].
-template <int dim>
-Response<dim> update(const Stiffness& stiffness, const double friction,
-                     const std::array<double, dim - 1>& old_shear_force, const double overlap,
-                     const std::array<double, dim - 1>& shear_increment)
+template <int dim, typename Real>
+Response<dim, Real> update(const Stiffness<Real>& stiffness, const Real& friction,
+                           const std::array<Real, dim - 1>& old_shear_force, const Real& overlap,
+                           const std::array<Real, dim - 1>& shear_increment)
 {
-  Response<dim> response{0.0, {}, 0.0};
-  if (overlap <= 0.0)
-    return response;
-  response.normal_force = stiffness.normal * overlap;
-
-  std::array<double, dim - 1> trial;
-  double squared = 0.0;
+  Response<dim, Real> response{stiffness.normal * simd::larger(Real(0.0), overlap), {}, Real(0.0)};
+  auto& force = response.shear_force;
+  Real squared(0.0);
   for (int c = 0; c < dim - 1; ++c)
     {
-      trial[c] = old_shear_force[c] - stiffness.shear * shear_increment[c];
-      squared += trial[c] * trial[c];
+      force[c] = old_shear_force[c] - stiffness.shear * shear_increment[c];
+      squared += force[c] * force[c];
     }
-  const double limit = friction * response.normal_force;
-  const bool slides = squared > limit * limit;
-  const double kept = slides ? limit / std::sqrt(squared) : 1.0;
+  const Real limit = friction * response.normal_force;
+  const auto slides = squared > limit * limit;
+  if (!simd::any(slides))
+    return response;
+  // Slip is the shear that the force did not follow, under the mean of the forces before and after.
+  const Real kept =
+    simd::select(slides, limit / simd::square_root(simd::select(slides, squared, Real(1.0))), Real(1.0));
   for (int c = 0; c < dim - 1; ++c)
     {
-      response.shear_force[c] = kept * trial[c];
-      if (slides)
-        response.slip_energy +=
-          0.5 * (old_shear_force[c] + response.shear_force[c]) * (trial[c] - response.shear_force[c]) / stiffness.shear;
+      const Real trial = force[c];
+      force[c] = kept * trial;
+      response.slip_energy +=
+        simd::select(slides, 0.5 * (old_shear_force[c] + force[c]) * (trial - force[c]) / stiffness.shear, Real(0.0));
     }
   return response;
 }

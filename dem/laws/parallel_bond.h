@@ -4,6 +4,7 @@
 #include "dem/laws/contact_motion.h"
 #include "dem/laws/draw_bond.h"
 #include "dem/laws/face.h"
+#include "dem/laws/linear_contact_law.h"
 #include "dem/laws/parameters.h"
 
 #include <algorithm>
@@ -40,27 +41,6 @@ struct Update : Verdict<Real>
 {
   State<dim, Real> state;
 };
-
-/// Of the linear contact beside a bond.
-template <int dim, typename Real>
-struct ContactResponse
-{
-  Real normal_force;                     ///< compression positive [N]
-  std::array<Real, dim - 1> shear_force; ///< [N]
-  Real slip_energy;                      ///< dissipated in this step [J]
-};
-
-template <typename Real>
-Real magnitude(const std::array<Real, 1>& v)
-{
-  return simd::absolute(v[0]);
-}
-
-template <typename Real>
-Real magnitude(const std::array<Real, 2>& v)
-{
-  return simd::square_root(v[0] * v[0] + v[1] * v[1]);
-}
 
 template <typename Real, std::size_t n>
 Real dot(const std::array<Real, n>& a, const std::array<Real, n>& b)
@@ -176,7 +156,10 @@ struct ParallelBond : CarriedPlane<dim>
     state.bonded = old.bonded && !(result.tension_break || result.shear_break);
     const auto if_bonded = [&](const Real& value) { return simd::select(state.bonded, value, Real(0.0)); };
 
-    const auto contact = contact_response(face, motion, old.more);
+    const Real contact_normal = contact_stiffness(face);
+    const auto contact =
+      linear_contact::update<dim, Real>({contact_normal, contact_normal * (1.0 / contact_stiffness_ratio)},
+                                        face.friction, old.more, -motion.opening, motion.slip_increment);
     const Real area = face_area<dim>(face.half_length, face.thickness);
     const Real bending_stiffness = face.normal_stiffness * face_second_moment<dim>(face.half_length, face.thickness);
     FaceResultants<dim, Real> sum;
@@ -303,8 +286,8 @@ private:
     using namespace parallel_bond;
     const Real lever = moment_contribution * face.half_length;
     const Real normal_stress = face.normal_stiffness * motion.opening;
-    const Real tension = normal_stress + face.normal_stiffness * lever * magnitude(bending(motion.rotation));
-    const Real shear = magnitude(tau) + face.shear_stiffness * lever * simd::absolute(twist(motion.rotation));
+    const Real tension = normal_stress + face.normal_stiffness * lever * simd::magnitude(bending(motion.rotation));
+    const Real shear = simd::magnitude(tau) + face.shear_stiffness * lever * simd::absolute(twist(motion.rotation));
     Verdict<Real> result;
     result.tension_break = old.bonded && tension > bond.tensile_strength;
     result.shear_break = old.bonded && !result.tension_break && shear > shear_strength(bond, normal_stress);
@@ -318,37 +301,6 @@ private:
                                            {motion.opening, motion.rotation, tau}),
                      Real(0.0));
     return result;
-  }
-
-  template <typename Real>
-  parallel_bond::ContactResponse<dim, Real> contact_response(const Face<Real>& face,
-                                                             const FaceMotion<dim, Real>& motion,
-                                                             const std::array<Real, dim - 1>& old_shear_force) const
-  {
-    const Real normal_stiffness = contact_stiffness(face);
-    const Real shear_stiffness = normal_stiffness * (1.0 / contact_stiffness_ratio);
-    parallel_bond::ContactResponse<dim, Real> response{normal_stiffness * simd::larger(Real(0.0), -motion.opening),
-                                                       {},
-                                                       Real(0.0)};
-    auto& force = response.shear_force;
-    for (int c = 0; c < dim - 1; ++c)
-      force[c] = old_shear_force[c] - shear_stiffness * motion.slip_increment[c];
-    const Real limit = face.friction * response.normal_force;
-    const Real size = parallel_bond::magnitude(force);
-    const auto slides = size > limit;
-    if (!simd::any(slides))
-      return response;
-    // Slip is the shear that the force did not follow, under the mean of the forces before and after.
-    const Real kept = simd::select(slides, limit / simd::select(slides, size, Real(1.0)), Real(1.0));
-    Real slip_work(0.0);
-    for (int c = 0; c < dim - 1; ++c)
-      {
-        const Real trial = force[c];
-        force[c] = kept * trial;
-        slip_work += 0.5 * (old_shear_force[c] + force[c]) * (trial - force[c]);
-      }
-    response.slip_energy = slip_work / shear_stiffness;
-    return response;
   }
 
   double modulus_ratio = 1.0;           ///< E_c/E_b

@@ -302,12 +302,17 @@
       }
     });
     // A figure is made when it comes near the screen: a long page opens at once.
+    const reach = 800;
+    if (frame.getBoundingClientRect().top < innerHeight + reach) {
+      begin();
+      continue;
+    }
     new IntersectionObserver((seen, observer) => {
       if (seen.some(one => one.isIntersecting)) {
         observer.disconnect();
         begin();
       }
-    }, {rootMargin: "800px"}).observe(frame);
+    }, {rootMargin: `${reach}px`}).observe(frame);
   }
   dark.addEventListener("change", () => drawn.forEach(anew => anew()));
 

@@ -498,6 +498,12 @@ TEST(CommittedResults, OfExamplesHaveAPieceOrAReason)
 // Made by a work tree with changes that are in no commit; to be made anew.
 const std::set<std::string> of_a_changed_tree{};
 
+// Made by builds of commits that landed as one, efb7a53, which holds their changes and not their names; to be made anew.
+const std::set<std::string> of_joined_commits{
+  "large-cylinder.json",     "load.json",      "soak-dense.json",        "soak.json",
+  "static-packings.json",    "full-size.json", "full-size-tension.json", "clumped-unconfined.json",
+  "angles-compression.json", "cored.json",     "grain-based.json"};
+
 TEST(CommittedResults, AreOfBuildsOfCommits)
 {
   const std::regex of_a_commit(R"(\d+\.\d+\.\d+\+g([0-9a-f]{7,}))");
@@ -522,8 +528,10 @@ TEST(CommittedResults, AreOfBuildsOfCommits)
               ASSERT_TRUE(std::regex_match(version, commit, of_a_commit)) << name << " is of " << version;
               if (has_history)
                 {
-                  EXPECT_EQ(exit_code_of_git("merge-base --is-ancestor " + commit[1].str() + " HEAD"), 0)
-                    << name << " is of " << version << ", which is not in the history";
+                  const bool is_known = exit_code_of_git("merge-base --is-ancestor " + commit[1].str() + " HEAD") == 0;
+                  EXPECT_NE(is_known, of_joined_commits.contains(name))
+                    << name << " is of " << version << (is_known ? ", which is in" : ", which is not in")
+                    << " the history";
                 }
             }
           ++n_results;
