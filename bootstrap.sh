@@ -6,7 +6,7 @@
 #   ./bootstrap.sh test      packages, build by clang under the sanitizers and its unit tests, release build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
 #   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
-#   ./bootstrap.sh package   a Debian package for any processor with AVX2; ends with its path
+#   ./bootstrap.sh package   a Debian package for any processor with AVX2, faster on those with AVX-512; ends with its path
 #   ./bootstrap.sh docs      the documentation as a site; ends with its path
 #   ./bootstrap.sh packages  packages only: everything the others need
 #
@@ -134,8 +134,10 @@ package()
 {
   need_packages "${build_packages[@]}" dpkg-dev file
   build package
+  build package-avx512
   say "packing"
-  (cd build/package && cpack -G DEB)
+  (cd build/package &&
+    cpack -G DEB -D "CPACK_INSTALL_CMAKE_PROJECTS=$PWD;feldspar;ALL;/;$PWD/../package-avx512;feldspar;programs;/")
   ls "$PWD"/build/package/*.deb
 }
 

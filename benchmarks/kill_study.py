@@ -5,7 +5,7 @@
 
 Expected each time, beside the run on one rank that nothing happened to: the same segments broken in the same steps and
 order; curves and, at the end, displacements and stresses to 1e-8 of their largest value. Moments are drawn from a fixed
-seed: a while after the first checkpoint at or beyond a step.
+seed, as shares of the time that an uninterrupted run on as many ranks takes.
 """
 
 import csv
@@ -27,7 +27,7 @@ from on_ranks import ENVIRONMENT, committed_version, launcher
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 NAME = "uniaxial_compression_seed_1"
-# Eight elements of 12 mm with volumes of some 75 discs. Tolerances are far below what is compared.
+# Eight elements of 12 mm with RVEs of some 75 discs. Tolerances are far below what is compared.
 INPUT = """subsection Specimen
   set Shape  = periodic
   set Width  = 14 mm
@@ -95,7 +95,7 @@ def curve(run):
 def state(run):
     """The last: displacements, stresses and tangents of cells in the order of their numbers, in full precision."""
     last = checkpoints(run)[-1]
-    parts = {"cells": [], "displacement_m": [], "answers_Pa": []}
+    parts = {"cells": [], "displacement_m": [], "responses_Pa": []}
     for part in sorted(os.listdir(last)):
         with h5py.File(os.path.join(last, part), "r") as file:
             n = len(file["cells"])
@@ -103,7 +103,7 @@ def state(run):
                 values.append(file[name][:].reshape(n, -1))
     whole = {name: numpy.concatenate(values) for name, values in parts.items()}
     order = numpy.argsort(whole.pop("cells").reshape(-1))
-    stress = whole["answers_Pa"].reshape(len(order), -1, 3 + 9)[:, :, :3]  # then the tangent
+    stress = whole["responses_Pa"].reshape(len(order), -1, 3 + 9)[:, :, :3]  # then the tangent
     return {"displacement_m": whole["displacement_m"][order], "stress_Pa": stress[order]}
 
 
@@ -134,7 +134,11 @@ def main():
     def path(name):
         return os.path.join(folder, name)
 
-    finish(start(feldspar, 1, ["press.prm", "--output", "whole-1"], folder))
+    seconds = {}
+    for n_ranks in range(1, 5):
+        began = time.monotonic()
+        finish(start(feldspar, n_ranks, ["press.prm", "--output", f"whole-{n_ranks}"], folder))
+        seconds[n_ranks] = time.monotonic() - began
     whole = path("whole-1")
     whole_events, whole_curve, whole_state = events(whole), curve(whole), state(whole)
 
@@ -159,11 +163,9 @@ def main():
         n_ranks = 1 + k % 4
         other = (1, 2, 3, 4)[(k % 4 + draw.randrange(1, 4)) % 4]
         name = f"killed-{k}"
-        step = draw.randrange(1, result["n_steps"])
+        share = draw.uniform(0.1, 0.9)
         process = start(feldspar, n_ranks, ["press.prm", "--output", name], folder)
-        while max(map(int, [state[-10:] for state in checkpoints(path(name))]), default=0) < step:
-            time.sleep(0.01)
-        time.sleep(draw.uniform(0.0, 0.3))
+        time.sleep(share * seconds[n_ranks])
         for pid in [process.pid] + children(process.pid):
             os.kill(pid, signal.SIGKILL)
         process.communicate()
@@ -171,7 +173,7 @@ def main():
             if json.load(file)["complete"]:
                 raise RuntimeError("killed after its end")
         states = [os.path.basename(state) for state in checkpoints(path(name))]
-        kill = {"ranks": n_ranks, "not_before_step": step, "checkpoints": states, "resumed": []}
+        kill = {"ranks": n_ranks, "share_of_time": round(share, 3), "checkpoints": states, "resumed": []}
         for n in (n_ranks, other):
             copy = f"{name}-on-{n}"
             shutil.copytree(path(name), path(copy))

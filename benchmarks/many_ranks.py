@@ -3,8 +3,8 @@
 
     python3 benchmarks/many_ranks.py build/release/app/feldspar    # writes results/many-ranks.json
 
-Fifty by a hundred millimetres of Beishan granite in 32 elements with 128 volumes of some 240 discs: pressed until every
-volume is damaged, on one thread, two threads and two ranks; and pulled until it has torn, on one, two and four ranks. Times
+Fifty by a hundred millimetres of Beishan granite in 32 elements with 128 RVEs of some 240 discs: pressed until every
+one is damaged, on one thread, two threads and two ranks; and pulled until it has torn, on one, two and four ranks. Times
 by the clock mean nothing where other work goes on or there are more ranks than cores; processor time is that of all threads
 and ranks, also of those that wait.
 """
@@ -71,7 +71,7 @@ def run(feldspar, folder, test, n_ranks, n_threads):
         "threads": n_threads,
         "n_events": len(events) - 1,
         "steps": of_test["steps"],
-        "clock_s": round(of_test["wall_time_s"], 1),  # without volumes and report
+        "clock_s": round(of_test["wall_time_s"], 1),  # without construction of the RVEs and report
         "processor_s": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 1),
         "in_volumes": of_test["ranks"],
     }

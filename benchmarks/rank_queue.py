@@ -64,18 +64,18 @@ def cells_along_curve(n):
 
 
 def costs_of_rows(paths, n_cells_across, rng):
-    """For each row, for each volume along the curve: seconds of an iteration and of a relaxation."""
+    """For each row, for each RVE along the curve: seconds of an iteration and of a relaxation."""
     steep = math.radians(60)
-    volumes = []
+    rves = []
     for x, y in cells_along_curve(n_cells_across):
         in_band = abs((x - 0.5) * math.sin(steep) - (y - 0.5) * math.cos(steep)) < 0.05 * 0.87
         for _ in range(POINTS_A_CELL):
             speed = rng.uniform(0.8, 1.0) if in_band else rng.uniform(0.1, 0.35)
-            volumes.append((paths[rng.randrange(len(paths))], speed))
+            rves.append((paths[rng.randrange(len(paths))], speed))
     rows = []
     for row in range(1, N_ROWS + 1):
         of_row = []
-        for path, speed in volumes:
+        for path, speed in rves:
             k = min(len(path) - 1, int(speed * row / N_ROWS * len(path)))
             of_row.append((path[k][1], path[k][2]))
         rows.append(of_row)
@@ -112,7 +112,7 @@ def of_cells(seconds):
 
 
 def time_on_cores(seconds, n_cores, expected):
-    """Of volumes that free cores take one by one; those first of which the longest time is expected, if any is."""
+    """Of RVEs that free cores take one by one; those first of which the longest time is expected, if any is."""
     if n_cores == 1:
         return sum(seconds)
     if len(seconds) <= n_cores:

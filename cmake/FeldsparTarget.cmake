@@ -10,7 +10,9 @@ target_compile_options(feldspar_settings INTERFACE -ffp-contract=off -fno-math-e
 # lie; and alignment and allocator would differ from those of the distribution's libraries, whose functions are linked
 # into the same program.
 target_compile_definitions(feldspar_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_VECTORIZE)
-if(FELDSPAR_NATIVE)
+if(FELDSPAR_LEVEL)
+  target_compile_options(feldspar_settings INTERFACE -march=${FELDSPAR_LEVEL})
+elseif(FELDSPAR_NATIVE)
   target_compile_options(feldspar_settings INTERFACE -march=native)
 endif()
 # GCC 12 warns of its own AVX-512 header (its bug 105593) where a vector square root is inlined.

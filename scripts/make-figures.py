@@ -23,6 +23,7 @@ FIGURES = os.path.join(ROOT, "docs", "figures")
 RECORD = os.path.join(FIGURES, "figures.json")
 
 GRANITE = "examples/beishan-granite/results/ensemble.json"
+CONTACT_MODELS = "examples/contact-models/results/"
 PLANE_SAMPLE = "examples/multiscale-beishan/results/beishan.json"
 
 # The figure; the run and the picture of it, or the series of committed results and the picture of their report; the
@@ -47,6 +48,15 @@ FIGURES_OF_RUNS = {
 FIGURES_OF_RESULTS = {
     "multiscale-envelopes.svg": (
         {"finite elements, gap 0.0237": PLANE_SAMPLE, "grains, gap 0.0457": GRANITE},
+        "envelopes.svg",
+    ),
+    "contact-models-envelopes.svg": (
+        {
+            "flat joint": CONTACT_MODELS + "flat-joint.json",
+            "parallel bonds": CONTACT_MODELS + "parallel-bond.json",
+            "clumps": CONTACT_MODELS + "clumped.json",
+            "grain-based": CONTACT_MODELS + "grain-based.json",
+        },
         "envelopes.svg",
     ),
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -48,10 +49,20 @@ std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
       block.tables.push_back(specimens);
     }
   block.paragraphs.push_back(sentence_of(series.made_by));
-  PageBlock input;
-  input.folded = findings.titled("Input", series);
-  input.tables.push_back(input_table(series.made_by, "input" + findings.ending_of_files(n)));
-  return {block, input};
+  const std::string name = "input" + findings.ending_of_files(n);
+  const Series& first = findings.all.front();
+  Table input = n == 0 || first.kind == SeriesKind::laboratory_curve
+                  ? input_table(series.made_by, name)
+                  : input_table(series.made_by, name, first.made_by, first.label);
+  if (input.rows.empty())
+    {
+      block.paragraphs.push_back(fmt::format("Its input is that of {}.", first.label));
+      return {block};
+    }
+  PageBlock folded;
+  folded.folded = findings.titled("Input", series);
+  folded.tables.push_back(std::move(input));
+  return {block, folded};
 }
 } // namespace
 

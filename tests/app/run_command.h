@@ -19,14 +19,12 @@ struct Outcome
   std::string error;  ///< standard error
 };
 
-/// Runs `feldspar ARGUMENTS` by the shell in `folder`. `environment`: assignments before the command.
-inline Outcome run_feldspar(const std::filesystem::path& folder, const std::string& arguments,
-                            const std::string& environment = "")
+/// Runs a command by the shell in `folder`.
+inline Outcome run_command(const std::filesystem::path& folder, const std::string& words)
 {
   // Beside the folder, not in it: tests look at what a run leaves there.
   const std::string error_file = folder.string() + ".stderr";
-  const std::string command = "cd '" + folder.string() + "' && " + environment + " '" FELDSPAR_COMMAND "' " +
-                              arguments + " 2>'" + error_file + "'";
+  const std::string command = "cd '" + folder.string() + "' && " + words + " 2>'" + error_file + "'";
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe)
     throw std::runtime_error("no shell");
@@ -40,6 +38,13 @@ inline Outcome run_feldspar(const std::filesystem::path& folder, const std::stri
   outcome.error.assign(std::istreambuf_iterator<char>(error), {});
   std::filesystem::remove(error_file);
   return outcome;
+}
+
+/// Runs `feldspar ARGUMENTS` in `folder`. `environment`: assignments before the command.
+inline Outcome run_feldspar(const std::filesystem::path& folder, const std::string& arguments,
+                            const std::string& environment = "")
+{
+  return run_command(folder, environment + " '" FELDSPAR_COMMAND "' " + arguments);
 }
 
 /// Runs it until a condition of the shell holds in `folder`, then kills it; it may have come to its end before.

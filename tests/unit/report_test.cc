@@ -10,6 +10,7 @@
 #include "report/pictures/envelope_pictures.h"
 #include "report/pictures/stress_plane_pictures.h"
 #include "report/sections/comparison.h"
+#include "report/sections/provenance.h"
 #include "report/sections/verdict.h"
 #include "results/bodies.h"
 #include "results/fits/residual_strength.h"
@@ -814,6 +815,23 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
   expect(of_experiment(R"("hoek_brown": {"m": 20})"), "experiment/hoek_brown: sigma_ci_MPa is missing");
   expect(of_experiment(R"("triaxial": [{"confining_pressure_MPa": 300, "strength_MPa": 40}])"),
          "experiment/triaxial/1: strength_MPa is sigma_1, which lies above");
+}
+
+TEST(Provenance, ASeriesBesideAnotherShowsOnlyWhereItsInputDiffers)
+{
+  Provenance first, other;
+  first.input = {{"Specimen", "Width", "50 mm"}, {"Specimen", "Height", "100 mm"}, {"Flat joint", "Friction", "1.2"}};
+  other.input = {{"Specimen", "Width", "50 mm"},
+                 {"Specimen", "Height", "80 mm"},
+                 {"Parallel bond", "Modulus", "60 GPa"}};
+  using Rows = std::vector<std::vector<std::string>>;
+  EXPECT_EQ(
+    input_table(first, "input").rows,
+    (Rows{{"Specimen", "Width", "50 mm"}, {"Specimen", "Height", "100 mm"}, {"Flat joint", "Friction", "1.2"}}));
+  EXPECT_EQ(input_table(other, "input", first, "one").rows, (Rows{{"Specimen", "Height", "80 mm", "100 mm"},
+                                                                  {"Parallel bond", "Modulus", "60 GPa", "–"},
+                                                                  {"Flat joint", "Friction", "–", "1.2"}}));
+  EXPECT_TRUE(input_table(first, "input", first, "one").rows.empty());
 }
 } // namespace
 } // namespace feldspar::tests

@@ -1,0 +1,159 @@
+// The figures of four contact models in the README of their example are those of the committed results, and what it says of
+// them holds.
+
+#include "tests/app/committed_results.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace feldspar::tests
+{
+namespace
+{
+using nlohmann::json;
+
+const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/contact-models/";
+
+json study(const std::string& name) { return results_of("contact-models", name); }
+
+double mean_of(const json& of, const std::string& group, const std::string& key = "peak_stress_Pa")
+{
+  return of["ensemble"][group][key]["mean"].get<double>();
+}
+
+double ratio_of_strengths(const json& of, const std::string& of_group = "")
+{
+  return mean_of(of, "direct_tension" + of_group) / mean_of(of, "uniaxial_compression" + of_group);
+}
+
+double slope(const json& of) { return of["fits"]["mohr_coulomb"]["slope"].get<double>(); }
+
+const json& hoek_brown(const json& of) { return of["fits"]["intact"]["without_tension_point"]; }
+
+void expect_shown(const std::string& row)
+{
+  static const std::string readme = content(folder + "README.md");
+  EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+}
+
+TEST(ContactModels, StandInOneTable)
+{
+  const std::vector<json> models{study("parallel-bond"), study("clumped"), study("grain-based"), study("flat-joint")};
+  const auto row = [&](const std::string& name, const std::function<std::string(const json&)>& figure) {
+    std::string text = "| " + name + " |";
+    for (const json& model : models)
+      text += " " + figure(model) + " |";
+    expect_shown(text);
+  };
+  for (const auto& [name, group, key, scale, decimals] :
+       {Row{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
+        {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
+        {"Young's modulus, tangent at half of the peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa", 1e9,
+         1},
+        {"strength at 5 MPa [MPa]", "triaxial_compression_5_MPa", "peak_stress_Pa", 1e6, 1},
+        {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
+        {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1}})
+    row(name, [&](const json& of) { return mean_and_deviation(of, group, key, scale, decimals); });
+  row("ratio of their means", [](const json& of) { return fmt::format("{:.3f}", ratio_of_strengths(of)); });
+  row("slope of the line of Mohr and Coulomb, σ₁ over σ₃",
+      [](const json& of) { return fmt::format("{:.2f}", slope(of)); });
+  row("its R²", [](const json& of) { return number(of["fits"]["mohr_coulomb"]["r_squared"], 1.0, 4); });
+  row("R² of Hoek and Brown's curve, s = 1 and a = 0.5",
+      [](const json& of) { return number(hoek_brown(of)["r_squared"], 1.0, 4); });
+
+  // Like with like: the stiffness and the compressive strength of the rock, on the same packings, in tests that end.
+  for (const json& of : models)
+    {
+      EXPECT_NEAR(mean_of(of, "uniaxial_compression"), 163e6, 15e6);
+      EXPECT_NEAR(mean_of(of, "uniaxial_compression", "youngs_modulus_tangent_Pa"), 61e9, 3e9);
+      ASSERT_EQ(of["tests"].size(), 25u);
+      for (std::size_t k = 0; k < of["tests"].size(); ++k)
+        {
+          const json& test = of["tests"][k];
+          EXPECT_EQ(test["name"], models[0]["tests"][k]["name"]);
+          EXPECT_EQ(test["n_grains"], models[0]["tests"][k]["n_grains"]);
+          EXPECT_FALSE(test["interrupted"].get<bool>()) << test["name"];
+          EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
+        }
+    }
+}
+
+TEST(ContactModels, ParallelBondsHaveTheRatioOfTheLiterature)
+{
+  // 0.30 to 0.36 is asked of the traditional model at the rock's stiffness and strength; the paper's own has 0.325.
+  const auto bonds = study("parallel-bond");
+  EXPECT_GT(ratio_of_strengths(bonds), 0.30);
+  EXPECT_LT(ratio_of_strengths(bonds), 0.36);
+}
+
+TEST(ContactModels, TheGrainBasedModelOpensAtItsBoundaries)
+{
+  // The range that is asked of a grain-based model (Potyondy 2010 has 0.047); most cracks at the peak are boundaries that
+  // opened.
+  const auto grains = study("grain-based");
+  EXPECT_GT(ratio_of_strengths(grains), 0.035);
+  EXPECT_LT(ratio_of_strengths(grains), 0.06);
+  EXPECT_GT(mean_of(grains, "uniaxial_compression", "smooth_tension_share_at_peak"), 0.6);
+  expect_shown("Of the cracks at the uniaxial peak " +
+               mean_and_deviation(grains, "uniaxial_compression", "smooth_tension_share_at_peak", 1e-2, 1) + " %");
+  for (const auto& test : grains["tests"])
+    EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 5e-5) << test["name"];
+}
+
+TEST(ContactModels, ClumpsLowerTheRatioAndSteepenTheEnvelope)
+{
+  // As published: below the parallel bond's 0.25 to 0.33, and not below 0.07.
+  const auto clumps = study("clumped");
+  EXPECT_GT(ratio_of_strengths(clumps), 0.07);
+  EXPECT_LT(ratio_of_strengths(clumps), 0.25);
+  EXPECT_GT(slope(clumps), slope(study("parallel-bond")));
+  for (const auto& test : clumps["tests"])
+    {
+      EXPECT_GT(test["n_clumps"].get<int>(), 0) << test["name"];
+      // At 60 MPa the highest stress lies where the tests end.
+      if (test["group"] == "triaxial_compression_60_MPa" && !test["strain_at_peak"].is_null())
+        {
+          EXPECT_GT(test["strain_at_peak"].get<double>(), 0.0195) << test["name"];
+        }
+    }
+  EXPECT_EQ(clumps["ensemble"]["triaxial_compression_60_MPa"]["peak_stress_Pa"]["n"], 4);
+}
+
+TEST(ContactModels, TheRatioFallsAsClumpsGrow)
+{
+  const auto sizes = study("clump-size");
+  double before = 1.0;
+  for (const auto& [variant, diameter] :
+       {std::pair("_variant_1", "none"), {"_variant_2", "4 mm"}, {"_variant_3", "8 mm"}})
+    {
+      const double ratio = ratio_of_strengths(sizes, variant);
+      expect_shown(fmt::format(
+        "| {} | {} | {} | {:.3f} |", diameter,
+        mean_and_deviation(sizes, std::string("direct_tension") + variant, "peak_stress_Pa", 1e6, 2),
+        mean_and_deviation(sizes, std::string("uniaxial_compression") + variant, "peak_stress_Pa", 1e6, 1), ratio));
+      EXPECT_LT(ratio, 0.7 * before) << diameter;
+      before = ratio;
+    }
+  // Its middle size is the model of the table.
+  const auto clumps = study("clumped");
+  EXPECT_EQ(mean_of(sizes, "direct_tension_variant_2"), mean_of(clumps, "direct_tension"));
+  EXPECT_EQ(mean_of(sizes, "uniaxial_compression_variant_2"), mean_of(clumps, "uniaxial_compression"));
+}
+
+TEST(ContactModels, TheFlatJointIsThatOfTheEnsemble)
+{
+  const auto five = study("flat-joint");
+  const auto ten = results_of("beishan-granite", "ensemble");
+  for (const auto& test : five["tests"])
+    {
+      const double expected = test_of(ten, test["name"])["peak_stress_Pa"].get<double>();
+      EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), expected, 1e-6 * expected) << test["name"];
+    }
+}
+} // namespace
+} // namespace feldspar::tests

@@ -1,0 +1,99 @@
+// The program of a package for several processors runs the one that fits.
+
+#include "tests/app/run_command.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace feldspar::tests
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+/// What the kernel says that this processor has.
+bool processor_has(const std::string& flags)
+{
+  std::ifstream info("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(info, line) && !line.starts_with("flags"))
+    ;
+  std::istringstream words(line), wanted(flags);
+  const std::set<std::string> known{std::istream_iterator<std::string>(words), {}};
+  for (std::string flag; wanted >> flag;)
+    if (!known.contains(flag))
+      return false;
+  return true;
+}
+
+class Package
+{
+public:
+  Package()
+  {
+    fs::create_directory(folder.path() / "bin");
+    fs::copy_file(FELDSPAR_LAUNCHER, folder.path() / "bin/feldspar");
+  }
+
+  /// A program that says its level and what it was given.
+  void add(const std::string& level) const
+  {
+    const fs::path place = folder.path() / "libexec/feldspar" / level;
+    fs::create_directories(place);
+    std::ofstream(place / "feldspar") << "#!/bin/sh\necho " << level << " \"$@\"\nexit 7\n";
+    fs::permissions(place / "feldspar", fs::perms::owner_all);
+  }
+
+  Outcome run() const { return run_command(folder.path(), "bin/feldspar lab 'a rock.prm'"); }
+
+private:
+  TemporaryFolder folder;
+};
+
+TEST(Launcher, RunsTheProgramOfTheHighestLevelThatTheProcessorHas)
+{
+  const bool avx2 = processor_has("avx2 bmi1 bmi2 fma");
+  const bool avx512 = avx2 && processor_has("avx512f avx512bw avx512cd avx512dq avx512vl");
+  const Package package;
+  const auto without = package.run();
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.error.find("no program for this processor"), std::string::npos) << without.error;
+
+  package.add("x86-64-v4");
+  if (!avx512)
+    {
+      EXPECT_EQ(package.run().exit_code, 2);
+    }
+  package.add("x86-64-v3");
+  const auto both = package.run();
+  if (avx2)
+    {
+      EXPECT_EQ(both.exit_code, 7) << both.error;
+      EXPECT_EQ(both.output, fmt::format("{} lab a rock.prm\n", avx512 ? "x86-64-v4" : "x86-64-v3"));
+    }
+}
+
+TEST(Launcher, TakesALowerLevelWhereTheHigherOneIsNotInstalled)
+{
+  const Package package;
+  package.add("x86-64-v3");
+  const auto outcome = package.run();
+  if (processor_has("avx2 bmi1 bmi2 fma"))
+    {
+      EXPECT_EQ(outcome.output, "x86-64-v3 lab a rock.prm\n");
+    }
+  else
+    {
+      EXPECT_EQ(outcome.exit_code, 2);
+    }
+}
+} // namespace
+} // namespace feldspar::tests
