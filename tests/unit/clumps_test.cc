@@ -15,6 +15,7 @@
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -302,6 +303,24 @@ TEST(Clumps, CrackBetweenEachOtherAndTheEnergiesBalance)
               EXPECT_NEAR(now, then, 1e-12);
             }
     }
+}
+
+TEST(Clumps, GiveTheSameBitsWithOneThreadAndTwo)
+{
+  const Specimen<2> specimen = clumped({0.005});
+  const auto end = [&](const std::size_t n_threads) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
+    LabTest<2> test({uniaxial_compression}, specimen, quick(), {});
+    for (int n = 0; n < 50; ++n)
+      test.advance();
+    return test.finish(true);
+  };
+  const auto one = end(1);
+  const auto two = end(2);
+  EXPECT_GT(one.record.cracks.size(), 0u);
+  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
+  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
+  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
 }
 
 TEST(Clumps, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
