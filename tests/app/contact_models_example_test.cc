@@ -28,7 +28,8 @@ double mean_of(const json& of, const std::string& group, const std::string& key 
 
 double ratio_of_strengths(const json& of, const std::string& of_group = "")
 {
-  return mean_of(of, "direct_tension" + of_group) / mean_of(of, "uniaxial_compression" + of_group);
+  return mean_of(of, fmt::format("direct_tension{}", of_group)) /
+         mean_of(of, fmt::format("uniaxial_compression{}", of_group));
 }
 
 double slope(const json& of) { return of["fits"]["mohr_coulomb"]["slope"].get<double>(); }
@@ -45,9 +46,9 @@ TEST(ContactModels, StandInOneTable)
 {
   const std::vector<json> models{study("parallel-bond"), study("clumped"), study("grain-based"), study("flat-joint")};
   const auto row = [&](const std::string& name, const std::function<std::string(const json&)>& figure) {
-    std::string text = "| " + name + " |";
+    std::string text = fmt::format("| {} |", name);
     for (const json& model : models)
-      text += " " + figure(model) + " |";
+      text += fmt::format(" {} |", figure(model));
     expect_shown(text);
   };
   for (const auto& [name, group, key, scale, decimals] :
@@ -65,6 +66,14 @@ TEST(ContactModels, StandInOneTable)
   row("its R²", [](const json& of) { return number(of["fits"]["mohr_coulomb"]["r_squared"], 1.0, 4); });
   row("R² of Hoek and Brown's curve, s = 1 and a = 0.5",
       [](const json& of) { return number(hoek_brown(of)["r_squared"], 1.0, 4); });
+
+  const auto times = json::parse(
+    content(std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/results/contact-models-benchmark.json"))["benchmarks"];
+  std::string relative = "| time of an intact step, over that of the flat joint |";
+  for (const char* const model : {"parallel_bond", "clumps", "grain_based", "flat_joint"})
+    relative += fmt::format(" {:.1f} |", times[std::string("step/") + model]["processor_time_ns"].get<double>() /
+                                           times["step/flat_joint"]["processor_time_ns"].get<double>());
+  expect_shown(relative);
 
   // Like with like: the stiffness and the compressive strength of the rock, on the same packings, in tests that end.
   for (const json& of : models)
