@@ -109,7 +109,8 @@ public:
   void loaded_rows(Visitor&& visit) const
   {
     for (std::size_t k = row_at(0.05); k < rows.size(); ++k)
-      visit(rows[k]);
+      if (!kind.follows_stages || deviator(rows[k]) >= 0.05 * peak_deviator) // it may unload in between
+        visit(rows[k]);
   }
 
   TestKind kind;
@@ -191,7 +192,9 @@ void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, T
 {
   if (!record.kind.has_uniform_stress)
     {
-      const Figure none = unknown("the stress in this test is not uniform");
+      const Figure none =
+        unknown(record.kind.follows_stages ? "the curve goes back and forth; each stage has a slope of its own"
+                                           : "the stress in this test is not uniform");
       results.youngs_modulus_initial = results.youngs_modulus_tangent = results.youngs_modulus_secant = none;
       results.poissons_ratio_initial = results.poissons_ratio_secant = results.p_wave_transits_to_peak = none;
       return;
@@ -243,7 +246,9 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
                                      : unknown("Newton's method holds it at Sample/Newton tolerance");
 
   results.servo_error = results.servo_error_largest = unknown("the test has no servo");
-  if (record.has_servo)
+  if (record.kind.follows_stages)
+    results.servo_error = results.servo_error_largest = unknown("the confinement follows stages");
+  else if (record.has_servo)
     {
       double sum = 0.0;
       double largest = 0.0;

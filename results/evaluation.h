@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -53,6 +54,19 @@ struct TestResults
   Figure largest_fragment_share; ///< of the grains' volume
 };
 
+/// A stage of a test, read off its curve; compression positive.
+struct StageResults
+{
+  double strain_at_start = 0.0;
+  double strain_at_end = 0.0;
+  double stress_at_start = 0.0; ///< axial [Pa]
+  double stress_at_end = 0.0;   ///< axial [Pa]
+  Figure lateral_stress_at_end; ///< of the side walls [Pa]
+  Figure slope;                 ///< of axial stress over axial strain, by least squares [Pa]
+  std::uint64_t n_cracks = 0;
+  double duration = 0.0; ///< [s]
+};
+
 /// The row of the curve where the stress was highest, by the peak rule of the test; none if it was rising to the end.
 std::optional<std::size_t> peak_row(const TestRecord& record);
 
@@ -61,4 +75,7 @@ std::optional<std::size_t> crack_initiation_row(const TestRecord& record, std::s
 
 /// Reads the results off the curve (docs/theory.md §5).
 TestResults evaluate(const TestRecord& record);
+
+/// One for each stage of the record, whose rows must lie on its curve.
+std::vector<StageResults> evaluate_stages(const TestRecord& record);
 } // namespace feldspar

@@ -51,6 +51,16 @@ struct NotchGeometry
   bool is_valid;                ///< within the range in which the formula is that of its source
 };
 
+/// A stage of a test that follows a table, as it went.
+struct StageRecord
+{
+  std::string target;          ///< in words
+  double confining_pressure;   ///< wanted at its end, compression positive [Pa]
+  std::uint64_t first_row = 0; ///< of the curve
+  std::uint64_t last_row = 0;  ///< of the curve
+  bool reached = false;        ///< its target
+};
+
 /// A laboratory test as it was measured, and how it was made.
 struct TestRecord
 {
@@ -68,6 +78,7 @@ struct TestRecord
   std::vector<Crack> cracks;
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
+  std::vector<StageRecord> stages;    ///< that were begun, of a test that follows a table
   /// Of a test with a notch; none without.
   std::optional<NotchGeometry> notch;
   bool interrupted = false;

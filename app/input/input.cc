@@ -208,6 +208,25 @@ void check_flaws(const Input& input, const GivenEntries& values)
   check(input.flaws.traces, "Traces file");
 }
 
+/// Reads the loading table, where a test follows it.
+void complete_loading(Input& input, const GivenEntries& values)
+{
+  const bool follows = std::any_of(input.test_list.begin(), input.test_list.end(),
+                                   [](const TestKind& kind) { return kind.follows_stages; });
+  if (!follows)
+    return;
+  const auto refuse = [&](const char* entry, const std::string& why) {
+    throw values.error("Tests", values.has("Tests", entry) ? entry : "List", why);
+  };
+  if (input.tests.loading_table.empty())
+    refuse("Loading table", "own_loading follows a table; name its CSV file by Tests/Loading table");
+  if (input.tests.lateral_boundary != LateralBoundary::wall)
+    refuse("Lateral boundary", "own_loading presses by walls; set Lateral boundary = wall");
+  if (input.tests.intermediate_stress)
+    refuse("Intermediate stress", "own_loading has one confinement on all sides; set Intermediate stress = none");
+  input.tests.loading_stages = read_loading_stages(input.tests.loading_table);
+}
+
 void check_strain_path(const Input& input, const GivenEntries& values)
 {
   const std::size_t n = input.strain_path.direction.size();
@@ -252,6 +271,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       }
   settle_dimension(input, values);
   settle_installation(input, values);
+  complete_loading(input, values);
   complete_variants(input, values);
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "dem/lab/loading_stages.h"
+
 #include <optional>
+#include <string>
+#include <vector>
 
 /// Parameters of the laboratory tests, in SI units and radians, tension positive. Default-constructed values are the
 /// defaults of the input.
@@ -27,6 +31,9 @@ struct TestParameters
   double notch_ratio = 0.4;       ///< depth of the notch of a bent beam over that of the beam
   double shear_strain_rate = 0.1; ///< of the shear displacement over the length of the plane [1/s]
   double shear_sampling_strain = 1e-5;
+  std::string loading_table;                ///< CSV file of the stages of own loading; empty: none
+  std::vector<LoadingStage> loading_stages; ///< read from it
+  unsigned int n_snapshots = 32;            ///< states of the grains that are kept, at most
   double platen_friction = 0.0;
   double seating_transits = 10.0; ///< P-wave transits over which the confinement is raised
   LateralBoundary lateral_boundary = LateralBoundary::wall;

@@ -43,7 +43,7 @@ void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const st
       dynamics.step();
       if (dynamics.time() > most_ramps * ramp.duration)
         throw InputError(
-          fmt::format("Tests/Confinements: the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6));
+          fmt::format("{}: the walls cannot hold {:g} MPa on this specimen", ramp.entry, ramp.pressure / 1e6));
     }
   while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= tolerance);
 }

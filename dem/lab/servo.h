@@ -3,6 +3,7 @@
 #include "dem/dynamics/dynamics.h"
 
 #include <functional>
+#include <string_view>
 
 namespace feldspar
 {
@@ -14,10 +15,11 @@ void hold_pressure(Dynamics<dim>& dynamics, std::size_t wall, double area, doubl
 /// Pressures on walls that are raised together.
 struct PressureRamp
 {
-  double pressure;                           ///< compression positive, for the words of an error [Pa]
-  double duration;                           ///< of the rise [s]
-  std::function<void(double)> hold;          ///< this share of the pressures, for one step
-  std::function<double()> largest_deviation; ///< of a wall's pressure from its target, relative
+  double pressure;                               ///< compression positive, for the words of an error [Pa]
+  double duration;                               ///< of the rise [s]
+  std::function<void(double)> hold;              ///< this share of the pressures, for one step
+  std::function<double()> largest_deviation;     ///< of a wall's pressure from its target, relative
+  std::string_view entry = "Tests/Confinements"; ///< that asks for the pressure
 };
 
 /// Of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].

@@ -27,10 +27,12 @@ std::string against_experiment(const ComparisonRow& row)
 {
   if (!row.ours || !row.experiment)
     return none;
-  const std::string deviation = row.deviation() ? signed_percent(*row.deviation()) : "";
+  const std::string deviation =
+    row.deviation() ? signed_percent(*row.deviation()) : ""; // none where only a range is known
   if (!row.in_range())
     return "no range given" + (deviation.empty() ? "" : ", " + deviation);
-  return (*row.in_range() ? "✓ " : "✗ ") + deviation + (*row.in_range() ? ", in range" : ", out of range");
+  return (*row.in_range() ? "✓ " : "✗ ") + (deviation.empty() ? "" : deviation + ", ") +
+         (*row.in_range() ? "in range" : "out of range");
 }
 
 /// A line of the comparison: heading, model, experiment, model against experiment and so on of one series; of several

@@ -1,6 +1,7 @@
 #include "results/folder/summary.h"
 
 #include "base/whole_file.h"
+#include "results/evaluation.h"
 #include "results/fits/direct_shear.h"
 #include "results/folder/provenance_json.h"
 #include "results/result_table.h"
@@ -65,6 +66,33 @@ Json as_json(const Statistics& over_seeds)
   return json;
 }
 
+/// What each stage of a loading table came to; compression positive.
+Json stages(const TestRecord& record)
+{
+  Json json = Json::array();
+  const auto results = evaluate_stages(record);
+  for (std::size_t k = 0; k < results.size(); ++k)
+    {
+      const StageRecord& stage = record.stages[k];
+      Json one;
+      one["target"] = stage.target;
+      one["confining_pressure_Pa"] = number(stage.confining_pressure);
+      one["reached"] = stage.reached;
+      one["first_row"] = stage.first_row;
+      one["last_row"] = stage.last_row;
+      one["duration_s"] = results[k].duration;
+      one["axial_strain_at_start"] = results[k].strain_at_start;
+      one["axial_strain_at_end"] = results[k].strain_at_end;
+      one["axial_stress_at_start_Pa"] = results[k].stress_at_start;
+      one["axial_stress_at_end_Pa"] = results[k].stress_at_end;
+      write_figure(one, "lateral_stress_at_end_Pa", results[k].lateral_stress_at_end);
+      write_figure(one, "slope_Pa", results[k].slope);
+      one["n_cracks"] = results[k].n_cracks;
+      json.push_back(one);
+    }
+  return json;
+}
+
 Json describe(const FinishedTest& test)
 {
   Json json;
@@ -101,6 +129,8 @@ Json describe(const FinishedTest& test)
     {
       write_figure(json, std::string(entry.name), entry.value(test));
     }
+  if (test.record.kind.follows_stages)
+    json["stages"] = stages(test.record);
   if (const auto& notch = test.record.notch)
     json["notch"] = {{"intensity_over_stress_sqrt_m", notch->intensity_over_stress},
                      {"work_over_stress_m3", notch->work_over_stress},

@@ -24,7 +24,7 @@ const std::vector<const LaboratoryProtocol*>& laboratory_protocols()
 {
   static const std::vector<const LaboratoryProtocol*> all{&direct_tension, &uniaxial_compression, &triaxial_compression,
                                                           &brazilian,      &three_point_bending,  &semicircular_bending,
-                                                          &direct_shear};
+                                                          &direct_shear,   &own_loading};
   return all;
 }
 

@@ -26,6 +26,8 @@ extern const LaboratoryProtocol three_point_bending;
 extern const LaboratoryProtocol semicircular_bending;
 /// Two halves of a box that move past each other under a constant normal stress. docs/theory.md §4.9.
 extern const LaboratoryProtocol direct_shear;
+/// Platens and side walls that follow a table of stages. docs/theory.md §4.11.
+extern const LaboratoryProtocol own_loading;
 
 /// All of them.
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols();

@@ -3,100 +3,16 @@
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/running_test.h"
 #include "dem/lab/servo.h"
+#include "dem/lab/surroundings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
-#include <optional>
 
 namespace feldspar
 {
 namespace
 {
-/// Walls that press together on an area with one pressure.
-template <int dim>
-struct Press
-{
-  std::vector<std::size_t> walls;
-  std::function<double(const Dynamics<dim>&)> area; ///< of each [m²]
-  double pressure;                                  ///< compression positive [Pa]
-};
-
-/// Two walls across one axis.
-struct WallPair
-{
-  std::size_t low;
-  std::size_t high;
-};
-
-template <int dim>
-double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
-{
-  return dynamics.walls()[pair.high].position - dynamics.walls()[pair.low].position;
-}
-
-/// What surrounds a specimen in a triaxial test.
-template <int dim>
-struct Surroundings
-{
-  std::vector<Press<dim>> sides; ///< the first holds the confining pressure; none with a membrane
-  std::optional<double> intermediate_stress = std::nullopt; ///< where a side holds another [Pa]
-  std::function<double(const Dynamics<dim>&)> end_area;
-};
-
-/// Stands the walls around the sides of a specimen.
-template <int dim>
-Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const double confining_pressure,
-                           const TestParameters& wanted)
-{
-  using State = const Dynamics<dim>&;
-  const Vector<dim> size = dynamics.specimen().size;
-  const double thickness = dynamics.specimen().thickness;
-  Surroundings<dim> around;
-  if constexpr (dim == 3)
-    if (dynamics.specimen().round)
-      {
-        if (wanted.lateral_boundary == LateralBoundary::membrane)
-          {
-            around.end_area = [=](State state) {
-              return lateral_surface(state.specimen(), state.walls()[ends.low].position,
-                                     state.walls()[ends.high].position)
-                .cross_section;
-            };
-            return around;
-          }
-        const std::size_t wall = dynamics.add_wall(round_wall(dynamics.specimen()));
-        const auto radius = [=](State state) { return state.walls()[wall].position; };
-        around.sides = {{{wall},
-                         [=](State state) { return 2.0 * std::numbers::pi * radius(state) * distance(state, ends); },
-                         confining_pressure}};
-        around.end_area = [=](State state) { return std::numbers::pi * radius(state) * radius(state); };
-        return around;
-      }
-
-  std::vector<WallPair> pairs; // across every axis but the last
-  for (int axis = 0; axis < dim - 1; ++axis)
-    {
-      const std::size_t low = dynamics.add_wall({axis, 1.0, 0.0});
-      pairs.push_back({low, dynamics.add_wall({axis, -1.0, size[axis]})});
-    }
-  for (int axis = 0; axis < dim - 1; ++axis)
-    {
-      const WallPair pair = pairs[std::size_t(axis)];
-      const auto area = [=](State state) {
-        return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
-      };
-      if (axis == 1 && wanted.intermediate_stress && *wanted.intermediate_stress != confining_pressure)
-        around.intermediate_stress = wanted.intermediate_stress;
-      around.sides.push_back({{pair.low, pair.high}, area, around.intermediate_stress.value_or(confining_pressure)});
-    }
-  around.end_area = [=](State state) {
-    return distance(state, pairs[0]) * (dim == 2 ? thickness : distance(state, pairs.back()));
-  };
-  return around;
-}
-
 /// Puts the pressure on the outer grains, now and then anew as they move.
 template <int dim>
 void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double pressure)

@@ -1,0 +1,118 @@
+#include "base/input_error.h"
+#include "dem/lab/platens.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/lab/running_test.h"
+#include "dem/lab/servo.h"
+#include "dem/lab/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+template <int dim>
+SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                      const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  const double height = specimen.size[axis];
+  if (wanted.loading_stages.empty())
+    throw InputError("Tests/Loading table: is missing; own_loading follows its stages");
+  const LoadingStage& first = wanted.loading_stages.front();
+  const double pressure_at_start = first.confining_pressure;
+  double fastest = 0.0;
+  for (const LoadingStage& stage : wanted.loading_stages)
+    fastest = std::max(fastest, stage.strain_rate.value_or(wanted.compression_strain_rate));
+  const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
+
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const auto platens = add_platens(test.dynamics, 0.0, height, wanted.platen_friction);
+  const WallPair ends{platens.lower, platens.upper};
+  Surroundings<dim> around;
+  if (pressure_at_start > 0.0)
+    around = surround(test.dynamics, ends, pressure_at_start, wanted);
+  else
+    around.end_area = [area = specimen.volume() / height](const Dynamics<dim>&) { return area; };
+
+  const auto hold_sides = [=](Dynamics<dim>& state, const double pressure) {
+    for (const Press<dim>& side : around.sides)
+      {
+        const double area = side.area(state);
+        for (const std::size_t wall : side.walls)
+          hold_pressure(state, wall, area, pressure, largest_servo_speed);
+      }
+  };
+  const auto hold_ends = [=](Dynamics<dim>& state, const double stress) {
+    const double area = around.end_area(state);
+    for (const std::size_t wall : {ends.low, ends.high})
+      hold_pressure(state, wall, area, stress, largest_servo_speed);
+  };
+
+  test.loading.strain_rate = -wanted.compression_strain_rate;
+  test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
+    if (pressure_at_start > 0.0)
+      {
+        const auto largest_deviation = [&] {
+          double largest = 0.0;
+          const auto look = [&](const std::size_t wall, const double area) {
+            largest = std::max(largest, std::abs(state.wall_force(wall) / area / pressure_at_start - 1.0));
+          };
+          for (const Press<dim>& side : around.sides)
+            for (const std::size_t wall : side.walls)
+              look(wall, side.area(state));
+          for (const std::size_t wall : {ends.low, ends.high})
+            look(wall, around.end_area(state));
+          return largest;
+        };
+        const auto hold_all = [&](const double share) {
+          hold_sides(state, share * pressure_at_start);
+          hold_ends(state, share * pressure_at_start);
+        };
+        raise_pressures<dim>(state,
+                             {pressure_at_start, wanted.seating_transits * height / wave_speed(state.specimen()),
+                              hold_all, largest_deviation, "Tests/Loading table"},
+                             check);
+      }
+    const bool presses = first.axial_strain ? *first.axial_strain > 0.0 : first.axial_stress > pressure_at_start;
+    if (presses && !first.duration)
+      start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate));
+  };
+  test.loading.stages = wanted.loading_stages;
+  test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
+    hold_sides(state, demand.confining_pressure);
+    if (demand.held_stress)
+      hold_ends(state, *demand.held_stress);
+    else
+      close(state, platens, demand.closing_rate * height);
+  };
+  test.loading.shortening = [=](const Dynamics<dim>& state) { return 1.0 - distance(state, ends) / height; };
+  test.loading.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
+    const double end_area = around.end_area(state);
+    return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
+  };
+  if (!around.sides.empty())
+    test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
+      double force = 0.0;
+      for (const std::size_t wall : side.walls)
+        force += state.wall_force(wall) / double(side.walls.size());
+      return -force / side.area(state);
+    };
+  return test;
+}
+} // namespace
+
+constinit const LaboratoryProtocol own_loading = complete({
+  .kind = {.name = "own_loading",
+           .title = "Own loading",
+           .strength = "highest axial stress",
+           .sign = -1.0,
+           .follows_stages = true},
+  .strain_rate = &TestParameters::compression_strain_rate,
+  .takes_cylinders = true,
+  .set_up_2d = set_up<2>,
+  .set_up_3d = set_up<3>,
+});
+} // namespace feldspar

@@ -1,0 +1,70 @@
+#include "dem/lab/surroundings.h"
+
+#include "dem/lab/membrane.h"
+
+#include <numbers>
+
+namespace feldspar
+{
+template <int dim>
+double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
+{
+  return dynamics.walls()[pair.high].position - dynamics.walls()[pair.low].position;
+}
+
+template <int dim>
+Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const double confining_pressure,
+                           const TestParameters& wanted)
+{
+  using State = const Dynamics<dim>&;
+  const Vector<dim> size = dynamics.specimen().size;
+  const double thickness = dynamics.specimen().thickness;
+  Surroundings<dim> around;
+  if constexpr (dim == 3)
+    if (dynamics.specimen().round)
+      {
+        if (wanted.lateral_boundary == LateralBoundary::membrane)
+          {
+            around.end_area = [=](State state) {
+              return lateral_surface(state.specimen(), state.walls()[ends.low].position,
+                                     state.walls()[ends.high].position)
+                .cross_section;
+            };
+            return around;
+          }
+        const std::size_t wall = dynamics.add_wall(round_wall(dynamics.specimen()));
+        const auto radius = [=](State state) { return state.walls()[wall].position; };
+        around.sides = {{{wall},
+                         [=](State state) { return 2.0 * std::numbers::pi * radius(state) * distance(state, ends); },
+                         confining_pressure}};
+        around.end_area = [=](State state) { return std::numbers::pi * radius(state) * radius(state); };
+        return around;
+      }
+
+  std::vector<WallPair> pairs; // across every axis but the last
+  for (int axis = 0; axis < dim - 1; ++axis)
+    {
+      const std::size_t low = dynamics.add_wall({axis, 1.0, 0.0});
+      pairs.push_back({low, dynamics.add_wall({axis, -1.0, size[axis]})});
+    }
+  for (int axis = 0; axis < dim - 1; ++axis)
+    {
+      const WallPair pair = pairs[std::size_t(axis)];
+      const auto area = [=](State state) {
+        return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
+      };
+      if (axis == 1 && wanted.intermediate_stress && *wanted.intermediate_stress != confining_pressure)
+        around.intermediate_stress = wanted.intermediate_stress;
+      around.sides.push_back({{pair.low, pair.high}, area, around.intermediate_stress.value_or(confining_pressure)});
+    }
+  around.end_area = [=](State state) {
+    return distance(state, pairs[0]) * (dim == 2 ? thickness : distance(state, pairs.back()));
+  };
+  return around;
+}
+
+template double distance<2>(const Dynamics<2>&, const WallPair&);
+template double distance<3>(const Dynamics<3>&, const WallPair&);
+template Surroundings<2> surround<2>(Dynamics<2>&, const WallPair&, double, const TestParameters&);
+template Surroundings<3> surround<3>(Dynamics<3>&, const WallPair&, double, const TestParameters&);
+} // namespace feldspar

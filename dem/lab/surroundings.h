@@ -1,0 +1,46 @@
+#pragma once
+
+#include "dem/dynamics/dynamics.h"
+#include "dem/lab/parameters.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace feldspar
+{
+/// Walls that press together on an area with one pressure.
+template <int dim>
+struct Press
+{
+  std::vector<std::size_t> walls;
+  std::function<double(const Dynamics<dim>&)> area; ///< of each [m²]
+  double pressure;                                  ///< compression positive [Pa]
+};
+
+/// Two walls across one axis.
+struct WallPair
+{
+  std::size_t low;
+  std::size_t high;
+};
+
+/// Between them [m].
+template <int dim>
+double distance(const Dynamics<dim>& dynamics, const WallPair& pair);
+
+/// What surrounds a specimen that is pressed between platens.
+template <int dim>
+struct Surroundings
+{
+  std::vector<Press<dim>> sides; ///< the first holds the confining pressure; none with a membrane
+  std::optional<double> intermediate_stress = std::nullopt; ///< where a side holds another [Pa]
+  std::function<double(const Dynamics<dim>&)> end_area;
+};
+
+/// Stands the walls around the sides of a specimen between two platens, for a confining pressure [Pa].
+template <int dim>
+Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, double confining_pressure,
+                           const TestParameters& wanted);
+} // namespace feldspar
