@@ -1,4 +1,6 @@
 #include "dem/dynamics/runaway.h"
+#include "dem/flaws/clumps.h"
+#include "dem/flaws/mineral_grains.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/running_test.h"
 #include "tests/unit/small_specimen.h"
@@ -150,6 +152,49 @@ TEST(Runaway, DoesNotSpeakUpInExtremesThatAreAccepted)
           EXPECT_EQ(outcome.record.failure, "") << which;
           EXPECT_LT(outcome.record.curve.back().energies.imbalance_over_work(), damping > 0.0 ? 0.01 : 0.1) << which;
         }
+}
+
+// The same corners for bodies of clumps, and for mineral grains whose boundaries are smooth joints without friction or with
+// more than can slide, a thousand times stiffer across than along or the other way round. Bounds as above.
+TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
+{
+  for (const double friction : {0.0, 1e6})
+    for (const double damping : {0.0, 0.7})
+      {
+        SpecimenParameters wanted;
+        wanted.width = 0.016;
+        wanted.height = 0.024;
+        FlatJointParameters flat_joint;
+        flat_joint.coordination_number = 4.2;
+        flat_joint.friction = friction;
+        ParticleContactParameters contact;
+        contact.friction = friction;
+        const auto packed = make_specimen<2>(wanted, flat_joint, contact, 1, [](std::string_view, double) {});
+        TestParameters parameters;
+        parameters.compression_strain_rate = 10.0;
+        parameters.compression_sampling_strain = 2e-4;
+        const auto holds = [&](const Specimen<2>& specimen, const std::string& body) {
+          const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
+          const std::string which = fmt::format("{}, friction {}, damping {}", body, friction, damping);
+          EXPECT_EQ(outcome.record.failure, "") << which;
+          EXPECT_FALSE(outcome.record.cracks.empty()) << which;
+          EXPECT_LT(outcome.record.curve.back().energies.imbalance_over_work(), damping > 0.0 ? 0.01 : 0.1) << which;
+        };
+        Specimen<2> clumped = packed;
+        put_in_clumps(clumped, {4e-3});
+        holds(clumped, "clumps");
+        for (const double stiffness_ratio : {1e-3, 1e3})
+          {
+            SmoothJointParameters boundary;
+            boundary.shear_stiffness = boundary.normal_stiffness / stiffness_ratio;
+            boundary.friction = friction;
+            boundary.tensile_strength = 16e6;
+            boundary.cohesion = 300e6;
+            Specimen<2> mineral = packed;
+            put_in_mineral_grains(mineral, {4e-3}, boundary);
+            holds(mineral, fmt::format("mineral grains of ratio {}", stiffness_ratio));
+          }
+      }
 }
 } // namespace
 } // namespace feldspar
