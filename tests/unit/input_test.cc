@@ -100,6 +100,8 @@ subsection Tests
   set Bending strain rate = 0.2 1/s
   set Bending sampling strain = 4e-6
   set Notch ratio = 0.5
+  set Loading table = stages.csv
+  set Snapshots = 20
   set Shear strain rate = 0.3 1/s
   set Shear sampling strain = 3e-5
   set Platen friction = 0.1
@@ -250,6 +252,7 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("rock.json", "{}");
   folder.write("sample.msh", "");
   folder.write("summary.json", "{}");
+  folder.write("stages.csv", "axial_strain\n0.01\n");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
   // Parallel bonds exclude flat joints, and clumps mineral grains; they have tests of their own.
@@ -332,6 +335,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.bending_strain_rate, 0.2);
   EXPECT_EQ(input.tests.bending_sampling_strain, 4e-6);
   EXPECT_EQ(input.tests.notch_ratio, 0.5);
+  EXPECT_TRUE(input.tests.loading_table.ends_with("stages.csv"));
+  EXPECT_EQ(input.tests.n_snapshots, 20u);
   EXPECT_EQ(input.tests.shear_strain_rate, 0.3);
   EXPECT_EQ(input.tests.shear_sampling_strain, 3e-5);
   EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
@@ -700,6 +705,7 @@ TEST(Input, ReadsTheSameWhereTheDecimalSignIsAComma)
   folder.write("rock.json", "{}");
   folder.write("summary.json", "{}");
   folder.write("sample.msh", "");
+  folder.write("stages.csv", "axial_strain\n0.01\n");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const std::filesystem::path prm = folder.write("everything.prm", everything);
   const std::filesystem::path json = folder.write("a.json", R"({"Flat joint": {"Friction": 0.35}})");
