@@ -123,8 +123,8 @@ FinishedRve<dim> run_rve(const Variant& variant, const std::string& name, const 
   const auto legs = path_legs<dim>(input.strain_path);
   const Checkpoints checkpoints(folder / "checkpoints", name, run_identity(input, name));
   const auto finish = [&](const auto& run) -> FinishedRve<dim> {
-    return {name,    variant.label, specimen.seed, specimen.report,
-            network, run.record(),  run.state(),   seconds_since(started)};
+    return {name,    variant.label, variant.settings, specimen.seed,         specimen.report,
+            network, run.record(),  run.state(),      seconds_since(started)};
   };
   std::optional<NetworkState<dim>> start; // an RVE out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())

@@ -132,7 +132,10 @@ Json as_json(const FinishedRve<dim>& rve)
   json["name"] = rve.name;
   json["seed"] = rve.seed;
   if (!rve.variant.empty())
-    json["variant"] = rve.variant;
+    {
+      json["variant"] = rve.variant;
+      json["variant_values"] = as_json(rve.settings);
+    }
   json["n_grains"] = network.n_grains();
   json["n_joints"] = network.n_joints();
   json["coordination_number"] = rve.specimen.coordination_number;

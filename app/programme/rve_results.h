@@ -15,8 +15,9 @@ namespace feldspar
 template <int dim>
 struct FinishedRve
 {
-  std::string name;    ///< of its curve: rve, rve_seed_3
-  std::string variant; ///< Section/Entry = value; empty where there are none
+  std::string name;                     ///< of its curve: rve, rve_seed_3
+  std::string variant;                  ///< Section/Entry = value; empty where there are none
+  std::vector<VariantSetting> settings; ///< of the variant, entry by entry
   std::uint64_t seed = 0;
   SpecimenReport specimen;
   std::shared_ptr<const Network<dim>> network; ///< shared with the run that it was made for

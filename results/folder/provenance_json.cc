@@ -2,6 +2,9 @@
 
 #include "base/quoted.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace feldspar
 {
 nlohmann::ordered_json as_json(const Provenance& provenance)
@@ -40,6 +43,32 @@ Provenance read_provenance(const nlohmann::ordered_json& summary)
         made_by.n_threads = threads->get<unsigned int>();
     }
   return made_by;
+}
+
+nlohmann::ordered_json json_number(const double value)
+{
+  if (std::abs(value) < 0x1p53 && value == std::floor(value) && std::abs(value) < 1e15)
+    return std::int64_t(value);
+  return value;
+}
+
+nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings)
+{
+  nlohmann::ordered_json json;
+  for (const VariantSetting& setting : settings)
+    {
+      nlohmann::ordered_json& out = json[setting.entry];
+      const auto written = number_of(setting);
+      if (!written)
+        {
+          out["value"] = setting.value;
+          continue;
+        }
+      out["value"] = json_number(written->value);
+      if (!written->unit.empty())
+        out["unit"] = written->unit;
+    }
+  return json;
 }
 
 std::string text_of(const nlohmann::ordered_json& json, const std::string_view key)

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "results/run.h"
+#include "results/variant_setting.h"
 
 #include <nlohmann/json.hpp>
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace feldspar
 {
@@ -14,6 +16,12 @@ inline constexpr int summary_schema_version = 1;
 
 /// How every summary.json begins: layout, program, input and machine.
 nlohmann::ordered_json as_json(const Provenance& provenance);
+
+/// Whole numbers are written as such.
+nlohmann::ordered_json json_number(double value);
+
+/// What a variant says of its entries, by entry: a number with the unit it was written in, or the words.
+nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 
 /// As far as it is there.
 Provenance read_provenance(const nlohmann::ordered_json& summary);

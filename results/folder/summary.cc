@@ -22,31 +22,11 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// Whole numbers are written as such.
-Json number(const double value)
-{
-  if (std::abs(value) < 0x1p53 && value == std::floor(value) && std::abs(value) < 1e15)
-    return std::int64_t(value);
-  return value;
-}
-
-/// A number with the unit it was written in, or the words.
-Json as_json(const VariantSetting& setting)
-{
-  const auto written = number_of(setting);
-  if (!written)
-    return {{"value", setting.value}};
-  Json json{{"value", number(written->value)}};
-  if (!written->unit.empty())
-    json["unit"] = written->unit;
-  return json;
-}
-
 /// A number, or null with the reason in a field beside it.
 void write_figure(Json& json, const std::string& key, const Figure& figure)
 {
   if (figure.value)
-    json[key] = number(*figure.value);
+    json[key] = json_number(*figure.value);
   else
     {
       json[key] = nullptr;
@@ -76,7 +56,7 @@ Json stages(const TestRecord& record)
       const StageRecord& stage = record.stages[k];
       Json one;
       one["target"] = stage.target;
-      one["confining_pressure_Pa"] = number(stage.confining_pressure);
+      one["confining_pressure_Pa"] = json_number(stage.confining_pressure);
       one["reached"] = stage.reached;
       one["first_row"] = stage.first_row;
       one["last_row"] = stage.last_row;
@@ -102,11 +82,11 @@ Json describe(const FinishedTest& test)
   json["body"] = name(test.record.body);
   json["seed"] = test.record.seed;
   if (test.record.intermediate_stress)
-    json["intermediate_stress_Pa"] = number(*test.record.intermediate_stress);
+    json["intermediate_stress_Pa"] = json_number(*test.record.intermediate_stress);
   if (!test.variant.empty())
     json["variant"] = test.variant;
-  for (const VariantSetting& setting : test.settings)
-    json["variant_values"][setting.entry] = as_json(setting);
+  if (!test.settings.empty())
+    json["variant_values"] = as_json(test.settings);
   json["interrupted"] = test.record.interrupted;
   if (!test.record.failure.empty())
     json["failure"] = test.record.failure;
