@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <variant>
 
 namespace feldspar
@@ -77,6 +78,23 @@ double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
     sum += of_one;
   return sum;
 }
+
+/// Of a loading table, as a strain at the rate of compression: its ways to strains and its holds. How far it is to a stress is
+/// not known beforehand.
+double known_length_of_stages(const TestParameters& tests)
+{
+  double length = 0.0;
+  double at = 0.0;
+  for (const LoadingStage& stage : tests.loading_stages)
+    if (stage.axial_strain)
+      {
+        const double faster = stage.strain_rate.value_or(tests.compression_strain_rate) / tests.compression_strain_rate;
+        length += std::abs(*stage.axial_strain - std::exchange(at, *stage.axial_strain)) / faster;
+      }
+    else
+      length += stage.duration.value_or(0.0) * tests.compression_strain_rate;
+  return length;
+}
 } // namespace
 
 template <int dim>
@@ -95,7 +113,10 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
       if (is_new)
         known->second = expected_time_step(*specimen, safety);
       // A test without a forecast is left out of the time.
-      const double strain = expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
+      const double strain =
+        test->kind.follows_stages
+          ? known_length_of_stages(input->tests)
+          : expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
       const double rate = input->tests.*protocol_of(test->kind).strain_rate;
       const double n_steps = known->second > 0.0 ? strain / (rate * known->second) : 0.0;
       const double of_one = n_steps * double(specimen->joints.size()) * seconds_of_joint_and_step(dim);

@@ -161,6 +161,19 @@ TEST(Rve, ATurnedCellIsPulledInTheAxesOfThePath)
     << outcome.error;
 }
 
+TEST(Rve, GivesTheValuesOfVariantsWithTheirUnits)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + "subsection Strain path\n  set Direction = 0, 1, 0\n  set Size = 1e-5\nend\n"
+                                        "subsection Variants\n  set Entry = Strain path/Cell angle\n"
+                                        "  set Values = 0 deg; 30 deg\nend\n");
+  const auto run = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const auto rves = summary(folder.path() / "out")["volumes"];
+  ASSERT_EQ(rves.size(), 2u);
+  EXPECT_EQ(rves[1]["variant_values"]["Strain path/Cell angle"], (nlohmann::json{{"value", 30}, {"unit", "deg"}}));
+}
+
 TEST(Rve, TakesSpheres)
 {
   const TemporaryFolder folder;
