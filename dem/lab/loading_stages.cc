@@ -4,6 +4,7 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/text.h"
+#include "dem/lab/parameters.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,6 @@ namespace
 {
 constexpr std::array<std::string_view, 5> columns{"axial_strain", "axial_stress_Pa", "hold_s", "confining_pressure_Pa",
                                                   "strain_rate_per_s"};
-constexpr double most_strain = 0.2; // beyond which nothing that is rock is left
 
 void check_columns(const CsvReader& table, const std::string& file)
 {
@@ -36,9 +36,9 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
     return "has no target; give axial_strain, axial_stress_Pa or hold_s";
   if (stage.axial_strain && stage.duration)
     return "axial_strain and hold_s are both given; a hold keeps the platens, or an axial_stress_Pa";
-  if (stage.axial_strain && !(*stage.axial_strain >= 0.0 && *stage.axial_strain <= most_strain))
+  if (stage.axial_strain && !(*stage.axial_strain >= 0.0 && *stage.axial_strain <= largest_axial_strain))
     return fmt::format("axial_strain = {:g}: must lie in [0, {}]; compression is positive", *stage.axial_strain,
-                       most_strain);
+                       largest_axial_strain);
   if (stage.axial_stress && !(*stage.axial_stress >= 0.0))
     return fmt::format("axial_stress_Pa = {:g}: must be at least 0; platens press and cannot pull",
                        *stage.axial_stress);

@@ -17,6 +17,9 @@ enum class LateralBoundary
   membrane ///< a pressure on the outer grains, each by its share of the side
 };
 
+/// Nothing that is rock is left at such a strain: every test ends there, whether its curve has peaked or not.
+inline constexpr double largest_axial_strain = 0.2;
+
 /// The laboratory tests and when they end.
 struct TestParameters
 {

@@ -73,6 +73,7 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen,
   : wanted(parameters)
   , stop_rule(test.protocol.kind)
   , set_up(set_up_of(test, specimen, parameters, dynamics))
+  , stage_walk(parameters)
 {
   const Specimen<dim>& tested = set_up.dynamics.specimen();
   record.kind = test.protocol.kind;
@@ -119,9 +120,8 @@ bool LabTest<dim>::advance(const std::function<void()>& check)
       if (!seated)
         seat(check);
       load_to_next_row(check);
-      ended = set_up.loading.stages.empty()
-                ? stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted)
-                : stages_are_over();
+      ended = set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment())
+                                         : stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
     }
   catch (const Runaway& error)
     {
@@ -147,8 +147,8 @@ void LabTest<dim>::seat(const std::function<void()>& check)
   record.curve.push_back(sample());
   energy_watch.has_grown_without_work(record.curve.back().energies);
   take_snapshot();
-  if (!set_up.loading.stages.empty())
-    begin_stage(0);
+  if (set_up.loading.drive_stage)
+    stage_walk.begin(moment());
 }
 
 /// Along the last axis, tension positive.
@@ -197,7 +197,18 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
 {
   auto& dynamics = set_up.dynamics;
   const auto& loading = set_up.loading;
-  if (loading.stages.empty())
+  if (loading.drive_stage)
+    {
+      do
+        {
+          check();
+          loading.drive_stage(dynamics, stage_walk.demand(moment()));
+          step();
+        }
+      while (!stage_walk.is_at_end_of_stage(moment()) &&
+             stage_walk.strain_rate() * (dynamics.time() - time_of_last_row) < loading.sampling_strain);
+    }
+  else
     {
       const double next_strain = double(record.curve.size()) * loading.sampling_strain;
       do // at least one step, however long steps are
@@ -209,115 +220,14 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
         }
       while (std::abs(axial_strain()) < next_strain);
     }
-  else
-    {
-      const double rate = loading.stages[stage_start.number].strain_rate.value_or(std::abs(loading.strain_rate));
-      do
-        {
-          check();
-          loading.drive_stage(dynamics, demand());
-          step();
-        }
-      while (!is_at_end_of_stage() && rate * (dynamics.time() - time_of_last_row) < loading.sampling_strain);
-    }
   add_row();
 }
 
 template <int dim>
-void LabTest<dim>::begin_stage(const std::size_t number)
+StageMoment LabTest<dim>::moment() const
 {
-  const auto& stages = set_up.loading.stages;
-  const CurveSample& row = record.curve.back();
-  const double pressure = stages[number == 0 ? 0 : number - 1].confining_pressure;
-  stage_start = {number,   set_up.dynamics.time(), -row.axial_strain, -row.axial_stress,
-                 pressure, -row.axial_stress,      -row.axial_strain};
-  const std::uint64_t row_number = record.curve.size() - 1;
-  record.stages.push_back({words(stages[number]), stages[number].confining_pressure, row_number, row_number, false});
-}
-
-/// The confinement goes evenly with the strain or the time of the stage from one value to the next.
-template <int dim>
-StageDemand LabTest<dim>::demand() const
-{
-  const auto& loading = set_up.loading;
-  const LoadingStage& stage = loading.stages[stage_start.number];
-  double share = 1.0;
-  if (stage.duration)
-    share = (set_up.dynamics.time() - stage_start.time) / *stage.duration;
-  else if (stage.axial_strain && *stage.axial_strain != stage_start.strain)
-    share = (-axial_strain() - stage_start.strain) / (*stage.axial_strain - stage_start.strain);
-  StageDemand now;
-  now.confining_pressure =
-    stage_start.pressure + std::clamp(share, 0.0, 1.0) * (stage.confining_pressure - stage_start.pressure);
-  now.closing_rate = 0.0;
-  if (stage.duration)
-    now.held_stress = stage.axial_stress;
-  else
-    {
-      const bool presses =
-        stage.axial_strain ? *stage.axial_strain > stage_start.strain : *stage.axial_stress > stage_start.stress;
-      now.closing_rate = (presses ? 1.0 : -1.0) * stage.strain_rate.value_or(std::abs(loading.strain_rate));
-    }
-  return now;
-}
-
-template <int dim>
-bool LabTest<dim>::is_at_end_of_stage() const
-{
-  const LoadingStage& stage = set_up.loading.stages[stage_start.number];
-  if (stage.duration)
-    return set_up.dynamics.time() - stage_start.time >= *stage.duration;
-  const auto passes = [](const double value, const double start, const double target) {
-    return target > start ? value >= target : value <= target;
-  };
-  if (stage.axial_strain)
-    return passes(-axial_strain(), stage_start.strain, *stage.axial_strain);
   const EndStress stress = set_up.loading.end_stress(set_up.dynamics);
-  return passes(-0.5 * (stress.lower + stress.upper), stage_start.stress, *stage.axial_stress);
-}
-
-/// Ends the stage where it has got to its target, or where it never will, and begins the next. docs/theory.md §4.11.
-template <int dim>
-bool LabTest<dim>::stages_are_over()
-{
-  const auto& stages = set_up.loading.stages;
-  const LoadingStage& stage = stages[stage_start.number];
-  const CurveSample& row = record.curve.back();
-  StageRecord& now = record.stages.back();
-  now.last_row = record.curve.size() - 1;
-  const double stress = -row.axial_stress;
-  if (stress > stage_start.highest_stress)
-    {
-      stage_start.highest_stress = stress;
-      stage_start.strain_at_highest = -row.axial_strain;
-    }
-  if (is_at_end_of_stage())
-    {
-      now.reached = true;
-      if (stage_start.number + 1 == stages.size())
-        return true;
-      begin_stage(stage_start.number + 1);
-      return false;
-    }
-  const auto give_up = [&](const std::string& why) {
-    record.ended_early = fmt::format("stage {} of {}, {}: {}", stage_start.number + 1, stages.size(), now.target, why);
-    return true;
-  };
-  constexpr double largest_strain = 0.2; // as of the stop rule
-  if (const double most = wanted.stop_strain.value_or(largest_strain); - row.axial_strain >= most)
-    return give_up(fmt::format("not reached at an axial strain of {:g}, where the test stops", most));
-  if (!stage.axial_stress || stage.duration || *stage.axial_stress <= stage_start.stress)
-    return false;
-  // Only where cracks have opened in the stage, and well above the waves of its first rows.
-  const CurveSample& first = record.curve[now.first_row];
-  const bool has_cracked = row.n_tension_cracks + row.n_shear_cracks > first.n_tension_cracks + first.n_shear_cracks;
-  const double risen = stage_start.highest_stress - stage_start.stress;
-  const double share = wanted.stop_stress_over_peak.value_or(0.5);
-  const double last_strain = wanted.stop_strain_over_peak_strain * stage_start.strain_at_highest;
-  if (has_cracked && risen > 0.1 * (*stage.axial_stress - stage_start.stress) &&
-      (stress <= stage_start.stress + share * risen || -row.axial_strain >= last_strain))
-    return give_up(fmt::format("the stress rose to {:.1f} MPa and no further", stage_start.highest_stress / 1e6));
-  return false;
+  return {set_up.dynamics.time(), -axial_strain(), -0.5 * (stress.lower + stress.upper)};
 }
 
 template <int dim>
@@ -399,6 +309,8 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
   TestOutcome result{record, {}, {}};
   result.record.interrupted = interrupted || !record.failure.empty();
+  result.record.stages = stage_walk.records();
+  result.record.ended_early = stage_walk.ended_early();
   if (!record.curve.empty()) // of a row that was begun nothing is reported yet
     result.record.cracks.resize(record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);
   result.bookkeeping.steps = set_up.dynamics.n_steps();
@@ -440,41 +352,6 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
 
 template <int dim>
 template <typename Archive>
-void LabTest<dim>::transfer_stages(Archive& archive)
-{
-  std::string table;
-  for (const LoadingStage& stage : set_up.loading.stages)
-    table += full_text(stage);
-  const std::string own_table = table;
-  archive.text("loading_table", table);
-  if (table != own_table)
-    throw InputError("of another loading table");
-  archive.value("shortening_at_start", shortening_at_start);
-  archive.value("stage_number", stage_start.number);
-  archive.value("stage_time", stage_start.time);
-  archive.value("stage_strain", stage_start.strain);
-  archive.value("stage_stress", stage_start.stress);
-  archive.value("stage_pressure", stage_start.pressure);
-  archive.value("stage_highest_stress", stage_start.highest_stress);
-  archive.value("stage_strain_at_highest", stage_start.strain_at_highest);
-  std::uint64_t n_begun = record.stages.size();
-  archive.value("n_stages_begun", n_begun);
-  record.stages.resize(n_begun);
-  for (std::size_t k = 0; k < n_begun; ++k)
-    {
-      StageRecord& stage = record.stages[k];
-      auto group = archive.subgroup(fmt::format("stage_{}", k));
-      group.text("target", stage.target);
-      group.value("confining_pressure", stage.confining_pressure);
-      group.value("first_row", stage.first_row);
-      group.value("last_row", stage.last_row);
-      transfer_flag(group, "reached", stage.reached);
-    }
-  archive.text("ended_early", record.ended_early);
-}
-
-template <int dim>
-template <typename Archive>
 void LabTest<dim>::transfer(Archive& archive)
 {
   auto dynamics = archive.subgroup("dynamics");
@@ -490,8 +367,11 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
   stop_rule.transfer(archive);
-  if (!set_up.loading.stages.empty())
-    transfer_stages(archive);
+  if (set_up.loading.drive_stage)
+    {
+      archive.value("shortening_at_start", shortening_at_start);
+      stage_walk.transfer(archive);
+    }
   std::uint32_t has_ended = ended;
   archive.value("ended", has_ended);
   ended = has_ended;

@@ -4,6 +4,7 @@
 #include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
 #include "dem/lab/parameters.h"
+#include "dem/lab/stage_walk.h"
 #include "dem/lab/stop_rule.h"
 #include "dem/lab/strain_gauge.h"
 #include "results/test_outcome.h"
@@ -23,14 +24,6 @@ struct EndStress
   double upper;
 };
 
-/// What a stage of a loading table asks for at one moment.
-struct StageDemand
-{
-  double confining_pressure;         ///< compression positive [Pa]
-  double closing_rate;               ///< of the platens over the height of the specimen [1/s]
-  std::optional<double> held_stress; ///< by the platens instead, compression positive [Pa]
-};
-
 /// How a specimen is loaded and measured once its walls or grips stand; keeps no state of its own.
 template <int dim>
 struct Loading
@@ -42,8 +35,8 @@ struct Loading
   /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
   std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
-  std::vector<LoadingStage> stages;          ///< that it follows one after another; none: one strain rate throughout
-  std::function<void(Dynamics<dim>&, const StageDemand&)> drive_stage; ///< before each step of a stage
+  /// Before each step, of a test that follows the stages of a loading table; else empty.
+  std::function<void(Dynamics<dim>&, const StageDemand&)> drive_stage;
   std::function<double(const Dynamics<dim>&)> shortening; ///< of the specimen since its genesis, over its height
   std::function<EndStress(const Dynamics<dim>&)> end_stress;
   std::function<double(const Dynamics<dim>&)> servo_stress; ///< on the sides [Pa]; empty where no servo holds it
@@ -73,9 +66,9 @@ public:
           const DynamicsParameters& dynamics);
 
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
-  /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at every step, which may
-  /// throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws InputError where the
-  /// confinement cannot be reached.
+  /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
+  /// every step, which may throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws
+  /// InputError where the confinement cannot be reached.
   bool advance(const std::function<void()>& check = [] {});
 
   bool has_ended() const { return ended; }
@@ -97,8 +90,6 @@ public:
 private:
   template <typename Archive>
   void transfer(Archive& archive);
-  template <typename Archive>
-  void transfer_stages(Archive& archive);
   double lateral_stress() const;
   CurveSample sample() const;
   void seat(const std::function<void()>& check);
@@ -106,10 +97,7 @@ private:
   void step();
   void add_row();
   double axial_strain() const;
-  void begin_stage(std::size_t number);
-  StageDemand demand() const;
-  bool is_at_end_of_stage() const;
-  bool stages_are_over();
+  StageMoment moment() const;
   Snapshot snapshot() const;
   void take_snapshot();
   void start_gauge();
@@ -117,6 +105,7 @@ private:
   TestParameters wanted;
   StopRule stop_rule;
   SetUpTest<dim> set_up;
+  StageWalk stage_walk;
   TestRecord record;
   std::vector<Snapshot> snapshots;
   EnergyWatch energy_watch;
@@ -133,19 +122,6 @@ private:
   std::uint64_t n_shear = 0;
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints
   std::uint64_t rows_between_snapshots = 1;
-
-  /// Where the stage that runs set off from; compression positive.
-  struct StageStart
-  {
-    std::uint64_t number = 0;
-    double time = 0.0; ///< of the dynamics [s]
-    double strain = 0.0;
-    double stress = 0.0;         ///< [Pa]
-    double pressure = 0.0;       ///< confining [Pa]
-    double highest_stress = 0.0; ///< of its rows so far [Pa]
-    double strain_at_highest = 0.0;
-  };
-  StageStart stage_start;
-  double shortening_at_start = 0.0;
+  double shortening_at_start = 0.0; ///< of a test that follows stages
 };
 } // namespace feldspar

@@ -8,11 +8,9 @@ bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure
   const double deviator = kind.deviator(row, confining_pressure);
   if (peak.is_highest(deviator))
     strain_at_peak = strain;
-  // Nothing that is rock is left at such a strain, whether the curve has peaked or not.
-  constexpr double largest_strain = 0.2;
   // A row that is meant to be there may lack a last bit, which differs between numbers of processes.
   constexpr double but_for_round_off = 1.0 - 1e-9;
-  if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_strain))
+  if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_axial_strain))
     return true;
   const bool is_whole = row.n_tension_cracks + row.n_shear_cracks == 0;
   if (needs_crack && is_whole && !wanted.stop_strain)

@@ -79,7 +79,6 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
     if (presses && !first.duration)
       start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate));
   };
-  test.loading.stages = wanted.loading_stages;
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);
     if (demand.held_stress)

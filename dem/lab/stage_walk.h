@@ -1,0 +1,103 @@
+#pragma once
+
+#include "base/byte_archive.h"
+#include "base/input_error.h"
+#include "dem/lab/parameters.h"
+#include "results/record.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace feldspar
+{
+/// Where a test stands; compression positive.
+struct StageMoment
+{
+  double time; ///< of the dynamics [s]
+  double axial_strain;
+  double axial_stress; ///< mean of both ends [Pa]
+};
+
+/// What a stage asks for at one moment.
+struct StageDemand
+{
+  double confining_pressure;         ///< compression positive [Pa]
+  double closing_rate;               ///< of the platens over the height of the specimen [1/s]
+  std::optional<double> held_stress; ///< by the platens instead, compression positive [Pa]
+};
+
+/// Leads a test through the stages of its loading table, one after another; docs/theory.md §4.11.
+class StageWalk
+{
+public:
+  explicit StageWalk(const TestParameters& parameters)
+    : wanted(parameters)
+  {
+  }
+
+  /// Sets off at the first row of the curve.
+  void begin(const StageMoment& now);
+
+  StageDemand demand(const StageMoment& now) const;
+  bool is_at_end_of_stage(const StageMoment& now) const;
+  /// Of the stage that runs, its magnitude [1/s].
+  double strain_rate() const { return rate_of(stage()); }
+
+  /// Once a row has been added to the curve: ends the stage where it has got to its target or never will, and begins the
+  /// next. Whether that was the last one.
+  bool is_over(const std::vector<CurveSample>& curve, const StageMoment& now);
+
+  const std::vector<StageRecord>& records() const { return begun; }
+  /// Which stage could not be reached, and why; empty if all were.
+  const std::string& ended_early() const { return early; }
+
+  /// Into or out of a checkpoint. Throws InputError where that is of another table.
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    const std::string own_table = table();
+    std::string of_archive = own_table;
+    archive.text("loading_table", of_archive);
+    if (of_archive != own_table)
+      throw InputError("of another loading table");
+    archive.value("stage_time", start.time);
+    archive.value("stage_strain", start.axial_strain);
+    archive.value("stage_stress", start.axial_stress);
+    archive.value("stage_highest_stress", highest_stress);
+    archive.value("stage_strain_at_highest", strain_at_highest);
+    std::uint64_t n_begun = begun.size();
+    archive.value("n_stages_begun", n_begun);
+    if (n_begun > wanted.loading_stages.size())
+      throw InputError("of more stages than its loading table has");
+    begun.resize(n_begun);
+    for (std::size_t k = 0; k < n_begun; ++k)
+      {
+        StageRecord& one = begun[k];
+        auto group = archive.subgroup(fmt::format("stage_{}", k));
+        group.text("target", one.target);
+        group.value("confining_pressure", one.confining_pressure);
+        group.value("first_row", one.first_row);
+        group.value("last_row", one.last_row);
+        transfer_flag(group, "reached", one.reached);
+      }
+    archive.text("ended_early", early);
+  }
+
+private:
+  const LoadingStage& stage() const { return wanted.loading_stages[begun.size() - 1]; }
+  double rate_of(const LoadingStage& one) const { return one.strain_rate.value_or(wanted.compression_strain_rate); }
+  std::string table() const;
+  void begin_next(std::uint64_t row, const StageMoment& now);
+
+  TestParameters wanted;
+  std::vector<StageRecord> begun; ///< the last one runs
+  std::string early;
+  StageMoment start{};         ///< of the stage that runs
+  double highest_stress = 0.0; ///< of its rows so far [Pa]
+  double strain_at_highest = 0.0;
+};
+} // namespace feldspar
