@@ -13,6 +13,8 @@ namespace feldspar
 {
 namespace
 {
+constexpr const char* of_stages = "the curve goes back and forth; each stage has a slope of its own";
+
 Figure known(const double value)
 {
   if (std::isfinite(value))
@@ -192,9 +194,7 @@ void evaluate_elasticity(const TestRecord& record, const RisingBranch& branch, T
 {
   if (!record.kind.has_uniform_stress)
     {
-      const Figure none =
-        unknown(record.kind.follows_stages ? "the curve goes back and forth; each stage has a slope of its own"
-                                           : "the stress in this test is not uniform");
+      const Figure none = unknown(record.kind.follows_stages ? of_stages : "the stress in this test is not uniform");
       results.youngs_modulus_initial = results.youngs_modulus_tangent = results.youngs_modulus_secant = none;
       results.poissons_ratio_initial = results.poissons_ratio_secant = results.p_wave_transits_to_peak = none;
       return;
@@ -386,6 +386,11 @@ TestResults evaluate(const TestRecord& record)
   results.shear_share_at_peak = n_cracks(at_peak) > 0
                                   ? known(double(at_peak.n_shear_cracks) / double(n_cracks(at_peak)))
                                   : unknown("no crack before the peak");
+  if (record.kind.follows_stages)
+    for (const auto member :
+         {&TestResults::crack_initiation_stress, &TestResults::crack_initiation_stress_lateral,
+          &TestResults::crack_damage_stress, &TestResults::post_peak_drop, &TestResults::residual_deviator_ratio})
+      results.*member = unknown(of_stages);
   evaluate_smooth_joints(record, at_peak, results);
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);

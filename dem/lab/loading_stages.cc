@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace feldspar
 {
@@ -30,6 +31,11 @@ void check_columns(const CsvReader& table, const std::string& file)
 /// Why a stage cannot be made after the one before; empty if it can.
 std::string objection(const LoadingStage& stage, const LoadingStage* const before)
 {
+  for (const auto& [column, stress] :
+       {std::pair(columns[1], stage.axial_stress.value_or(0.0)), {columns[3], stage.confining_pressure}})
+    if (stress > 0.0 && stress < 1e3)
+      return fmt::format("{} = {:g}: is less than 1 kPa; stresses of the table are in Pa, 60 MPa is 60e6", column,
+                         stress);
   if (stage.axial_strain && stage.axial_stress)
     return "axial_strain and axial_stress_Pa are both given; a stage ends at one of them";
   if (!stage.axial_strain && !stage.axial_stress && !stage.duration)

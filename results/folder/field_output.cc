@@ -133,7 +133,7 @@ of_cracks.LineWidth = 3.0
 )",
                         name);
   return text + R"(scene = GetAnimationScene()
-scene.UpdateAnimationUsingDataTimeSteps()  # the time is the axial strain in per cent
+scene.UpdateAnimationUsingDataTimeSteps()  # axial strain in per cent; steps of own loading
 scene.GoToLast()
 ResetCamera(view)
 Render(view)
@@ -156,10 +156,12 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
     {
       const Snapshot& snapshot = appearance.snapshots[k];
       const double percent = 100.0 * kind.sign * snapshot.axial_strain + 0.0; // no -0
+      // Time goes forwards, which the strain of a loading table need not.
+      const double time = kind.follows_stages ? double(snapshot.step) : percent;
       const auto keep = [&](VtkPolyData data, const char* const what, std::vector<VtkTime>& series) {
         data.of_all("axial_strain_percent", percent);
         data.of_all("axial_stress_Pa", snapshot.axial_stress);
-        series.push_back({percent, fmt::format("{}/{}_{:03}.vtp", name, what, k)});
+        series.push_back({time, fmt::format("{}/{}_{:03}.vtp", name, what, k)});
         data.write(folder / series.back().file);
       };
       keep(grains_at(snapshot, start, appearance.grains_at_end), "grains", of_grains);

@@ -139,8 +139,9 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
                             *results.peak_stress.value / 1e6));
       // By the rule of other tests: at 1.6 times the strain at the peak, or before.
       EXPECT_LT(-record.curve.back().axial_strain, 1.6 * *results.strain_at_peak.value + 2e-5);
-      EXPECT_EQ(results.youngs_modulus_initial.reason,
-                "the curve goes back and forth; each stage has a slope of its own");
+      for (const Figure& figure :
+           {results.youngs_modulus_initial, results.crack_initiation_stress, results.post_peak_drop})
+        EXPECT_EQ(figure.reason, "the curve goes back and forth; each stage has a slope of its own");
     }
 }
 
@@ -224,6 +225,9 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
   EXPECT_EQ(error_of(header), "stages.csv: there is no stage below the header");
   EXPECT_EQ(error_of(header + "1e-3,,,,\n1e-3,2e6,,,\n"),
             "stages.csv: stage 2: axial_strain and axial_stress_Pa are both given; a stage ends at one of them");
+  EXPECT_EQ(error_of(header + ",60,,,\n"), "stages.csv: stage 1: axial_stress_Pa = 60: is less than 1 kPa; stresses of "
+                                           "the table are in Pa, 60 MPa is 60e6");
+  EXPECT_EQ(error_of(header + "1e-3,,,5,\n").substr(0, 47), "stages.csv: stage 1: confining_pressure_Pa = 5:");
   EXPECT_EQ(error_of(header + ",,,5e6,\n"),
             "stages.csv: stage 1: has no target; give axial_strain, axial_stress_Pa or hold_s");
   EXPECT_EQ(error_of(header + "-1e-3,,,,\n"),
