@@ -102,37 +102,41 @@ std::vector<double> values(const TestGroup& group, Figure TestResults::*figure)
   return result;
 }
 
+double abscissa(const TestKind& kind, const CurveSample& row)
+{
+  return kind.follows_stages ? row.time : kind.sign * row.axial_strain;
+}
+
 Band band(const TestGroup& group, const std::function<double(const CurveSample&)>& quantity, const bool laboratory)
 {
-  const double sign = group.kind.sign;
+  const auto at = [&](const CurveSample& row) { return abscissa(group.kind, row); };
   double end = std::numeric_limits<double>::infinity();
   std::vector<const std::vector<CurveSample>*> curves;
   for (const auto* test : group.tests)
     if (const auto& curve = test->record.curve; curve.size() > 1)
       {
         curves.push_back(&curve);
-        end = std::min(end, sign * curve.back().axial_strain);
+        end = std::min(end, at(curve.back()));
       }
   Band result;
   if (curves.empty() || !(end > 0.0))
     return result;
   for (std::size_t k = 0; k < n_band_rows; ++k)
     {
-      const double strain = end * double(k) / double(n_band_rows - 1);
-      std::vector<double> at_strain;
+      const double here = end * double(k) / double(n_band_rows - 1);
+      std::vector<double> of_tests;
       for (const auto* curve : curves)
         {
-          auto above =
-            std::lower_bound(curve->begin() + 1, curve->end() - 1, strain,
-                             [&](const CurveSample& row, const double s) { return sign * row.axial_strain < s; });
+          auto above = std::lower_bound(curve->begin() + 1, curve->end() - 1, here,
+                                        [&](const CurveSample& row, const double value) { return at(row) < value; });
           const auto below = above - 1;
-          const double width = sign * (above->axial_strain - below->axial_strain);
-          const double weight = width > 0.0 ? std::clamp((strain - sign * below->axial_strain) / width, 0.0, 1.0) : 1.0;
-          at_strain.push_back((laboratory ? sign : 1.0) *
-                              ((1.0 - weight) * quantity(*below) + weight * quantity(*above)));
+          const double width = at(*above) - at(*below);
+          const double weight = width > 0.0 ? std::clamp((here - at(*below)) / width, 0.0, 1.0) : 1.0;
+          of_tests.push_back((laboratory ? group.kind.sign : 1.0) *
+                             ((1.0 - weight) * quantity(*below) + weight * quantity(*above)));
         }
-      const auto over_seeds = *statistics(at_strain);
-      result.strain.push_back(strain);
+      const auto over_seeds = *statistics(of_tests);
+      result.abscissa.push_back(here);
       result.mean.push_back(over_seeds.mean);
       result.deviation.push_back(over_seeds.standard_deviation.value_or(0.0));
     }

@@ -42,11 +42,15 @@ const FinishedTest* typical(const TestGroup& group);
 /// A figure over the seeds of a group, where it could be had.
 std::vector<double> values(const TestGroup& group, Figure TestResults::*figure);
 
-/// A quantity along the curves of a group: mean and standard deviation over the tests at the same axial strain, as far
-/// as all curves go. Strain is positive in the sense of the test.
+/// What the quantities of a test are followed along: the axial strain, positive in the sense of the test, or the time [s]
+/// where a table leads the strain back and forth.
+double abscissa(const TestKind& kind, const CurveSample& row);
+
+/// A quantity along the curves of a group: mean and standard deviation over the tests at the same abscissa, as far as all
+/// curves go.
 struct Band
 {
-  std::vector<double> strain;
+  std::vector<double> abscissa;
   std::vector<double> mean;
   std::vector<double> deviation; ///< 0 of a single test
 };

@@ -174,7 +174,8 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
   const auto& group = of.group;
   const double sign = group.kind.sign;
   const std::string series_colour = colour(*of.series, of.n);
-  if (group.tests.size() > 1)
+  const bool each_alone = group.kind.follows_stages; // back and forth, each on its own way
+  if (group.tests.size() > 1 || each_alone)
     for (const auto* test : group.tests)
       {
         const auto& curve = test->record.curve;
@@ -182,12 +183,20 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
         Points points;
         for (std::size_t k = 0; k < curve.size() && sign * curve[k].axial_strain <= end; k += stride)
           points.push_back({sign * strain(curve[k]) / milli, group.kind.stress(curve[k]) / mega});
-        plot.add(1, {.label = fmt::format("{}, seed {}", label, test->record.seed),
-                     .goes_with = label,
-                     .colour = series_colour,
-                     .width = 0.5,
-                     .points = std::move(points)});
+        if (each_alone)
+          plot.add(2, {.label = fmt::format("{}, seed {}", label, test->record.seed),
+                       .colour = series_colour,
+                       .width = group.tests.size() > 1 ? 1.0 : 2.2,
+                       .points = std::move(points)});
+        else
+          plot.add(1, {.label = fmt::format("{}, seed {}", label, test->record.seed),
+                       .goes_with = label,
+                       .colour = series_colour,
+                       .width = 0.5,
+                       .points = std::move(points)});
       }
+  if (each_alone)
+    return;
 
   const Band stress = band(
     group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
@@ -195,7 +204,7 @@ void add_stress_curve(Plot& plot, const SeriesGroup& of, const Quantity& strain,
   Points mean;
   Points around; // there on one side, back on the other
   Points back;
-  for (std::size_t k = 0; k < stress.strain.size() && stress.strain[k] <= end; ++k)
+  for (std::size_t k = 0; k < stress.abscissa.size() && stress.abscissa[k] <= end; ++k)
     {
       const double x = strains.mean[k] / milli;
       const double y = stress.mean[k] / mega;
@@ -254,7 +263,7 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
                              : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
   return Picture{
     .name = name + "_stress",
-    .caption = what + means_and_bands(any_has_several(same)) +
+    .caption = what + (kind.follows_stages ? "" : means_and_bands(any_has_several(same))) +
                (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
     .alternative = what + " in " + of_tests + ".",
     .width = width,
@@ -273,9 +282,9 @@ void add_mean(Plot& plot, const SeriesGroup& of, const Quantity& quantity, const
   Points mean;
   Points around;
   Points back;
-  for (std::size_t k = 0; k < over_seeds.strain.size(); ++k)
+  for (std::size_t k = 0; k < over_seeds.abscissa.size(); ++k)
     {
-      const double x = over_seeds.strain[k] / milli;
+      const double x = over_seeds.abscissa[k] / milli;
       mean.push_back({x, over_seeds.mean[k]});
       around.push_back({x, over_seeds.mean[k] + over_seeds.deviation[k]});
       back.push_back({x, over_seeds.mean[k] - over_seeds.deviation[k]});
@@ -290,10 +299,16 @@ void add_mean(Plot& plot, const SeriesGroup& of, const Quantity& quantity, const
   plot.add(2, {.label = label, .colour = of_colour, .dashes = dashes, .points = std::move(mean)});
 }
 
-/// Of the abscissa of what a test is followed along.
-std::string strain_label(const SameTests& same)
+/// Of what the quantities of a test are followed along, and of its axis.
+std::string abscissa_name(const SameTests& same)
 {
-  return fmt::format("{} [10⁻³]", same.front().group.kind.channel.strain_name);
+  const TestKind& kind = same.front().group.kind;
+  return kind.follows_stages ? "time" : std::string(kind.channel.strain_name);
+}
+
+std::string abscissa_label(const SameTests& same)
+{
+  return abscissa_name(same) + (same.front().group.kind.follows_stages ? " [ms]" : " [10⁻³]");
 }
 
 std::optional<Picture> crack_count_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
@@ -320,11 +335,11 @@ std::optional<Picture> crack_count_picture(const SameTests& same, const std::str
     any_rves
       ? ". Of finite elements those of the representative volumes at all points, more than the sample itself would have"
       : "";
-  const Chart axes{.x_label = strain_label(same), .y_label = "broken segments"};
+  const Chart axes{.x_label = abscissa_label(same), .y_label = "broken segments"};
   return Picture{.name = name + "_cracks",
                  .caption = "Broken segments" + means_of_several(same) + of_rves,
                  .alternative = fmt::format("Number of tension and of shear cracks against {} in {}.",
-                                            same.front().group.kind.channel.strain_name, of_tests),
+                                            abscissa_name(same), of_tests),
                  .width = width,
                  .height = plot.height(2),
                  .script = plot.script(axes, "set yrange [0:*]\nset key maxcols 2\n"),
@@ -371,12 +386,11 @@ std::optional<Picture> energy_picture(const SameTests& same, const std::string& 
     }
   if (plot.empty())
     return std::nullopt;
-  const Chart axes{.x_label = strain_label(same), .y_label = "energy [J]"};
+  const Chart axes{.x_label = abscissa_label(same), .y_label = "energy [J]"};
   return Picture{.name = name + "_energy",
                  .caption = "Where the work of the boundaries went" +
                             (same.size() > 1 ? ", " + of->series->label : std::string()) + means_of_several({*of}),
-                 .alternative =
-                   fmt::format("Energies against {} in {}.", same.front().group.kind.channel.strain_name, of_tests),
+                 .alternative = fmt::format("Energies against {} in {}.", abscissa_name(same), of_tests),
                  .width = width,
                  .height = plot.height(3),
                  .script = plot.script(axes, "set yrange [0:*]\nset key maxcols 3\n"),
@@ -386,6 +400,8 @@ std::optional<Picture> energy_picture(const SameTests& same, const std::string& 
 /// Cracks and their released energy per strain, as acoustic emission is shown.
 std::optional<Picture> crack_rate_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
 {
+  if (same.front().group.kind.follows_stages) // cracks have their strain, which goes back and forth
+    return std::nullopt;
   double end = 0.0;
   for (const auto& of : same)
     for (const auto* test : of.group.tests)
@@ -442,7 +458,7 @@ std::optional<Picture> crack_rate_picture(const SameTests& same, const std::stri
     }
   if (plot.empty())
     return std::nullopt;
-  const Chart axes{.x_label = strain_label(same),
+  const Chart axes{.x_label = abscissa_label(same),
                    .y_label = "cracks per 10⁻³ of strain",
                    .right_label = "released energy [J per 10⁻³ of strain]"};
   return Picture{

@@ -271,16 +271,39 @@ TEST(Band, IsMeanAndDeviationAtTheSameStrain)
   ASSERT_EQ(groups.size(), 1u);
   const Band stress = band(
     groups[0], [](const CurveSample& row) { return row.axial_stress; }, true);
-  ASSERT_FALSE(stress.strain.empty());
-  EXPECT_NEAR(stress.strain.back(), 30e-4, 1e-12);
-  for (std::size_t k = 0; k < stress.strain.size(); ++k)
+  ASSERT_FALSE(stress.abscissa.empty());
+  EXPECT_NEAR(stress.abscissa.back(), 30e-4, 1e-12);
+  for (std::size_t k = 0; k < stress.abscissa.size(); ++k)
     {
-      const double strain = stress.strain[k];
+      const double strain = stress.abscissa[k];
       const double first = strain <= 20e-4 ? 60e9 * strain : 120e6 - 90e9 * (strain - 20e-4);
       // Rows are 1e-4 apart and the kink is one of them: linear between them is exact.
       EXPECT_NEAR(stress.mean[k], 1.05 * first, 1.0) << strain;
       EXPECT_NEAR(stress.deviation[k], 0.1 / std::sqrt(2.0) * first, 1.0) << strain;
     }
+}
+
+TEST(Band, OfATestThatGoesBackAndForthIsOverTime)
+{
+  // Pressed to 2e-3 in 2 ms and back to 1e-3 in 1 ms, without a change of the stiffness of 60 GPa.
+  FinishedTest test = compression(3);
+  test.record.kind = own_loading.kind;
+  test.record.curve.clear();
+  for (int k = 0; k <= 30; ++k)
+    {
+      CurveSample row;
+      row.time = 1e-4 * k;
+      row.axial_strain = -1e-4 * (k <= 20 ? k : 40 - k);
+      row.axial_stress = 60e9 * row.axial_strain;
+      test.record.curve.push_back(row);
+    }
+  const Series series{"one", SeriesKind::specimens, {}, {test}, {}};
+  const Band stress = band(
+    groups_of(series)[0], [](const CurveSample& row) { return row.axial_stress; }, true);
+  ASSERT_FALSE(stress.abscissa.empty());
+  EXPECT_NEAR(stress.abscissa.back(), 3e-3, 1e-12);
+  EXPECT_NEAR(*std::max_element(stress.mean.begin(), stress.mean.end()), 120e6, 1e6);
+  EXPECT_NEAR(stress.mean.back(), 60e6, 1.0);
 }
 
 Reference granite(const double low, const double high)
