@@ -33,7 +33,8 @@ std::string text_of(const fs::path& file)
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-nlohmann::json record() { return nlohmann::json::parse(text_of(figures / "figures.json")); }
+/// In the order of the file: that of the series in a report.
+nlohmann::ordered_json record() { return nlohmann::ordered_json::parse(text_of(figures / "figures.json")); }
 
 std::string sha256(const fs::path& file)
 {
