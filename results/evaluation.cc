@@ -311,6 +311,9 @@ std::optional<std::size_t> peak_row(const TestRecord& record)
       peak = k;
   if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart))
     return std::nullopt;
+  // Shares of the peak are those of its deviator.
+  if (record.kind.deviator(record.curve[peak], record.confining_pressure) <= 0.0)
+    return std::nullopt;
   return peak;
 }
 

@@ -125,6 +125,12 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   if (pressures.empty())
     throw InputError(fmt::format("{}: there is no row below the header", file.string()));
   test.record.confining_pressure = steady_pressure(pressures, file);
+  const double least_stress =
+    std::ranges::min(test.record.curve, {}, &CurveSample::axial_stress).axial_stress; // tension positive
+  if (-least_stress <= test.record.confining_pressure && test.record.confining_pressure > 0.0)
+    throw InputError(fmt::format("{}: axial_stress reaches {:g} MPa only, under a confining_pressure of {:g} MPa; it "
+                                 "must be the whole axial stress, not the part beyond the pressure",
+                                 file.string(), -least_stress / 1e6, test.record.confining_pressure / 1e6));
   test.record.kind = test.record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
   const auto peak = peak_row(test.record);
   if (!peak)

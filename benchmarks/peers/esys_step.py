@@ -62,7 +62,7 @@ model.createInteractionGroup(
         torsionBrkForce=1e30, bendingBrkForce=1e30, tag=0, scaling=True, meanR_scaling=True, truncated=1e30,
     )
 )
-model.createDamping(RotLocalDampingPrms(name="damping", viscosity=0.7))
+model.createInteractionGroup(RotLocalDampingPrms(name="damping", viscosity=0.7))
 
 
 def run(n):

@@ -397,6 +397,8 @@ TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
   refused(header + "\n0,0,0,0\n0.1,-0.02,50,0\n0.2,-0.04,100,0\n", "axial_stress never peaks");
   refused(header + "\n0,0,0,0\n-0.1,-0.02,50,0\n-0.2,-0.04,40,0\n", "shortening is positive");
   refused(header + "\n0,0,5,5\n0.1,-0.02,50,9\n0.2,-0.04,40,5\n", "confining_pressure is");
+  refused(header + "\n0,0,0,10\n0.1,-0.02,5,10\n0.2,-0.04,0,10\n",
+          "axial_stress reaches 5 MPa only, under a confining_pressure of 10 MPa");
   refused(header + "\n0,0,0,0\n0.1,-0.02,much,0\n", "core.csv:3: axial_stress [MPa]: \"much\" is not a decimal number");
   refused("", "core.csv:1: there is no column axial_strain");
   std::string semicolons = header;
