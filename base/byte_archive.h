@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -20,6 +21,24 @@ void transfer_flag(Archive& archive, const std::string& name, bool& flag)
   std::uint32_t stored = flag;
   archive.value(name, stored);
   flag = stored != 0;
+}
+
+/// As they lie in memory, for processes of the same program.
+template <typename T>
+std::string bytes_of(const std::vector<T>& values)
+{
+  static_assert(std::is_trivially_copyable_v<T>);
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// What bytes_of() was given.
+template <typename T>
+std::vector<T> values_of(const std::string& bytes)
+{
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(values.data()));
+  return values;
 }
 
 /// Values one after another, without their names: for memory of the same program.

@@ -96,17 +96,16 @@ std::vector<PointRve> rves(const Packings<dim>& packings, const SampleTest& test
   if (packings.realisations.empty())
     return {};
   std::vector<Choice> choices;
-  std::string numbers;
+  std::vector<std::uint64_t> numbers;
   if (ranks::is_first())
     for (const Choice& choice : choices = chosen(record, test.standing().n_points))
-      numbers.append(reinterpret_cast<const char*>(&choice.number), sizeof choice.number);
-  numbers = ranks::of_first(numbers);
+      numbers.push_back(choice.number);
+  numbers = values_of<std::uint64_t>(ranks::of_first(bytes_of(numbers)));
 
   std::vector<PointRve> all;
-  for (std::size_t k = 0; k < numbers.size() / sizeof(std::uint64_t); ++k)
+  for (std::size_t k = 0; k < numbers.size(); ++k)
     {
-      std::uint64_t number = 0;
-      std::copy_n(numbers.data() + k * sizeof number, sizeof number, reinterpret_cast<char*>(&number));
+      const std::uint64_t number = numbers[k];
       const auto rve = brought<dim>(test, packings, number);
       if (!rve)
         continue;

@@ -24,7 +24,7 @@ namespace
 {
 using namespace feldspar;
 
-constexpr double rate = -0.01;  // of the axial strain [1/s]; so slow that nothing breaks
+constexpr double rate = -0.01;           // of the axial strain [1/s]; so slow that nothing breaks
 constexpr unsigned int first_steps = 20; // not timed: contacts are looked for, pages come to be
 
 JointParameters joint_of(const std::string& body)

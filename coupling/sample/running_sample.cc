@@ -1,5 +1,6 @@
 #include "coupling/sample/running_sample.h"
 
+#include "base/byte_archive.h"
 #include "base/input_error.h"
 #include "coupling/sample/ranks.h"
 #include "dem/lab/protocols/protocols.h"
@@ -153,10 +154,7 @@ void SampleTest::Parts::gather_cracks()
   };
   n_tension += n_of(CrackKind::tension);
   n_shear += n_of(CrackKind::shear);
-  const std::string everywhere =
-    ranks::gathered({reinterpret_cast<const char*>(broken.data()), broken.size() * sizeof(Crack)});
-  broken.resize(everywhere.size() / sizeof(Crack));
-  std::copy(everywhere.begin(), everywhere.end(), reinterpret_cast<char*>(broken.data()));
+  broken = values_of<Crack>(ranks::gathered(bytes_of(broken)));
   std::stable_sort(broken.begin(), broken.end(),
                    [](const Crack& one, const Crack& other) { return one.joint < other.joint; });
   record.cracks.insert(record.cracks.end(), broken.begin(), broken.end());

@@ -136,7 +136,30 @@ struct StoredSegments
   }
 };
 
-/// The segments one by one; a face whose bonds still hold all responds as one.
+/// Adds what a step dissipated; that of most joints is nothing and costs nothing.
+template <int dim, typename Real>
+void add_slip_energy(Joints<dim>& joints, const std::size_t j, const Real& energy)
+{
+  if (!simd::any(energy != 0.0))
+    return;
+  double* const slip_energy = joints.slip_energy.pack(j);
+  simd::store(simd::load<Real>(slip_energy) + energy, slip_energy);
+}
+
+/// The segments one by one, of a law whose faces never respond as one.
+template <typename Real, typename Law, int dim>
+FaceResultants<dim, Real> update_each_segment(const Law& law, Joints<dim>& joints, const Face<Real>& face,
+                                              const FaceMotion<dim, Real>& motion, const FaceBefore<dim, Real>& before,
+                                              const std::size_t j, std::vector<Break>& breaks)
+{
+  StoredSegments<Law, dim, Real> segments{joints, j, face, before, breaks};
+  const FaceResultants<dim, Real> sum = law.update(face, joints.elements, motion, segments);
+  add_slip_energy(joints, j, sum.slip_energy);
+  return sum;
+}
+
+/// The segments one by one; a face whose bonds still hold all responds as one. Few faces come here: a function apart
+/// keeps the way of the others short.
 template <typename Real, typename Law, int dim>
 [[FELDSPAR_OF_ONE_PIECE, gnu::noinline]] FaceResultants<dim, Real> update_segments(
   const Law& law, Joints<dim>& joints, SweepMemory<dim>& memory, const Face<Real>& face,
@@ -158,8 +181,7 @@ template <typename Real, typename Law, int dim>
         double* const least = memory.weakest.at(row, j);
         simd::store(simd::select(segments.some_broke, Real(-infinity), simd::load<Real>(least)), least);
       }
-  double* const slip_energy = joints.slip_energy.pack(j);
-  simd::store(simd::load<Real>(slip_energy) + sum.slip_energy, slip_energy);
+  add_slip_energy(joints, j, sum.slip_energy);
   return sum;
 }
 
@@ -278,8 +300,7 @@ template <typename Real, typename Law, int dim>
         }
     }
   else
-    resultants =
-      update_segments<Real>(law, joints, memory, face, motion, before, FaceResultants<dim, Real>{}, j, breaks);
+    resultants = update_each_segment<Real>(law, joints, face, motion, before, j, breaks);
   ask_for_responses<Real, JointTables<dim>::n_response_rows>(joints.response.at(0, j));
   store_response(Law::force(contact.frame, half_radius_difference, resultants.normal_force, resultants.shear_force,
                             resultants.moment),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/running_test.h"
 
 namespace feldspar
 {
@@ -25,6 +26,13 @@ void close(Dynamics<dim>& dynamics, const Platens& platens, const double speed)
 {
   dynamics.wall(platens.lower).velocity = 0.5 * speed;
   dynamics.wall(platens.upper).velocity = -0.5 * speed;
+}
+
+/// Of both platens, on an area [m²].
+template <int dim>
+EndStress stress_of(const Dynamics<dim>& dynamics, const Platens& platens, const double area)
+{
+  return {-dynamics.wall_force(platens.lower) / area, -dynamics.wall_force(platens.upper) / area};
 }
 
 /// Gives the grains, on top of what they have, the velocities of a steady, uniform stretch [1/s] about the middle: set

@@ -19,6 +19,16 @@ struct Press
   double pressure;                                  ///< compression positive [Pa]
 };
 
+/// Mean over its walls [Pa], tension positive.
+template <int dim>
+double stress_of(const Dynamics<dim>& dynamics, const Press<dim>& press)
+{
+  double force = 0.0;
+  for (const std::size_t wall : press.walls)
+    force += dynamics.wall_force(wall) / double(press.walls.size());
+  return -force / press.area(dynamics);
+}
+
 /// Two walls across one axis.
 struct WallPair
 {

@@ -43,15 +43,19 @@ Response<dim, Real> update(const Stiffness<Real>& stiffness, const Real& frictio
   const auto slides = squared > limit * limit;
   if (!simd::any(slides))
     return response;
+  // A contact that is not pressed keeps nothing. Most that slide in a whole specimen are such; roots and divisions are dear.
+  const auto slides_pressed = slides && limit > 0.0;
+  Real kept = simd::select(slides, Real(0.0), Real(1.0));
+  if (simd::any(slides_pressed))
+    kept = simd::select(slides_pressed, limit / simd::square_root(simd::select(slides, squared, Real(1.0))), kept);
   // Slip is the shear that the force did not follow, under the mean of the forces before and after.
-  const Real kept =
-    simd::select(slides, limit / simd::square_root(simd::select(slides, squared, Real(1.0))), Real(1.0));
   for (int c = 0; c < dim - 1; ++c)
     {
       const Real trial = force[c];
       force[c] = kept * trial;
-      response.slip_energy +=
-        simd::select(slides, 0.5 * (old_shear_force[c] + force[c]) * (trial - force[c]) / stiffness.shear, Real(0.0));
+      const Real work = simd::select(slides, 0.5 * (old_shear_force[c] + force[c]) * (trial - force[c]), Real(0.0));
+      if (simd::any(work != 0.0))
+        response.slip_energy += work / stiffness.shear;
     }
   return response;
 }

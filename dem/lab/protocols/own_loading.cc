@@ -89,15 +89,11 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
   test.loading.shortening = [=](const Dynamics<dim>& state) { return 1.0 - distance(state, ends) / height; };
   test.loading.sampling_strain = wanted.compression_sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    const double end_area = around.end_area(state);
-    return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
+    return stress_of(state, platens, around.end_area(state));
   };
   if (!around.sides.empty())
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
-      double force = 0.0;
-      for (const std::size_t wall : side.walls)
-        force += state.wall_force(wall) / double(side.walls.size());
-      return -force / side.area(state);
+      return stress_of(state, side);
     };
   return test;
 }

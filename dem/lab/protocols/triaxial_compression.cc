@@ -99,15 +99,11 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double confining_pres
   test.loading.strain_rate = -wanted.compression_strain_rate;
   test.loading.sampling_strain = wanted.compression_sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    const double end_area = around.end_area(state);
-    return EndStress{-state.wall_force(platens.lower) / end_area, -state.wall_force(platens.upper) / end_area};
+    return stress_of(state, platens, around.end_area(state));
   };
   if (!membrane)
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
-      double force = 0.0;
-      for (const std::size_t wall : side.walls)
-        force += state.wall_force(wall) / double(side.walls.size());
-      return -force / side.area(state);
+      return stress_of(state, side);
     };
   return test;
 }

@@ -18,9 +18,7 @@ SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure
   test.loading.strain_rate = -wanted.compression_strain_rate;
   test.loading.sampling_strain = wanted.compression_sampling_strain;
   const double area = specimen.volume() / specimen.size[dim - 1];
-  test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    return EndStress{-state.wall_force(platens.lower) / area, -state.wall_force(platens.upper) / area};
-  };
+  test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, platens, area); };
   return test;
 }
 } // namespace
