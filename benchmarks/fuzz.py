@@ -59,7 +59,7 @@ def main():
             sys.exit(f"reader {reader}: build/fuzz/{reader}.log has no number of inputs")
         results[reader] = {"inputs": inputs, "found": len(re.findall(r"^artifact_prefix=", log, re.MULTILINE))}
     result = {
-        "feldspar_commit": commit,
+        "feldspar_version": compare.version(os.path.join(ROOT, "build", "fuzz")),
         "date": datetime.date.today().isoformat(),
         "machine": compare.processor(),
         "sanitizers": "address, undefined",

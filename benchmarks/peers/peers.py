@@ -105,16 +105,16 @@ def measured(build):
 
 def table(result):
     lines = [
-        "| body | program and bond | springs of a bond | one core [ns a bond] | two cores [ns a bond] | bonds a second and core | over Feldspar's flat joint |",
+        "| body | program and bond | segments of a bond | one core [ns a bond] | two cores [ns a bond] | bonds a second and core | over Feldspar's flat joint |",
         "|---|---|---|---|---|---|---|",
     ]
     for body, figures in result["bodies"].items():
         taken = figures["nanoseconds_a_bond_and_step"]
         for program, name in {**OURS, **PEERS}.items():
-            springs = figures["segments_of_a_joint"].get(program, 1)
+            segments = figures["segments_of_a_joint"].get(program, 1)
             one = taken[program]["1"]
             lines.append(
-                f"| {figures['grains']} {BODIES[body]}, {figures['joints']} bonds | {name} | {springs} | {one:.3g} | "
+                f"| {figures['grains']} {BODIES[body]}, {figures['joints']} bonds | {name} | {segments} | {one:.3g} | "
                 f"{taken[program]['2']:.3g} | {1e3 / one:.3g} million | {one / taken['flat-joint']['1']:.2g} |"
             )
     return "\n".join(lines) + "\n"
