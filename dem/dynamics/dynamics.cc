@@ -257,7 +257,11 @@ template <int dim>
 void Dynamics<dim>::check_motion() const
 {
   if (const auto stray = find_stray_grain(body, images.n_own(), wall_set, dt))
-    throw Runaway(describe_runaway(fmt::format("grain {} {}", stray->grain, stray->motion), circumstances()));
+    {
+      Circumstances now = circumstances();
+      now.through_wall = stray->through_wall;
+      throw Runaway(describe_runaway(fmt::format("grain {} {}", stray->grain, stray->motion), now));
+    }
 }
 
 template <int dim>

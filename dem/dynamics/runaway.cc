@@ -19,6 +19,8 @@ std::string likely_reason(const Circumstances& now)
   constexpr double near_the_edge = 0.95;
   if (const double way = now.loading_speed * now.dt / now.smallest_radius; way > hasty)
     return fmt::format("the loading goes {:.2g} radii of the smallest grain in a step; a lower rate would help", way);
+  if (now.through_wall)
+    return "the contacts of its grains are too soft for this load; a higher modulus of contacts and joints would help";
   if (now.share_of_stable_step > near_the_edge)
     return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller Dynamics/Time step "
                        "safety would help",
@@ -58,7 +60,7 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
   std::optional<StrayGrain> beyond_wall;
   walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
     if (!beyond_wall && touch.overlap > touch.zero_distance)
-      beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall"};
+      beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall", true};
   });
   return beyond_wall;
 }

@@ -22,6 +22,7 @@ struct StrayGrain
 {
   std::uint32_t grain;
   std::string motion; ///< "goes ...", "stands ..."
+  bool through_wall = false;
 };
 
 /// The first of the first n_own grains that goes farther in a step of dt [s] than its radius, in translation or rolling
@@ -39,6 +40,7 @@ struct Circumstances
   double share_of_stable_step; ///< dt over the least root of mass over stiffness, as contacts are now
   double loading_speed;        ///< of the fastest wall, grip or side of the cell [m/s]
   double smallest_radius;      ///< [m]
+  bool through_wall = false;   ///< a grain that was slow has been pressed through a wall
 };
 
 /// The sentence about it: `trouble`, step and likely reason.

@@ -180,6 +180,14 @@ void LabTest<dim>::add_row()
 {
   auto& dynamics = set_up.dynamics;
   dynamics.check_motion();
+  // Rock breaks at strains of a ten thousandth: a step of more passes over all that there is to be followed.
+  constexpr double longest = 1e-3;
+  const double strain_rate =
+    set_up.loading.drive_stage ? stage_walk.strain_rate() : std::abs(set_up.loading.strain_rate);
+  if (const double strain = strain_rate * dynamics.time_step(); strain > longest)
+    throw Runaway(fmt::format("the loading strains the specimen by {:.2g} in one step, of {:.2g} s, more than {:g}; a "
+                              "lower strain rate is needed",
+                              strain, dynamics.time_step(), longest));
   CurveSample row = sample();
   if (energy_watch.has_grown_without_work(row.energies))
     throw dynamics.runaway(
