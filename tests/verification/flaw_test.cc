@@ -228,4 +228,30 @@ TEST(ASmoothPlane, BearsWhatLongerSidePlatesPutOnItsHalves)
         << angle / degree;
     }
 }
+
+TEST(ASmoothPlane, InSpaceSlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
+{
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.width = 0.010;
+  wanted.height = 0.008;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 6.0;
+  Specimen<3> specimen = make_specimen<3>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  SmoothSides sides;
+  sides.friction = 0.6;
+  sides.dilation_angle = 8.0 * degree;
+  put_in_flaws<3>(specimen, {ClosedFlaw{{{0.0, 0.004}, {0.010, 0.004}}, sides}});
+  TestParameters test_parameters;
+  test_parameters.shear_strain_rate = 0.2;
+  test_parameters.stop_strain = 1e-3;
+  LabTest<3> test({direct_shear, 5e6}, specimen, test_parameters, {});
+  while (test.advance())
+    ;
+  const TestResults results = evaluate(test.finish(false).record);
+  ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_NEAR(*results.peak_stress.value, 0.6 * 5e6, 0.01 * 0.6 * 5e6);
+  ASSERT_TRUE(results.dilation_angle.value) << results.dilation_angle.reason;
+  EXPECT_NEAR(*results.dilation_angle.value, 8.0 * degree, 0.02 * 8.0 * degree);
+}
 } // namespace feldspar
