@@ -50,7 +50,8 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::servo_error,
                                                       &TestResults::servo_error_largest,
                                                       &TestResults::fracture_toughness,
-                                                      &TestResults::fracture_energy};
+                                                      &TestResults::fracture_energy,
+                                                      &TestResults::dilation_angle};
 
 /// The rising branch of a curve, positive in the sense of the test.
 class RisingBranch
@@ -292,6 +293,48 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
     unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
 }
 
+/// Of a sheared plane that has its strength, and keeps it while it slides.
+constexpr double share_of_strength = 0.99;
+
+/// A plane that slides bears its strength to the end: any row may be the highest by a little, the last one too.
+bool slides_to_the_end(const TestRecord& record)
+{
+  const auto& curve = record.curve;
+  return record.kind.pressure_acts_across &&
+         record.kind.stress(curve[9 * (curve.size() - 1) / 10]) > share_of_strength * record.kind.stress(curve.back());
+}
+
+/// The way of the platen that holds the normal stress is what the work of the walls is more than that of the shear stress:
+/// dW = A (τ du - σ_n dv).
+void evaluate_dilation(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+{
+  if (!record.kind.pressure_acts_across)
+    {
+      results.dilation_angle = unknown("the test shears no plane");
+      return;
+    }
+  const double width = record.size[0];
+  const double area = width * (record.dimension() == 2 ? 1.0 : record.size[1]); // in the plane of a slice of 1 m
+  const auto& curve = record.curve;
+  std::vector<double> shear{0.0};
+  std::vector<double> opening{0.0};
+  for (std::size_t k = branch.row_at(share_of_strength) + 1; k < curve.size(); ++k)
+    {
+      if (-curve[k].lateral_stress < 0.5 * record.confining_pressure)
+        {
+          results.dilation_angle = unknown("the platen lost half of the normal stress after the peak");
+          return;
+        }
+      const double du = width * (record.kind.strain(curve[k]) - record.kind.strain(curve[k - 1]));
+      const double mean = 0.5 * (branch.stress(curve[k]) + branch.stress(curve[k - 1]));
+      const double work = curve[k].energies.boundary_work - curve[k - 1].energies.boundary_work;
+      shear.push_back(shear.back() + du);
+      opening.push_back(opening.back() + (mean * du - work / area) / -curve[k].lateral_stress);
+    }
+  results.dilation_angle = shear.size() < 3 ? unknown("fewer than three rows of the curve from the strength to the end")
+                                            : known(std::atan(paired_moments(shear, opening).slope()));
+}
+
 void evaluate_fragments(const TestRecord& record, TestResults& results)
 {
   results.n_fragments = results.largest_fragment_share = unknown("there are no grains to be counted");
@@ -309,7 +352,7 @@ std::optional<std::size_t> peak_row(const TestRecord& record)
   for (std::size_t k = 0; k < record.curve.size(); ++k)
     if (watch.is_highest(record.kind.stress(record.curve[k])))
       peak = k;
-  if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart))
+  if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart && !slides_to_the_end(record)))
     return std::nullopt;
   // Shares of the peak are those of its deviator.
   if (record.kind.deviator(record.curve[peak], record.confining_pressure) <= 0.0)
@@ -398,6 +441,7 @@ TestResults evaluate(const TestRecord& record)
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);
   evaluate_toughness(record, branch, results);
+  evaluate_dilation(record, branch, results);
   return results;
 }
 } // namespace feldspar

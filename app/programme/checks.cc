@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace feldspar
 {
@@ -114,6 +115,14 @@ std::vector<std::string> remarks_on_elements(const Input& input, const SampleSiz
                       unsigned(std::ceil(across / (rve_size * sample.order))),
                       unsigned(std::ceil(size.height / (rve_size * sample.order))))};
 }
+
+std::vector<std::string> remarks_on_flaws(const Input& input)
+{
+  if (!input.sample.has_grains() || !input.sample.random_orientation || input.flaws.all().empty())
+    return {};
+  return {"Flaws: each point turns its representative volume by an angle of its own, and the flaws with it; they keep "
+          "their directions by Sample/Orientation = fixed"};
+}
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)
@@ -188,6 +197,9 @@ std::vector<std::string> check_sample_input(const Input& input, const std::files
   check_reference(input);
   SampleSize size{};
   with_name_of(input_file, [&] { size = checked_sample(input); });
-  return remarks_on_elements(input, size);
+  std::vector<std::string> remarks = remarks_on_elements(input, size);
+  for (std::string& remark : remarks_on_flaws(input))
+    remarks.push_back(std::move(remark));
+  return remarks;
 }
 } // namespace feldspar

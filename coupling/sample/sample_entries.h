@@ -67,7 +67,8 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
           entry::integer("Realisations", &P::n_realisations, {'[', 1.0, 1000.0, ']'},
                          "packings of the representative volume, assigned to the points by the seed"),
           entry::choice("Orientation", &P::random_orientation, {{"random", true}, {"fixed", false}},
-                        "whether the representative volume at each point is turned by an angle of its own"),
+                        "whether the representative volume at each point is turned by an angle of its own, and the "
+                        "flaws in it"),
           entry::choice("Dealing", &P::dealt_to_elements, {{"to points", false}, {"to elements", true}},
                         "to points: every point gets a representative volume of its own; to elements: the points of an "
                         "element have the same packing in the same orientation"),

@@ -1,7 +1,7 @@
 #include "report/pictures/crack_pictures.h"
 
 #include "report/live/crack_story.h"
-#include "report/pictures/flaw_outlines.h"
+#include "report/pictures/map_marks.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -158,6 +158,13 @@ std::pair<int, int> panel_size(const Frame& frame)
   return {std::max(300, int(inner_height * ratio) + 110), inner_height + 170};
 }
 
+/// The height of a letter of a map [m].
+double letter_height(const Frame& frame)
+{
+  constexpr double pixels = 17.0;
+  return pixels * (is_long(frame) ? frame.width() / 990.0 : frame.height() / 620.0);
+}
+
 /// A stage of a test: cracks up to a step.
 struct Stage
 {
@@ -198,6 +205,31 @@ std::string stage_rows(const std::vector<Crack>& cracks, const std::size_t axis,
     if (crack.kind == kind && crack.step <= stage.last_step)
       rows += trace_of(crack, axis);
   return rows;
+}
+
+/// The order in which the first joints broke, to a map of that stage; those that broke later in grey.
+void add_numbers(std::string& data, std::string& plots, const std::vector<Crack>& cracks, const std::size_t axis,
+                 const Stage& stage, const double letter)
+{
+  const auto first = number_first_cracks(cracks, axis, letter);
+  if (first.empty())
+    return;
+  std::string numbers;
+  for (const auto& one : first)
+    fmt::format_to(std::back_inserter(numbers), "{:.6g} {:.6g} {}\n", one.place[0] / milli, one.place[1] / milli,
+                   one.number);
+  std::string later;
+  for (const auto& crack : cracks)
+    if (crack.step > stage.last_step &&
+        std::any_of(first.begin(), first.end(), [&](const auto& one) { return one.joint == crack.joint; }))
+      later += trace_of(crack, axis);
+  if (!later.empty())
+    {
+      data += fmt::format("$later << EOD\n{}EOD\n", later);
+      plots += ", $later with vectors nohead lw 1.8 lc rgb '#707070' notitle";
+    }
+  data += fmt::format("$first << EOD\n{}EOD\n", numbers);
+  plots += ", $first using 1:2:3 with labels font ',14' tc rgb '#101010' notitle";
 }
 
 /// Equivalent diameter of each fragment: of the circle or sphere of its grains' volume [m].
@@ -360,14 +392,18 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
       for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
         add_cracks(data, plots, s, kind, stage_rows(at_end ? cracks_at_end : record.cracks, axis, kind, all_stages[s]),
                    1.8);
+      if (s == 0)
+        add_numbers(data, plots, at_end ? cracks_at_end : record.cracks, axis, all_stages[s], letter_height(frame));
       plots += "\n";
     }
   const auto [width, height] = panel_size(frame);
   const int columns = is_long(frame) ? 1 : int(all_stages.size());
   const int rows = is_long(frame) ? int(all_stages.size()) : 1;
   return {{.name = test.name + "_cracks",
-           .caption = fmt::format("{}, {}: cracks {}{}{}", title, seed_of(test), in_words(all_stages),
-                                  in_space ? ", seen from the front through the whole body" : "", map_frame.remark()),
+           .caption = fmt::format("{}, {}: cracks {}{}{}{}", title, seed_of(test), in_words(all_stages),
+                                  in_space ? ", seen from the front through the whole body" : "",
+                                  record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke",
+                                  map_frame.remark()),
            .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.",
                                       title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
            .width = width * columns,

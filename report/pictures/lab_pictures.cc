@@ -2,7 +2,7 @@
 
 #include "base/quoted.h"
 #include "report/pictures/crack_pictures.h"
-#include "report/pictures/flaw_outlines.h"
+#include "report/pictures/map_marks.h"
 #include "report/pictures/plane_view.h"
 #include "report/pictures/plot_style.h"
 #include "results/test_groups.h"

@@ -411,6 +411,57 @@ TEST(Example, TheFlawedGraniteReadmeShowsTheCommittedResults)
   row("closed flaw, 45°", 9);
 }
 
+TEST(Example, TheDirectShearReadmeShowsTheCommittedResults)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/direct-shear/README.md");
+  const auto plane = results_of("direct-shear", "smooth-plane");
+  const auto intact = results_of("direct-shear", "intact");
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+  };
+  for (const int stress : {2, 5, 10})
+    {
+      const auto strength = [&](const int variant, const int decimals) {
+        return mean_and_deviation(plane, fmt::format("direct_shear_{}_MPa_variant_{}", stress, variant),
+                                  "peak_stress_Pa", 1e6, decimals);
+      };
+      shown(
+        fmt::format("| {} | {:.1f} | {} | {} | {:.1f} | {} | {} |", stress, 0.6 * stress, strength(1, 3),
+                    strength(2, 3), 2.0 + 0.6 * stress, strength(3, 2),
+                    mean_and_deviation(intact, fmt::format("direct_shear_{}_MPa", stress), "peak_stress_Pa", 1e6, 1)));
+    }
+  const auto line = [&](const std::string& name, const nlohmann::json& fit, const nlohmann::json& ensemble) {
+    shown(fmt::format("| {} | {} | {} | {} |", name, number(fit["cohesion_Pa"], 1e6, 3),
+                      number(fit["friction_angle_rad"], M_PI / 180.0, 2),
+                      number(ensemble["dilation_angle_rad"]["mean"], M_PI / 180.0, 2)));
+  };
+  const char* const names[] = {"plane", "dilating plane", "bonded plane"};
+  for (int k = 0; k < 3; ++k)
+    {
+      const std::string group = fmt::format("direct_shear_5_MPa_variant_{}", k + 1);
+      const std::string variant = test_of(plane, group + "_seed_1")["variant"];
+      line(names[k], plane["fits"]["direct_shear"][variant], plane["ensemble"][group]);
+    }
+  line("intact", intact["fits"]["direct_shear"], intact["ensemble"]["direct_shear_5_MPa"]);
+
+  // Each test of an unbonded plane within 1 % of τ = 0.6 σ_n, and of its dilation of 8° within 5 %.
+  std::size_t n = 0;
+  for (const auto& test : plane["tests"])
+    if (test["variant"].get<std::string>().find("cohesion") == std::string::npos)
+      {
+        const double expected = 0.6 * test["confining_pressure_Pa"].get<double>();
+        EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), expected, 0.01 * expected) << test["name"];
+        if (test["variant"].get<std::string>().find("dilation") != std::string::npos)
+          {
+            EXPECT_NEAR(std::tan(test["dilation_angle_rad"].get<double>()), std::tan(8.0 * M_PI / 180.0),
+                        0.05 * std::tan(8.0 * M_PI / 180.0))
+              << test["name"];
+          }
+        ++n;
+      }
+  EXPECT_EQ(n, 18u);
+}
+
 TEST(Benchmark, TheReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";

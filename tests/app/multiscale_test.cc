@@ -612,6 +612,43 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
          "bad.prm: Continuum/Dilation angle: must be at most Continuum/Friction angle");
 }
 
+TEST(Multiscale, TakesAFlawedRve)
+{
+  // One element between smooth platens is strained alike throughout: it bears what its RVE does alone, pulled with its
+  // sides free.
+  const TemporaryFolder folder;
+  const std::string flaw = "subsection Flaws\n  set Shapes = closed flaw from 4, 7 mm to 10, 7 mm\nend\n";
+  std::string sample = input("  set Platens = smooth\n  set Order = 1\n  set Orientation = fixed\n"
+                             "  set Tension step = 5e-6\n",
+                             "  set List = direct_tension\n  set Stop strain = 5e-5\n") +
+                       flaw;
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"along = 2", "along = 1"}, {"Realisations = 2", "Realisations = 1"}})
+    sample.replace(sample.find(from), from.size(), to);
+  folder.write("sample.prm", sample);
+  folder.write("rve.prm",
+               "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\nend\n"
+               "subsection Strain path\n  set Direction = free, 1, free\n  set Size = 5e-5\n"
+               "  set Largest step = 5e-6\nend\n" +
+                 flaw);
+  const auto run = run_feldspar(folder.path(), "multiscale sample.prm --output sample --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_EQ(run.error.find("Flaws"), std::string::npos) << run.error;
+  ASSERT_EQ(run_feldspar(folder.path(), "rve rve.prm --output rve --quiet").exit_code, 0);
+  const double of_rve = column(folder.path() / "rve/curves/rve.csv", "stress_yy_Pa").back();
+  EXPECT_NEAR(column(folder.path() / "sample/curves/direct_tension_seed_1.csv", "axial_stress_Pa").back(), of_rve,
+              1e-5 * of_rve); // the tolerance of Newton's method
+
+  // Turned at random, the flaws turn too, and it is said.
+  sample.replace(sample.find("Orientation = fixed"), 19, "Orientation = random");
+  sample.replace(sample.find("Stop strain = 5e-5"), 18, "Stop strain = 5e-6");
+  folder.write("turned.prm", sample);
+  const auto turned = run_feldspar(folder.path(), "multiscale turned.prm --output turned --quiet");
+  ASSERT_EQ(turned.exit_code, 0) << turned.error;
+  EXPECT_NE(turned.error.find("they keep their directions by Sample/Orientation = fixed"), std::string::npos)
+    << turned.error;
+}
+
 TEST(Multiscale, WarnsOfElementsLargerThanTheRve)
 {
   TemporaryFolder folder;

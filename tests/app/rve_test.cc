@@ -215,6 +215,49 @@ TEST(Rve, TakesSpheres)
   EXPECT_GT(orientation[2][2].get<double>(), orientation[0][0].get<double>() + orientation[1][1].get<double>());
 }
 
+TEST(Rve, TakesFlaws)
+{
+  // The sides of a closed flaw have no bond: pulled apart they bear what a saw cut of no width bears, nothing. Pressed
+  // together they bear as before, but for what they slip along the grains.
+  const TemporaryFolder folder;
+  const std::string cell =
+    "subsection Specimen\n  set Shape = periodic\n  set Width = 20 mm\n  set Height = 20 mm\nend\n"
+    "subsection Variants\n  set Entry = Flaws/Shapes\n  set Values = none; "
+    "slot from 5, 10 mm to 15, 10 mm width 0 mm; closed flaw from 5, 10 mm to 15, 10 mm; "
+    "hole centre 10, 10 mm radius 3 mm\nend\n";
+  const auto stress = [&](const std::string& path, const int variant) {
+    return std::abs(
+      read_table(folder.path() / path / fmt::format("curves/rve_variant_{}.csv", variant))["stress_yy_Pa"].back());
+  };
+  folder.write("pulled.prm",
+               cell + "subsection Strain path\n  set Direction = free, 1, free\n  set Size = 5e-5\nend\n");
+  folder.write("pressed.prm", cell + "subsection Strain path\n  set Direction = 0, -1, 0\n  set Size = 5e-5\nend\n");
+  for (const char* const path : {"pulled", "pressed"})
+    {
+      const auto run = run_feldspar(folder.path(), fmt::format("rve {0}.prm --output {0} --quiet", path));
+      ASSERT_EQ(run.exit_code, 0) << run.error;
+      // The hole takes 28 mm² out of 400 mm².
+      const auto volumes = summary(folder.path() / path)["volumes"];
+      ASSERT_EQ(volumes.size(), 4u);
+      const double n_grains = volumes[0]["n_grains"];
+      EXPECT_NEAR(volumes[3]["n_grains"].get<double>() / n_grains, 1.0 - 28.3 / 400.0, 0.02);
+      EXPECT_EQ(volumes[2]["n_joints"], volumes[0]["n_joints"]);
+      EXPECT_LT(volumes[1]["n_joints"], volumes[0]["n_joints"]);
+      EXPECT_LT(stress(path, 4), 0.9 * stress(path, 1));
+    }
+  EXPECT_LT(stress("pulled", 2), 0.8 * stress("pulled", 1));
+  EXPECT_NEAR(stress("pulled", 3), stress("pulled", 2), 1e-3 * stress("pulled", 2));
+  EXPECT_NEAR(stress("pressed", 3), stress("pressed", 1), 0.03 * stress("pressed", 1));
+
+  folder.write("smooth.prm",
+               small_cell + "subsection Flaws\n  set Shapes = closed flaw from 2, 6 mm to 9, 6 mm smooth\nend\n");
+  const auto refused = run_feldspar(folder.path(), "rve smooth.prm --output smooth");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.error.find("puts in smooth joints, which need Specimen/Shape = box or cylinder"), std::string::npos)
+    << refused.error;
+  EXPECT_FALSE(fs::exists(folder.path() / "smooth"));
+}
+
 TEST(Rve, IsConfinedBeforeItIsStrained)
 {
   const TemporaryFolder folder;

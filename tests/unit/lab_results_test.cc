@@ -96,6 +96,47 @@ TestRecord kinked_compression()
   return record;
 }
 
+/// A plane 50 mm long that slides at 5 MPa under 8 MPa from 20 µm on, and then opens by a tenth of what it slides. While it
+/// slides the stress rises by so little that its highest value lies at the end.
+TestRecord known_shear()
+{
+  TestRecord record;
+  record.kind = direct_shear.kind;
+  record.size = {0.05, 0.02, 0.0};
+  record.confining_pressure = 8e6;
+  double work = 0.0;
+  for (int k = 0; k <= 100; ++k)
+    {
+      const double way = 1e-6 * k;
+      const double stress = k < 20 ? 5e6 * k / 20 : 5e6 + k;
+      CurveSample row;
+      row.axial_strain = -way / 0.05;
+      row.axial_stress = -stress;
+      row.lateral_stress = -8e6;
+      if (k > 0)
+        work += 0.05 * (0.5 * (stress - record.curve.back().axial_stress) * 1e-6 - (k > 20 ? 8e6 * 1e-7 : 0.0));
+      row.energies.boundary_work = work;
+      row.energies.strain = 1.0;
+      record.curve.push_back(row);
+    }
+  return record;
+}
+
+TEST(LabResults, OfAPlaneThatSlidesAreItsStrengthAndItsDilation)
+{
+  auto record = known_shear();
+  const auto results = evaluate(record);
+  ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_EQ(*results.peak_stress.value, 5e6 + 100.0);
+  ASSERT_TRUE(results.dilation_angle.value) << results.dilation_angle.reason;
+  EXPECT_NEAR(*results.dilation_angle.value, std::atan(0.1), 1e-6);
+
+  record.curve[60].lateral_stress = -3e6;
+  EXPECT_NE(evaluate(record).dilation_angle.reason.find("lost half of the normal stress"), std::string::npos);
+  record.curve.resize(22); // the last tenth rises by 5 % and more
+  EXPECT_EQ(evaluate(record).peak_stress.reason, "the stress never peaked");
+}
+
 TEST(LabResults, OfACurveWithoutCracksComeFromItsStrains)
 {
   // The line from the start to crack damage lies furthest above the lateral strain at its first kink. Volume: with a

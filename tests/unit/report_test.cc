@@ -6,8 +6,10 @@
 #include "report/live/chart.h"
 #include "report/live/crack_story.h"
 #include "report/page/table.h"
+#include "report/pictures/crack_pictures.h"
 #include "report/pictures/curve_pictures.h"
 #include "report/pictures/envelope_pictures.h"
+#include "report/pictures/map_marks.h"
 #include "report/pictures/stress_plane_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
@@ -635,6 +637,43 @@ TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
   EXPECT_EQ(caption({compression(1)}).find("band"), std::string::npos);
   EXPECT_EQ(caption({compression(1)}).find("mean of the tests"), std::string::npos);
   EXPECT_NE(caption({compression(1), compression(2)}).find("bands: ± standard deviation"), std::string::npos);
+}
+
+TEST(CrackMap, NumbersTheFirstJointsThatBroke)
+{
+  std::vector<Crack> cracks;
+  const auto add = [&](const std::uint64_t joint, const std::uint64_t step, const double x) {
+    Crack crack{};
+    crack.joint = joint;
+    crack.step = step;
+    crack.centroid = {x, 0.01, 0.0};
+    cracks.push_back(crack);
+  };
+  const double letter = 1e-3;
+  add(4, 10, 0.010);
+  add(4, 12, 0.010); // another segment of the same joint
+  add(9, 20, 0.0101);
+  add(2, 20, 0.030); // in the same step
+  add(5, 30, 0.040);
+  const auto first = number_first_cracks(cracks, 1, letter);
+  ASSERT_EQ(first.size(), 4u);
+  const std::size_t expected[] = {1, 2, 2, 4};
+  const double at[] = {0.010, 0.0101, 0.030, 0.040};
+  for (std::size_t k = 0; k < 4; ++k)
+    {
+      EXPECT_EQ(first[k].number, expected[k]);
+      EXPECT_NEAR(std::hypot(first[k].place[0] - at[k], first[k].place[1] - 0.01), 1.2 * letter, 1e-9);
+    }
+  // The cracks lie a tenth of a letter apart, their numbers more than one.
+  EXPECT_GT(std::hypot(first[0].place[0] - first[1].place[0], first[0].place[1] - first[1].place[1]), letter);
+  for (std::uint64_t k = 0; k < 20; ++k)
+    add(100 + k, 40 + k, 0.05);
+  EXPECT_EQ(number_first_cracks(cracks, 1, letter).size(), 10u);
+
+  const auto map = crack_map(compression(1), "rock").at(0);
+  EXPECT_NE(map.script.find("$first using 1:2:3 with labels"), std::string::npos);
+  EXPECT_NE(map.script.find("$later with vectors"), std::string::npos) << "other segments of it break after initiation";
+  EXPECT_NE(map.caption.find("numbers: the order in which the first joints broke"), std::string::npos) << map.caption;
 }
 
 TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)

@@ -392,6 +392,10 @@ TEST(SmoothPlane, SlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
       const double opened = apart(1, shots.back()) - apart(1, first);
       EXPECT_GT(slid, 5e-6);
       EXPECT_NEAR(opened / slid, std::tan(8.0 * degree), 0.05 * std::tan(8.0 * degree));
+      // The same read off the curve; means of grains are off by what the halves turn.
+      const Figure dilation = evaluate(outcome.record).dilation_angle;
+      ASSERT_TRUE(dilation.value) << dilation.reason;
+      EXPECT_NEAR(*dilation.value, 8.0 * degree, 0.02 * 8.0 * degree);
     }
 }
 
@@ -450,6 +454,7 @@ TEST(SmoothPlane, OfAnInclinedSpecimenFailsWhereJaegerSays)
     ;
   const auto results = evaluate(test.finish(false).record);
   ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_EQ(results.dilation_angle.reason, "the test shears no plane");
   const double jaeger = 2.0 * 2e6 / ((1.0 - std::tan(30.0 * degree) / std::tan(beta)) * std::sin(2.0 * beta));
   EXPECT_NEAR(*results.peak_stress.value, jaeger, 0.05 * jaeger);
 }

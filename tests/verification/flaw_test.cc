@@ -1,4 +1,5 @@
-// A hole and an inclined slot under uniaxial compression: stress and first cracks against closed forms.
+// A hole and an inclined slot under uniaxial compression, and a smooth plane through a confined specimen: stress, first
+// cracks and strength against closed forms.
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
@@ -159,5 +160,98 @@ TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
       y += y_of_seed / double(n);
     }
   EXPECT_NEAR(std::atan2(y, x) * 180.0 / std::numbers::pi, 45.0 + 70.5, 15.0);
+}
+
+/// Of granite with a plane of this angle through its middle, from side to side and without cohesion: the highest axial
+/// stress up to a strain at which all of it slides [Pa], compression positive.
+double slip_strength(const double width, const double height, const double angle, const double friction_angle,
+                     const double pressure)
+{
+  Specimen<2> specimen = granite(width, height, 0.62e-3, 1);
+  const Vector<2> middle = 0.5 * specimen.size;
+  const Vector<2> half = 0.5 * width * Vector<2>(1.0, std::tan(angle));
+  SmoothSides sides;
+  sides.friction = std::tan(friction_angle);
+  put_in_flaws<2>(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
+  TestParameters wanted;
+  wanted.compression_strain_rate = 0.5;
+  wanted.stop_strain = 1.5e-3;
+  LabTest<2> test({triaxial_compression, pressure}, specimen, wanted, {});
+  while (test.advance())
+    ;
+  const TestOutcome outcome = test.finish(false);
+  EXPECT_EQ(outcome.record.failure, "");
+  double highest = 0.0;
+  for (const CurveSample& row : outcome.record.curve)
+    highest = std::max(highest, -row.axial_stress);
+  return highest;
+}
+
+/// σ_1 = σ_3 + 2 σ_3 tan φ / ((1 - tan φ cot β) sin 2β), Jaeger's plane of weakness without cohesion.
+double jaegers_strength(const double pressure, const double angle, const double friction_angle)
+{
+  const double slope = std::tan(friction_angle);
+  return pressure + 2.0 * pressure * slope / ((1.0 - slope / std::tan(angle)) * std::sin(2.0 * angle));
+}
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+TEST(ASmoothPlane, SlipsUnderConfinementAsJaegerSays)
+{
+  // From corner to corner, so that each half has one platen and one side plate to itself. The granite bears 250 MPa and
+  // more at this pressure; without the normal of the plane, faces along the grains would hook as those of a rough flaw do.
+  const double friction_angle = 30.0 * degree;
+  const double pressure = 10e6;
+  for (const double angle : {50.0 * degree, 60.0 * degree, 70.0 * degree})
+    {
+      const double width = 0.016;
+      const double height = 1.0001 * width * std::tan(angle);
+      const double deviator = jaegers_strength(pressure, angle, friction_angle) - pressure;
+      EXPECT_NEAR(slip_strength(width, height, angle, friction_angle, pressure) - pressure, deviator, 0.02 * deviator)
+        << angle / degree;
+    }
+}
+
+TEST(ASmoothPlane, BearsWhatLongerSidePlatesPutOnItsHalves)
+{
+  // A rigid side plate holds its force, σ_3 H, wherever it touches. Once the halves have slid by what the plates had pressed
+  // them together, some micrometres, each touches one plate only. The force meets the plane over W tan β of the height.
+  const double friction_angle = 30.0 * degree;
+  const double pressure = 10e6;
+  const double width = 0.020;
+  const double height = 0.040;
+  for (const double angle : {45.0 * degree, 52.0 * degree, 60.0 * degree})
+    {
+      const double on_plane = pressure * height / (width * std::tan(angle));
+      const double strength = jaegers_strength(on_plane, angle, friction_angle);
+      EXPECT_NEAR(slip_strength(width, height, angle, friction_angle, pressure), strength, 0.02 * strength)
+        << angle / degree;
+    }
+}
+
+TEST(ASmoothPlane, InSpaceSlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
+{
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.width = 0.010;
+  wanted.height = 0.008;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 6.0;
+  Specimen<3> specimen = make_specimen<3>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  SmoothSides sides;
+  sides.friction = 0.6;
+  sides.dilation_angle = 8.0 * degree;
+  put_in_flaws<3>(specimen, {ClosedFlaw{{{0.0, 0.004}, {0.010, 0.004}}, sides}});
+  TestParameters test_parameters;
+  test_parameters.shear_strain_rate = 0.2;
+  test_parameters.stop_strain = 1e-3;
+  LabTest<3> test({direct_shear, 5e6}, specimen, test_parameters, {});
+  while (test.advance())
+    ;
+  const TestResults results = evaluate(test.finish(false).record);
+  ASSERT_TRUE(results.peak_stress.value) << results.peak_stress.reason;
+  EXPECT_NEAR(*results.peak_stress.value, 0.6 * 5e6, 0.01 * 0.6 * 5e6);
+  ASSERT_TRUE(results.dilation_angle.value) << results.dilation_angle.reason;
+  EXPECT_NEAR(*results.dilation_angle.value, 8.0 * degree, 0.02 * 8.0 * degree);
 }
 } // namespace feldspar
