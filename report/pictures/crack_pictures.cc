@@ -158,11 +158,10 @@ std::pair<int, int> panel_size(const Frame& frame)
   return {std::max(300, int(inner_height * ratio) + 110), inner_height + 170};
 }
 
-/// The height of a letter of a map [m].
-double letter_height(const Frame& frame)
+MapPaper paper_of(const Frame& frame)
 {
-  constexpr double pixels = 17.0;
-  return pixels * (is_long(frame) ? frame.width() / 990.0 : frame.height() / 620.0);
+  constexpr double pixels_of_letter = 17.0;
+  return {frame.low, frame.high, pixels_of_letter * (is_long(frame) ? frame.width() / 990.0 : frame.height() / 620.0)};
 }
 
 /// A stage of a test: cracks up to a step.
@@ -209,9 +208,9 @@ std::string stage_rows(const std::vector<Crack>& cracks, const std::size_t axis,
 
 /// The order in which the first joints broke, to a map of that stage; those that broke later in grey.
 void add_numbers(std::string& data, std::string& plots, const std::vector<Crack>& cracks, const std::size_t axis,
-                 const Stage& stage, const double letter)
+                 const Stage& stage, const MapPaper& paper)
 {
-  const auto first = number_first_cracks(cracks, axis, letter);
+  const auto first = number_first_cracks(cracks, axis, paper);
   if (first.empty())
     return;
   std::string numbers;
@@ -393,7 +392,7 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
         add_cracks(data, plots, s, kind, stage_rows(at_end ? cracks_at_end : record.cracks, axis, kind, all_stages[s]),
                    1.8);
       if (s == 0)
-        add_numbers(data, plots, at_end ? cracks_at_end : record.cracks, axis, all_stages[s], letter_height(frame));
+        add_numbers(data, plots, at_end ? cracks_at_end : record.cracks, axis, all_stages[s], paper_of(frame));
       plots += "\n";
     }
   const auto [width, height] = panel_size(frame);

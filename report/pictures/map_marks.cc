@@ -26,6 +26,13 @@ double least_distance(const Point& from, const std::vector<Point>& points)
     least = std::min(least, std::hypot(point[0] - from[0], point[1] - from[1]));
   return least;
 }
+/// A letter beyond the axes would not be drawn.
+bool holds(const MapPaper& paper, const Point& place)
+{
+  const double half = 0.5 * paper.letter;
+  return place[0] - half > paper.low[0] && place[0] + half < paper.high[0] && place[1] - half > paper.low[1] &&
+         place[1] + half < paper.high[1];
+}
 } // namespace
 
 FlawOutlines flaw_outlines(const FinishedTest& test, const std::string& owner)
@@ -54,7 +61,7 @@ FlawOutlines flaw_outlines(const FinishedTest& test, const std::string& owner)
 }
 
 std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, const std::size_t axis,
-                                               const double letter)
+                                               const MapPaper& paper)
 {
   constexpr std::size_t most = 10; // more would cover one another
   std::vector<NumberedCrack> result;
@@ -82,8 +89,9 @@ std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks,
       for (int d = 0; d < n_directions; ++d)
         {
           const double angle = 2.0 * std::numbers::pi * (d + 0.5) / n_directions;
-          const Point place{crack[0] + 1.2 * letter * std::cos(angle), crack[1] + 1.2 * letter * std::sin(angle)};
-          if (const double distance = least_distance(place, others); distance > farthest)
+          const double arm = 1.2 * paper.letter;
+          const Point place{crack[0] + arm * std::cos(angle), crack[1] + arm * std::sin(angle)};
+          if (const double distance = least_distance(place, others); distance > farthest && holds(paper, place))
             {
               farthest = distance;
               result[k].place = place;

@@ -30,7 +30,15 @@ struct NumberedCrack
   std::array<double, 2> place; ///< of the number: beside its crack and away from the others [m]
 };
 
-/// The first ten joints that broke. Cracks in the order in which they broke; the vertical axis of the picture; how high a
-/// letter is there [m].
-std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, std::size_t axis, double letter);
+/// The paper that a map has for its marks [m].
+struct MapPaper
+{
+  std::array<double, 2> low;
+  std::array<double, 2> high;
+  double letter; ///< the height of one
+};
+
+/// The first ten joints that broke. Cracks in the order in which they broke; the vertical axis of the picture.
+std::vector<NumberedCrack> number_first_cracks(const std::vector<Crack>& cracks, std::size_t axis,
+                                               const MapPaper& paper);
 } // namespace feldspar
