@@ -33,9 +33,27 @@ std::vector<Series> with_labels_to_show(std::vector<Series> all)
   return all;
 }
 
-Findings findings_of(const std::vector<Series>& all, const ReportInput& input)
+/// Those with pictures, of more series than a page has room for; else none.
+std::vector<Series> pictured_of_many(const std::vector<Series>& all)
 {
-  Findings findings{all, input.reference, input.reference_problem, input.one_folder, {}, input.envelopes};
+  std::vector<Series> pictured;
+  if (all.size() > most_series_in_full)
+    for (std::size_t n = 0; n < all.size(); ++n)
+      if (n < most_series_in_full || all[n].kind == SeriesKind::laboratory_curve)
+        pictured.push_back(all[n]);
+  return pictured;
+}
+
+Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& pictured_of_many,
+                     const ReportInput& input)
+{
+  Findings findings{all,
+                    pictured_of_many.empty() ? all : pictured_of_many,
+                    input.reference,
+                    input.reference_problem,
+                    input.one_folder,
+                    {},
+                    input.envelopes};
   for (const auto& series : all)
     findings.comparisons.push_back(compare(series.tests, input.reference));
   return findings;
@@ -77,7 +95,8 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
-  page.sections.front().blocks.front().lead = lead_of(page.sections);
+  if (!findings.has_many()) // the key of many curves would push the tables off the first screen
+    page.sections.front().blocks.front().lead = lead_of(page.sections);
   return page;
 }
 
@@ -93,9 +112,10 @@ void write_tables(const Page& page, const Findings& findings, const std::filesys
 {
   for (const auto& section : page.sections)
     for (const auto& block : section.blocks)
-      for (const auto& table : block.tables)
-        write_whole_file(folder / (table.name + ".csv"),
-                         as_csv(table.name == "tests" ? test_table(findings, true) : table));
+      for (const auto* tables : {&block.tables, &block.tables_as_files})
+        for (const auto& table : *tables)
+          write_whole_file(folder / (table.name + ".csv"),
+                           as_csv(table.name == "tests" ? test_table(findings, true) : table));
 }
 } // namespace
 
@@ -103,7 +123,8 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
                                       const std::function<bool()>& is_over)
 {
   const std::vector<Series> all = with_labels_to_show(input.all);
-  const Findings findings = findings_of(all, input);
+  const std::vector<Series> pictured = pictured_of_many(all);
+  const Findings findings = findings_of(all, pictured, input);
   PictureBook book;
   Page page = page_of(findings, input.calibration, book);
   if (input.one_folder)

@@ -34,7 +34,7 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
   for (const auto& [column, stress] :
        {std::pair(columns[1], stage.axial_stress.value_or(0.0)), {columns[3], stage.confining_pressure}})
     if (stress > 0.0 && stress < 1e3)
-      return fmt::format("{} = {:g}: is less than 1 kPa; stresses of the table are in Pa, 60 MPa is 60e6", column,
+      return fmt::format("{} = {:g} is less than 1 kPa; stresses of the table are in Pa, 60 MPa is 60e6", column,
                          stress);
   if (stage.axial_strain && stage.axial_stress)
     return "axial_strain and axial_stress_Pa are both given; a stage ends at one of them";
@@ -85,7 +85,7 @@ std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)
       stage.confining_pressure = cell(columns[3]).value_or(stages.empty() ? 0.0 : stages.back().confining_pressure);
       stage.strain_rate = cell(columns[4]);
       if (const std::string what = objection(stage, stages.empty() ? nullptr : &stages.back()); !what.empty())
-        throw InputError(fmt::format("{}: stage {}: {}", file, stages.size() + 1, what));
+        throw InputError(fmt::format("{}:{}: stage {}: {}", file, table.line_of_row(), stages.size() + 1, what));
       stages.push_back(stage);
     }
   if (stages.empty())

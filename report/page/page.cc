@@ -25,8 +25,8 @@ namespace
 {
 using kainjow::mustache::data;
 
-constexpr std::size_t most_picture_bytes = 8'700'000; // of a page of 10 MB, the rest is text and the script
-constexpr int wide_picture = 900;                     // from here on a picture takes the width of the page [px]
+constexpr std::size_t most_bytes = 9'900'000; // of a page of 10 MB; sentences in place of pictures need a little
+constexpr int wide_picture = 900;             // from here on a picture takes the width of the page [px]
 
 std::string base64(const std::string& bytes)
 {
@@ -110,8 +110,10 @@ data describe(const Table& table)
 class PictureShelf
 {
 public:
-  explicit PictureShelf(const std::filesystem::path& figures)
+  /// Of pictures whose data stand on the page.
+  PictureShelf(const std::filesystem::path& figures, const std::size_t room)
     : folder(figures)
+    , most_picture_bytes(room)
   {
   }
 
@@ -168,6 +170,7 @@ private:
   std::string file_of(const std::string& name) const { return folder.filename().string() + "/" + name; }
 
   std::filesystem::path folder;
+  std::size_t most_picture_bytes;
   std::size_t n_bytes = 0;
 };
 
@@ -201,9 +204,12 @@ data describe(const PageBlock& block, PictureShelf& shelf)
 }
 } // namespace
 
-void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures)
+namespace
 {
-  PictureShelf shelf(figures);
+/// With pictures of so many bytes at most.
+std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room)
+{
+  PictureShelf shelf(figures, room);
   data sections = data::type::list;
   for (const auto& section : page.sections)
     {
@@ -228,6 +234,13 @@ void write_page(const Page& page, const std::filesystem::path& file, const std::
   kainjow::mustache::mustache filled{std::string(page_template)};
   if (!filled.is_valid())
     throw std::logic_error("report/page/page.html: " + filled.error_message());
-  write_whole_file(file, filled.render(whole));
+  return filled.render(whole);
+}
+} // namespace
+
+void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures)
+{
+  const std::size_t without_pictures = rendered(page, figures, 0).size();
+  write_whole_file(file, rendered(page, figures, most_bytes - std::min(most_bytes, without_pictures)));
 }
 } // namespace feldspar

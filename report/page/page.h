@@ -27,6 +27,7 @@ struct PageBlock
   std::vector<std::string> points;
   std::vector<std::string> warnings;
   std::vector<Table> tables;
+  std::vector<Table> tables_as_files; ///< beside the page alone
   std::vector<PagePicture> pictures;
   std::vector<PagePicture> lead; ///< beside the words above, where the screen is wide enough; at most one
 };
@@ -46,7 +47,8 @@ struct Page
   std::vector<PageSection> sections;
 };
 
-/// Writes the page as one file that needs no other and no network, at most 10 MB: pictures stand in it as data, those
-/// that would make it larger are named instead; a script shows curves and cracks so that they answer to the pointer. `figures` is where they were drawn, beside the page.
+/// Writes the page as one file that needs no other and no network. Pictures stand in it as data, as far as the text leaves
+/// room for them in 10 MB; the others are named instead. A script shows curves and cracks so that they answer to the
+/// pointer. `figures` is where they were drawn, beside the page.
 void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures);
 } // namespace feldspar

@@ -80,25 +80,111 @@ std::optional<Cost> cost_of(const Series& series)
     return std::nullopt;
   return Cost{*of_grains, *of_times};
 }
-} // namespace
 
-Table comparison_table(const Findings& findings)
+bool has_model(const Findings& findings)
 {
-  // Measured curves have tables of their own beside the model, if there is one.
-  const bool any_model = std::any_of(findings.all.begin(), findings.all.end(),
-                                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  return std::any_of(findings.all.begin(), findings.all.end(),
+                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+}
+
+/// Measured curves have tables of their own beside the model, if there is one.
+std::vector<std::size_t> compared_series(const Findings& findings)
+{
+  const bool any_model = has_model(findings);
   std::vector<std::size_t> compared;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve)
       compared.push_back(n);
+  return compared;
+}
 
-  // Rows of these series, by their names, in the order in which they come.
+/// Of these series, by their names, in the order in which they come.
+std::vector<std::string> properties_of(const Findings& findings, const std::vector<std::size_t>& compared)
+{
   std::vector<std::string> properties;
   for (const std::size_t n : compared)
     for (const auto& row : findings.comparisons[n])
       if ((row.ours || row.experiment || row.model) &&
           std::find(properties.begin(), properties.end(), row.property) == properties.end())
         properties.push_back(row.property);
+  return properties;
+}
+
+std::vector<ComparisonRow>::const_iterator row_of(const std::vector<ComparisonRow>& rows, const std::string& property)
+{
+  return std::find_if(rows.begin(), rows.end(),
+                      [&](const ComparisonRow& candidate) { return candidate.property == property; });
+}
+
+std::string with_unit(const ComparisonRow& row)
+{
+  return row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit);
+}
+
+/// Ours: mean, standard deviation and the number of specimens.
+std::string as_text(const ComparisonRow& row)
+{
+  return row.ours ? fmt::format("{} (n = {})", mean_and_deviation(*row.ours, 1.0, row.decimals), row.ours->n) : none;
+}
+} // namespace
+
+Table comparison_of_many(const Findings& findings)
+{
+  const std::vector<std::size_t> compared = compared_series(findings);
+  Table table{"comparison",
+              "Model and rock. ± is the standard deviation over the seeds. Range: does our mean lie in that of the "
+              "experiments?",
+              {"series"},
+              {}};
+  std::vector<std::string> experiment, other_model;
+  if (findings.reference)
+    {
+      experiment = {findings.reference->experiment.label + ", mean (range)"};
+      other_model = {findings.reference->model.label};
+    }
+  for (const std::size_t n : compared)
+    table.rows.push_back({findings.all[n].label});
+  for (const auto& property : properties_of(findings, compared))
+    {
+      std::string heading;
+      std::array<std::string, 2> of_reference{none, none};
+      for (std::size_t k = 0; k < compared.size(); ++k)
+        {
+          const auto& rows = findings.comparisons[compared[k]];
+          const auto row = row_of(rows, property);
+          if (row == rows.end())
+            {
+              append(table.rows[k], {none, none});
+              continue;
+            }
+          heading = with_unit(*row);
+          append(table.rows[k], {as_text(*row), against_experiment(*row)});
+          if (row->experiment)
+            of_reference[0] = as_text(*row, row->experiment);
+          if (row->model)
+            of_reference[1] = as_text(*row, row->model);
+        }
+      append(table.header, {heading, property + " against experiment"});
+      append(experiment, {of_reference[0], none});
+      append(other_model, {of_reference[1], none});
+    }
+  append(table.header, {"grains of a specimen", "time of all tests of a specimen, each on one core [s]"});
+  for (std::size_t k = 0; k < compared.size(); ++k)
+    {
+      const auto cost = cost_of(findings.all[compared[k]]);
+      append(table.rows[k], {cost ? mean_and_deviation(cost->grains, 1.0, 0) : none,
+                             cost ? mean_and_deviation(cost->time, 1.0, 0) : none});
+    }
+  if (findings.reference)
+    table.rows.insert(table.rows.begin(), {experiment, other_model});
+  return table;
+}
+
+Table comparison_table(const Findings& findings)
+{
+  const bool any_model = has_model(findings);
+  const std::vector<std::size_t> compared = compared_series(findings);
+  const std::vector<std::string> properties = properties_of(findings, compared);
   const bool one = compared.size() == 1;
 
   Table table{"comparison",
@@ -123,18 +209,15 @@ Table comparison_table(const Findings& findings)
       for (const std::size_t n : compared)
         {
           const auto& rows = findings.comparisons[n];
-          const auto row = std::find_if(rows.begin(), rows.end(),
-                                        [&](const ComparisonRow& candidate) { return candidate.property == property; });
+          const auto row = row_of(rows, property);
           if (row == rows.end())
             {
               append(ours, {none, none, none});
               continue;
             }
-          heading = row->unit.empty() ? property : fmt::format("{} [{}]", property, row->unit);
-          append(ours, {row->ours
-                          ? fmt::format("{} (n = {})", mean_and_deviation(*row->ours, 1.0, row->decimals), row->ours->n)
-                          : none,
-                        against_experiment(*row), row->ours ? interval(*row->ours, 1.0, row->decimals) : none});
+          heading = with_unit(*row);
+          append(ours, {as_text(*row), against_experiment(*row),
+                        row->ours ? interval(*row->ours, 1.0, row->decimals) : none});
           if (row->experiment)
             experiment = as_text(*row, row->experiment);
           if (row->model)

@@ -8,6 +8,9 @@ namespace feldspar
 /// Every property of every series beside the rock, a line each.
 Table comparison_table(const Findings& findings);
 
+/// The same with a line for each series, and before them the experiment and the other model of the reference.
+Table comparison_of_many(const Findings& findings);
+
 /// The n-th series, a measured curve, beside the model's tests of its kind and pressure.
 Table measured_table(const Findings& findings, std::size_t n);
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "report/pictures/crack_pictures.h"
 #include "report/pictures/envelope_pictures.h"
 #include "report/pictures/space_pictures.h"
+#include "results/folder/result_folder.h"
 #include "results/test_groups.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,12 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
       const Series& series = findings.all[n];
       if (series.kind == SeriesKind::laboratory_curve)
         continue;
+      const auto place = [&](std::vector<Picture> pictures) {
+        if (findings.is_in_full(n))
+          return book.keep(std::move(pictures));
+        book.keep_as_files(std::move(pictures));
+        return std::vector<PagePicture>();
+      };
       PageBlock block = findings.heading_of(n);
       std::vector<Picture> maps;
       std::vector<Picture> fragments;
@@ -40,16 +47,19 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
           series.kind == SeriesKind::finite_elements
             ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
             : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
-      block.pictures = book.keep(std::move(maps));
-      append(block.pictures, book.keep(rose_picture(series)));
-      append(block.pictures, book.keep(std::move(fragments)));
-      append(block.pictures, book.keep(fragment_size_picture(series, n)));
-      section.blocks.push_back(block);
+      block.pictures = place(std::move(maps));
+      append(block.pictures, place(rose_picture(series)));
+      append(block.pictures, place(std::move(fragments)));
+      append(block.pictures, place(fragment_size_picture(series, n)));
+      if (findings.is_in_full(n))
+        section.blocks.push_back(block);
     }
   PageBlock together;
-  together.pictures = book.keep(shear_share_picture(findings.all));
+  together.pictures = book.keep(shear_share_picture(findings.pictured));
   if (!together.pictures.empty())
     section.blocks.push_back(together);
+  append(section.blocks,
+         findings.remark_on_pictures(fmt::format("Those of the others are in {}/.", result_file::figures)));
   return section;
 }
 } // namespace feldspar

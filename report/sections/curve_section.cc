@@ -1,5 +1,6 @@
 #include "report/sections/sections.h"
 
+#include "base/append.h"
 #include "report/pictures/curve_pictures.h"
 #include "results/folder/result_folder.h"
 
@@ -13,7 +14,7 @@ namespace feldspar
 PageSection curve_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"curves", "Curves", "Curves", {}};
-  for (auto& group : curve_pictures(findings.all))
+  for (auto& group : curve_pictures(findings.pictured))
     if (group.on_page)
       {
         PageBlock block;
@@ -30,6 +31,8 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
       : fmt::format("Of the confinements the lowest and the highest are shown; the others are in {}/.",
                     result_file::figures));
   section.blocks.push_back(remark_below);
+  append(section.blocks,
+         findings.remark_on_pictures(fmt::format("The curves of all are in {}/.", result_file::curves)));
   return section;
 }
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "report/pictures/envelope_pictures.h"
 #include "report/pictures/stress_plane_pictures.h"
 #include "report/sections/text.h"
+#include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
 
@@ -125,6 +126,20 @@ std::string remark_on_printed(const ReferenceSource& source)
     text += ": with s > 1 the strength σ_ci·sᵃ at σ₃ = 0 exceeds σ_ci";
   return text + ".";
 }
+
+/// Of a series that the page has no room for.
+PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& book)
+{
+  const StrengthEnvelopes& envelopes = findings.envelopes[n];
+  book.keep_as_files(envelope_pictures(findings.all, n, envelopes, findings.reference));
+  book.keep_as_files(mohr_picture(findings.all[n], n, envelopes));
+  book.keep_as_files(residual_picture(findings.all[n], n, envelopes));
+  PageBlock block;
+  block.tables_as_files = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n)),
+                           residual_table(envelopes, "residuals" + findings.ending_of_files(n))};
+  return block;
+}
+
 /// The envelopes of the experiment's own points; empty where it has fewer than two.
 PageBlock experiment_block(const ReferenceSource& experiment)
 {
@@ -144,20 +159,27 @@ PageBlock experiment_block(const ReferenceSource& experiment)
 PageSection envelope_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"envelope", "Envelope", "Strength envelope", {}};
-  if (auto combined = combined_envelope_picture(findings.all, findings.envelopes, findings.reference);
+  const std::vector<StrengthEnvelopes> pictured_envelopes = findings.pictured_envelopes();
+  if (auto combined = combined_envelope_picture(findings.pictured, pictured_envelopes, findings.reference);
       !combined.empty())
     {
       PageBlock together;
       together.pictures = book.keep(std::move(combined));
-      append(together.pictures, book.keep(p_q_picture(findings.all, findings.envelopes)));
+      append(together.pictures, book.keep(p_q_picture(findings.pictured, pictured_envelopes)));
       section.blocks.push_back(together);
     }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       if (findings.all[n].kind == SeriesKind::laboratory_curve)
         continue;
-      PageBlock block = findings.heading_of(n);
       const StrengthEnvelopes& envelopes = findings.envelopes[n];
+      if (!findings.is_in_full(n))
+        {
+          if (!envelopes.data.points.empty())
+            section.blocks.push_back(as_files(findings, n, book));
+          continue;
+        }
+      PageBlock block = findings.heading_of(n);
       if (envelopes.data.points.empty())
         {
           block.paragraphs.push_back("No compression test of this series has a strength, so there is no envelope.");
@@ -192,6 +214,8 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (!residuals.pictures.empty())
         section.blocks.push_back(residuals);
     }
+  append(section.blocks, findings.remark_on_pictures(fmt::format("Pictures and fits of the others are in {}/ and {}/.",
+                                                                 result_file::figures, result_file::tables)));
   if (findings.reference)
     if (PageBlock block = experiment_block(findings.reference->experiment); !block.tables.empty())
       section.blocks.push_back(std::move(block));

@@ -12,10 +12,15 @@
 
 namespace feldspar
 {
+/// Of more series than these a page shows each as a row of its tables, and pictures of these alone. So many of a small rock
+/// take some 5 MB of the 10 MB of a page.
+inline constexpr std::size_t most_series_in_full = 50;
+
 /// Everything that sections are made of, computed once. What it refers to outlives it.
 struct Findings
 {
   const std::vector<Series>& all;
+  const std::vector<Series>& pictured; ///< those of them that are in full, in pictures of several
   const std::optional<Reference>& reference;
   const std::string& reference_problem;
   bool one_folder;
@@ -23,6 +28,19 @@ struct Findings
   std::vector<StrengthEnvelopes> envelopes;            ///< of each series
 
   bool has_several() const { return all.size() > 1; }
+  bool has_many() const { return all.size() > most_series_in_full; }
+
+  /// Whether the n-th has blocks and pictures of its own: one of the first, or measured on rock.
+  bool is_in_full(std::size_t n) const
+  {
+    return n < most_series_in_full || all[n].kind == SeriesKind::laboratory_curve;
+  }
+
+  /// Envelopes of the pictured series.
+  std::vector<StrengthEnvelopes> pictured_envelopes() const;
+
+  /// A block that says which series pictures show, and `others`, a sentence; empty where all are there.
+  std::vector<PageBlock> remark_on_pictures(const std::string& others) const;
 
   /// Nothing of a single series, else something that tells the files of the n-th apart.
   std::string ending_of_files(std::size_t n) const;

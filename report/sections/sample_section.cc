@@ -62,9 +62,10 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
       if (series.kind != SeriesKind::finite_elements)
         continue;
       std::vector<const FinishedTest*> on_page;
-      for (const auto& group : shown(groups_of(series)))
-        if (const auto* test = with_fields(group))
-          on_page.push_back(test);
+      if (findings.is_in_full(n))
+        for (const auto& group : shown(groups_of(series)))
+          if (const auto* test = with_fields(group))
+            on_page.push_back(test);
       PageBlock heading = findings.heading_of(n);
       std::vector<PageBlock> blocks;
       for (const auto& group : groups_of(series))
@@ -99,6 +100,8 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
                 "they were kept, or the test did not come to its end.");
             blocks.push_back(block);
           }
+      if (!findings.is_in_full(n))
+        continue;
       if (blocks.empty())
         heading.paragraphs.push_back(
           "No picture of the sample: its fields are missing in this result folder, or it has "

@@ -3,12 +3,15 @@
 #include "base/append.h"
 #include "report/sections/provenance.h"
 #include "report/sections/test_tables.h"
+#include "report/sections/text.h"
+#include "results/folder/result_folder.h"
 #include "results/trust.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,13 +67,77 @@ std::vector<PageBlock> evidence(const Findings& findings, const std::size_t n)
   folded.tables.push_back(std::move(input));
   return {block, folded};
 }
+
+/// The worst value of every measure, a row a series.
+Table checks_of_many(const Findings& findings)
+{
+  Table table{"checks", "Checks of every series: the worst value over its tests, ✗ out of the bound", {"series"}, {}};
+  std::vector<std::string_view> measures;
+  for (const auto& series : findings.all)
+    for (const auto& check : trust_checks(series))
+      if (std::find(measures.begin(), measures.end(), check.measure.name) == measures.end())
+        {
+          measures.push_back(check.measure.name);
+          table.header.push_back(fmt::format("{}, {}", check.measure.title, check.measure.bound_text()));
+        }
+  for (const auto& series : findings.all)
+    {
+      std::vector<std::string> row(1 + measures.size(), text::none);
+      row.front() = series.label;
+      for (const auto& check : trust_checks(series))
+        row[1 + std::size_t(std::find(measures.begin(), measures.end(), check.measure.name) - measures.begin())] =
+          (check.n_out > 0 ? "✗ " : "") + check.measure.text(check.worst);
+      if (series.kind != SeriesKind::laboratory_curve)
+        table.rows.push_back(std::move(row));
+    }
+  return table;
+}
+
+/// The same evidence with a row a series; its own tables of each are files.
+std::vector<PageBlock> evidence_of_many(const Findings& findings)
+{
+  PageBlock block;
+  block.paragraphs.push_back(
+    fmt::format("Means over the tests, specimens and input of each series are in {}/ (trust_*, "
+                "specimens_*, input_*).",
+                result_file::tables));
+  block.tables.push_back(checks_of_many(findings));
+  PageBlock inputs;
+  const Series& first = findings.all.front();
+  Table differences{"inputs",
+                    fmt::format("Input where it differs from that of {}", first.label),
+                    {"series", "section", "entry", "value", first.label},
+                    {}};
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      for (PageBlock& own : evidence(findings, n))
+        append(block.tables_as_files, std::move(own.tables));
+      const Series& series = findings.all[n];
+      if (n == 0 || series.kind == SeriesKind::laboratory_curve)
+        continue;
+      if (const std::string sentence = sentence_of(series.made_by); sentence != sentence_of(first.made_by))
+        differences.rows.push_back({series.label, "", "", sentence, sentence_of(first.made_by)});
+      for (auto& row : input_table(series.made_by, "", first.made_by, first.label).rows)
+        {
+          row.insert(row.begin(), series.label);
+          differences.rows.push_back(std::move(row));
+        }
+    }
+  inputs.folded = "Input";
+  inputs.paragraphs.push_back(sentence_of(first.made_by));
+  inputs.tables = {input_table(first.made_by, "input" + findings.ending_of_files(0)), std::move(differences)};
+  return {block, inputs};
+}
 } // namespace
 
 PageSection trust_section(const Findings& findings)
 {
   PageSection section{"trust", "Trust", "How far to trust it", {}};
-  for (std::size_t n = 0; n < findings.all.size(); ++n)
-    append(section.blocks, evidence(findings, n));
+  if (findings.has_many())
+    section.blocks = evidence_of_many(findings);
+  else
+    for (std::size_t n = 0; n < findings.all.size(); ++n)
+      append(section.blocks, evidence(findings, n));
   PageBlock tests;
   tests.folded = "Every test";
   tests.tables = {strength_table(findings), test_table(findings, false)};

@@ -2,8 +2,10 @@
 
 #include "report/pictures/plot_style.h"
 #include "report/sections/comparison_table.h"
+#include "report/sections/text.h"
 #include "report/sections/verdict.h"
 #include "results/bodies.h"
+#include "results/folder/result_folder.h"
 #include "results/trust.h"
 
 #include <fmt/format.h>
@@ -26,13 +28,80 @@ std::string material_at_points(const Provenance& made_by)
   return found->value == "grains" ? " with a representative volume of grains at every point"
                                   : " of " + found->value + ", without grains";
 }
+
+/// ✗ 2: tensile strength, Young's modulus
+std::string count_and_names(const std::vector<std::string>& names)
+{
+  return names.empty() ? "✓ none" : fmt::format("✗ {}: {}", names.size(), fmt::join(names, ", "));
+}
+
+/// What the blocks of few series say, a row a series.
+PageBlock verdict_of_many(const Findings& findings)
+{
+  Table table{"verdicts",
+              "Every series: tests made and wanted, properties in and out of the range of experiments, measures out of "
+              "their bounds",
+              {"series", "made", "of tests", "properties in range", "properties out of range", "measures out of bounds",
+               "could not be read"},
+              {}};
+  std::size_t n_compared = 0, n_in_every_range = 0, n_warned = 0, n_models = 0;
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    {
+      const Series& series = findings.all[n];
+      if (series.kind == SeriesKind::laboratory_curve)
+        continue;
+      ++n_models;
+      std::size_t n_in = 0;
+      std::vector<std::string> out;
+      for (const auto& row : findings.comparisons[n])
+        if (const auto in_range = row.in_range())
+          {
+            n_in += *in_range;
+            if (!*in_range)
+              out.push_back(row.property);
+          }
+      const bool is_compared = n_in > 0 || !out.empty();
+      n_compared += is_compared;
+      n_in_every_range += is_compared && out.empty();
+      std::vector<std::string> measures_out;
+      for (const auto& check : trust_checks(series))
+        if (check.n_out > 0)
+          measures_out.emplace_back(check.measure.name);
+      n_warned += !measures_out.empty();
+      const auto n_made = std::count_if(series.tests.begin(), series.tests.end(),
+                                        [](const FinishedTest& test) { return test.record.failure.empty(); });
+      table.rows.push_back({series.label, fmt::format("{}", n_made), fmt::format("{}", series.tests.size()),
+                            is_compared ? fmt::format("{}", n_in) : text::none,
+                            is_compared ? count_and_names(out) : text::none, count_and_names(measures_out),
+                            fmt::format("{}", fmt::join(series.problems, "; "))});
+    }
+  PageBlock block;
+  block.headline =
+    n_compared > 0
+      ? fmt::format("{} of {} series lie in every range that experiments give.", n_in_every_range, n_compared)
+      : "Nothing to compare with: " +
+          (findings.reference_problem.empty()
+             ? std::string("no property was both tested here and given with a range for the rock")
+             : findings.reference_problem) +
+          ".";
+  block.paragraphs.push_back(
+    fmt::format("Measures are out of their bounds in {} of {} series; the section Trust has their "
+                "worst values. Every warning in words is in {} of its run (verdict).",
+                n_warned, n_models, result_file::summary));
+  block.tables.push_back(std::move(table));
+  return block;
+}
 } // namespace
 
 PageSection verdict_section(const Findings& findings)
 {
   PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
+  if (findings.has_many())
+    section.blocks.push_back(verdict_of_many(findings));
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
+      if (findings.has_many() && findings.all[n].kind != SeriesKind::laboratory_curve)
+        continue;
       PageBlock block = findings.heading_of(n);
       block.warnings = warnings(findings.all[n]);
       if (findings.all[n].kind == SeriesKind::laboratory_curve)
@@ -57,11 +126,11 @@ PageSection verdict_section(const Findings& findings)
       section.blocks.push_back(block);
     }
   PageBlock table;
-  if (!findings.reference_problem.empty())
+  if (!findings.reference_problem.empty() && !findings.has_many())
     table.warnings.push_back(findings.reference_problem + ".");
   for (const std::string& remark : gap_remarks(findings.all))
     table.warnings.push_back(remark + ".");
-  table.tables.push_back(comparison_table(findings));
+  table.tables.push_back(findings.has_many() ? comparison_of_many(findings) : comparison_table(findings));
   if (findings.reference)
     {
       std::string source = findings.reference->rock;

@@ -122,6 +122,39 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
                 "Only 2 specimens", "a model", "made up", "Width"});
 }
 
+// Each of the 2 x 26 series is a copy of the tests of one specimen under a label of its own: 52 are 2 more than a page shows
+// in full.
+TEST_F(Report, OfManySeriesHasARowForEach)
+{
+  auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
+  const nlohmann::json made = summary["tests"];
+  summary["tests"].clear();
+  for (int copy = 0; copy < 26; ++copy)
+    for (nlohmann::json test : made)
+      {
+        test["variant"] = fmt::format("copy {} of seed {}", copy, test["seed"].get<int>());
+        summary["tests"].push_back(test);
+      }
+  std::ofstream(folder.path() / "out/summary.json") << summary;
+  const std::string words = remade();
+  EXPECT_LT(fs::file_size(folder.path() / "out/report.html"), 10'000'000u);
+  const auto first_cells = [&](const std::string& name) {
+    const auto begin = words.find("id=\"table_" + name + "\"");
+    EXPECT_NE(begin, std::string::npos) << name;
+    return count(words.substr(begin, words.find("</table>", begin) - begin), "<th scope=\"row\">copy ");
+  };
+  for (const char* name : {"verdicts", "comparison", "checks"})
+    EXPECT_EQ(first_cells(name), 52u) << name;
+  holds(words, {"0 of 52 series lie in every range that experiments give.", "Pictures show the first 50 of 52 series.",
+                "✗ 1: uniaxial compressive strength", "experiment, mean (range)"});
+  const std::string cracks = words.substr(words.find("<section id=\"cracks\">"));
+  EXPECT_EQ(count(cracks.substr(0, cracks.find("</section>")), "<h3>"), 50u);
+  EXPECT_EQ(count(content(folder.path() / "out/tables/verdicts.csv"), "\n"), 53u);
+  // What has no block on the page has its tables beside it.
+  for (const char* name : {"trust", "specimens", "envelopes"})
+    EXPECT_TRUE(fs::exists(folder.path() / fmt::format("out/tables/{}_52_copy_25_of_seed_2.csv", name))) << name;
+}
+
 TEST_F(Report, LeavesFiguresAndTablesForAPaper)
 {
   for (const char* name :

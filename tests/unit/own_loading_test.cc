@@ -224,23 +224,27 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
   const std::string header = "axial_strain,axial_stress_Pa,hold_s,confining_pressure_Pa,strain_rate_per_s\n";
   EXPECT_EQ(error_of(header), "stages.csv: there is no stage below the header");
   EXPECT_EQ(error_of(header + "1e-3,,,,\n1e-3,2e6,,,\n"),
-            "stages.csv: stage 2: axial_strain and axial_stress_Pa are both given; a stage ends at one of them");
-  EXPECT_EQ(error_of(header + ",60,,,\n"), "stages.csv: stage 1: axial_stress_Pa = 60: is less than 1 kPa; stresses of "
-                                           "the table are in Pa, 60 MPa is 60e6");
-  EXPECT_EQ(error_of(header + "1e-3,,,5,\n").substr(0, 47), "stages.csv: stage 1: confining_pressure_Pa = 5:");
+            "stages.csv:3: stage 2: axial_strain and axial_stress_Pa are both given; a stage ends at one of them");
+  EXPECT_EQ(error_of(header + ",60,,,\n"),
+            "stages.csv:2: stage 1: axial_stress_Pa = 60 is less than 1 kPa; stresses of "
+            "the table are in Pa, 60 MPa is 60e6");
+  EXPECT_EQ(error_of(header + "1e-3,,,5,\n").substr(0, 49), "stages.csv:2: stage 1: confining_pressure_Pa = 5 ");
   EXPECT_EQ(error_of(header + ",,,5e6,\n"),
-            "stages.csv: stage 1: has no target; give axial_strain, axial_stress_Pa or hold_s");
+            "stages.csv:2: stage 1: has no target; give axial_strain, axial_stress_Pa or hold_s");
   EXPECT_EQ(error_of(header + "-1e-3,,,,\n"),
-            "stages.csv: stage 1: axial_strain = -0.001: must lie in [0, 0.2]; compression is positive");
-  EXPECT_EQ(error_of(header + "1e-3,,,,\n2e-3,,,5e6,\n"),
-            "stages.csv: stage 2: confining_pressure_Pa is 0 in some stages and not in others; a wall that presses on "
-            "nothing cannot be held");
+            "stages.csv:2: stage 1: axial_strain = -0.001: must lie in [0, 0.2]; compression is positive");
+  EXPECT_EQ(
+    error_of(header + "1e-3,,,,\n2e-3,,,5e6,\n"),
+    "stages.csv:3: stage 2: confining_pressure_Pa is 0 in some stages and not in others; a wall that presses on "
+    "nothing cannot be held");
   EXPECT_EQ(
     error_of(header + ",9e6,,5e6,\n,20e6,,7e6,\n"),
-    "stages.csv: stage 2: changes confining_pressure_Pa on the way to an axial stress; change it in a hold or on "
+    "stages.csv:3: stage 2: changes confining_pressure_Pa on the way to an axial stress; change it in a hold or on "
     "the way to a strain");
   EXPECT_EQ(error_of(header + "1e-3,,,,0\n"),
-            "stages.csv: stage 1: strain_rate_per_s = 0: must be above 0; the target gives the direction");
+            "stages.csv:2: stage 1: strain_rate_per_s = 0: must be above 0; the target gives the direction");
+  // The line is that of the file, the stage that of the specimen: empty lines are no stages.
+  EXPECT_EQ(error_of(header + "\n\n1e-3,,,,0\n").substr(0, 23), "stages.csv:4: stage 1: ");
   EXPECT_EQ(error_of(header + "1e-3,,,,fast\n").substr(0, 13), "stages.csv:2:");
 }
 } // namespace
