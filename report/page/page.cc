@@ -202,10 +202,7 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   result.set("figures", figures);
   return result;
 }
-} // namespace
 
-namespace
-{
 /// With pictures of so many bytes at most.
 std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room)
 {
