@@ -196,9 +196,9 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
         contact.friction = friction;
         const auto packed = make_specimen<2>(wanted, flat_joint, contact, 1, [](std::string_view, double) {});
         TestParameters parameters;
-        parameters.compression_strain_rate = 10.0;
         parameters.compression_sampling_strain = 2e-4;
-        const auto holds = [&](const Specimen<2>& specimen, const std::string& body) {
+        const auto holds = [&](const Specimen<2>& specimen, const double rate, const std::string& body) {
+          parameters.compression_strain_rate = rate;
           const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
           const std::string which = fmt::format("{}, friction {}, damping {}", body, friction, damping);
           EXPECT_EQ(outcome.record.failure, "") << which;
@@ -207,7 +207,7 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
         };
         Specimen<2> clumped = packed;
         put_in_clumps(clumped, {4e-3});
-        holds(clumped, "clumps");
+        holds(clumped, 10.0, "clumps");
         for (const double stiffness_ratio : {1e-3, 1e3})
           {
             SmoothJointParameters boundary;
@@ -217,7 +217,8 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
             boundary.cohesion = 300e6;
             Specimen<2> mineral = packed;
             put_in_mineral_grains(mineral, {4e-3}, boundary);
-            holds(mineral, fmt::format("mineral grains of ratio {}", stiffness_ratio));
+            // Stiff shear has short steps: a faster test has no more of them than the others.
+            holds(mineral, stiffness_ratio < 1.0 ? 100.0 : 10.0, fmt::format("mineral grains of ratio {}", stiffness_ratio));
           }
       }
 }
