@@ -66,6 +66,10 @@ need_packages()
     apt-get install --quiet --yes --no-install-recommends "${missing[@]}" </dev/null
 }
 
+# Several files a unit: less than half the processor time of a clean build, and the same bits. Who changes the code turns it
+# off in build/release (CONTRIBUTING.md).
+joined_units=-DCMAKE_UNITY_BUILD=ON
+
 # build PRESET [CMake option...]
 build()
 {
@@ -111,7 +115,7 @@ demo()
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force
 }
 
-build_release() { build release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF; }
+build_release() { build release "$joined_units" -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF; }
 
 # install_feldspar [DIR]
 install_feldspar()
@@ -133,8 +137,8 @@ install_feldspar()
 package()
 {
   need_packages "${build_packages[@]}" dpkg-dev file
-  build package
-  build package-avx512
+  build package "$joined_units"
+  build package-avx512 "$joined_units"
   say "packing"
   (cd build/package &&
     cpack -G DEB -D "CPACK_INSTALL_CMAKE_PROJECTS=$PWD;feldspar;ALL;/;$PWD/../package-avx512;feldspar;programs;/")
@@ -150,7 +154,7 @@ run_all_tests()
     check_format
     check_lint
   fi
-  build release -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON
+  build release "$joined_units" -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON
   run_tests release
 }
 

@@ -1,5 +1,7 @@
 #include "calibration/answer.h"
 
+#include "base/prefixes.h"
+
 #include "calibration/posterior.h"
 #include "results/paired_moments.h"
 
@@ -122,8 +124,6 @@ struct Quantity
 
 std::vector<Quantity> quantities(const ResponseModel& model, const FitFreedom& freedom)
 {
-  constexpr double giga = 1e9;
-  constexpr double mega = 1e6;
   std::vector<Quantity> all;
   if (freedom.modulus)
     all.push_back({"modulus", "modulus", "GPa", giga, [](const MicroParameters& p) { return p.modulus; }, {}, true});

@@ -1,5 +1,7 @@
 #include "calibration/responses.h"
 
+#include "base/prefixes.h"
+
 #include "base/input_error.h"
 
 #include <fmt/format.h>
@@ -11,8 +13,6 @@ namespace feldspar::calibration
 {
 namespace
 {
-constexpr double mega = 1e6;
-constexpr double giga = 1e9;
 
 Figure TestResults::*figure_of(const ElasticFigure which, Figure TestResults::*tangent, Figure TestResults::*initial,
                                Figure TestResults::*secant)

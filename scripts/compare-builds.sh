@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What a clean build of two commits takes, in processor time: the command `feldspar` alone, as ./bootstrap.sh build makes it.
+# What `./bootstrap.sh build` takes in a clean clone of two commits, in processor time. The packages must be installed.
 #
 #   scripts/compare-builds.sh OLD_COMMIT NEW_COMMIT
 #
@@ -16,9 +16,8 @@ for commit in "$@"; do
   git -C "$work/clone" checkout --quiet --detach "$commit"
   (
     cd "$work/clone"
-    cmake --preset release -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF >"$work/log"
     TIMEFORMAT="%U %S"
-    { time cmake --build --preset release --parallel "$(nproc)" --target feldspar >>"$work/log" 2>&1; } 2>"$work/times"
+    { time CI='' ./bootstrap.sh build >"$work/log" 2>&1; } 2>"$work/times"
   ) || { tail -n 20 "$work/log" >&2 && exit 1; }
   awk -v commit="$commit" '{ printf "%s: %.0f s of processor time, %.0f of them in the system\n", commit, $1 + $2, $2 }' "$work/times"
   rm --recursive --force "$work/clone"

@@ -66,7 +66,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
 /// Several processes make the specimens, each its share, and then the tests, each its share: what has ended lies in the
 /// folder.
 template <int dim>
-void share_out(const Run& run, Progress& progress)
+void share_out_tests(const Run& run, Progress& progress)
 {
   const auto all_variants = variants(run.input);
   const auto orders = specimen_orders(all_variants);
@@ -98,7 +98,7 @@ void share_out(const Run& run, Progress& progress)
 
 /// Specimens, tests and report of a run in its folder, from wherever it stands, by this process.
 template <int dim>
-RunEnd go_alone(const Run& run, Progress& progress)
+RunEnd test_alone(const Run& run, Progress& progress)
 {
   const auto& [folder, input_file, input, quiet] = run;
 
@@ -146,6 +146,7 @@ RunEnd go_alone(const Run& run, Progress& progress)
 
 int run_lab(const CommonOptions& options)
 {
-  return run_shared("lab", check_laboratory_input, {share_out<2>, go_alone<2>}, {share_out<3>, go_alone<3>}, options);
+  return run_shared("lab", check_laboratory_input, {share_out_tests<2>, test_alone<2>},
+                    {share_out_tests<3>, test_alone<3>}, options);
 }
 } // namespace feldspar

@@ -180,7 +180,7 @@ std::vector<PlannedPath> plan(const Input& input, const std::vector<Variant>& al
 
 /// Several processes make cells and paths, each those whose turn it is: what has ended lies in the folder.
 template <int dim>
-void share_out(const Run& run, Progress& progress)
+void share_out_paths(const Run& run, Progress& progress)
 {
   const auto all_variants = variants(run.input);
   const auto orders = specimen_orders(all_variants);
@@ -216,7 +216,7 @@ void share_out(const Run& run, Progress& progress)
 }
 
 template <int dim>
-RunEnd go_alone(const Run& run, Progress& progress)
+RunEnd strain_alone(const Run& run, Progress& progress)
 {
   const auto& [folder, input_file, input, quiet] = run;
 
@@ -265,6 +265,7 @@ RunEnd go_alone(const Run& run, Progress& progress)
 
 int run_rve(const CommonOptions& options)
 {
-  return run_shared("rve", check_rve_input, {share_out<2>, go_alone<2>}, {share_out<3>, go_alone<3>}, options);
+  return run_shared("rve", check_rve_input, {share_out_paths<2>, strain_alone<2>},
+                    {share_out_paths<3>, strain_alone<3>}, options);
 }
 } // namespace feldspar

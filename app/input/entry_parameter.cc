@@ -1,5 +1,6 @@
 #include "app/input/entry_parameter.h"
 
+#include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
@@ -14,7 +15,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::string_view none = "none";
 constexpr std::size_t longest_path = 300; // in a message
 
 const Dimension& dimension_of(const Measure measure)

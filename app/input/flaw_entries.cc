@@ -27,7 +27,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::string_view none = "none";
 constexpr std::size_t most_shapes = 10000;
 constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
 

@@ -19,7 +19,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::string_view none = "none";
 constexpr std::string_view free_component = "free";
 constexpr std::size_t most_seeds = 10000;
 constexpr std::size_t most_confinements = 1000;

@@ -25,6 +25,8 @@ struct Parameter
   std::string default_text() const;
 };
 
+/// The text of an entry that is not used.
+inline constexpr std::string_view none = "none";
 /// The range of every entry that names a file.
 inline constexpr std::string_view none_or_a_file = "none, or a file";
 

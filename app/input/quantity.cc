@@ -200,9 +200,9 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
 
 std::string format_number(const double value) { return fmt::format("{:.15g}", value); }
 
-std::string format_quantity(const double si_value, const std::string_view unit, const Dimension& dimension)
+std::string format_quantity(const double value_in_si, const std::string_view unit, const Dimension& dimension)
 {
   const double si_per_unit = to_si(1.0, unit, dimension);
-  return fmt::format("{} {}", format_number(si_value / si_per_unit), unit);
+  return fmt::format("{} {}", format_number(value_in_si / si_per_unit), unit);
 }
 } // namespace feldspar

@@ -35,7 +35,7 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& dim
 double to_si(double value, std::string_view unit, const Dimension& dimension);
 
 /// An SI value as `22 MPa`, such that reading it gives the value again to 15 digits.
-std::string format_quantity(double si_value, std::string_view unit, const Dimension& dimension);
+std::string format_quantity(double value_in_si, std::string_view unit, const Dimension& dimension);
 
 /// A number as `0.5`, to 15 digits.
 std::string format_number(double value);

@@ -20,10 +20,10 @@ namespace feldspar
 {
 namespace
 {
-constexpr double stress_tolerance = 1e-3; // of the packing stress
+constexpr double packing_stress_tolerance = 1e-3; // of the packing stress
 // Mean unbalanced over mean contact force. Joints begin without force, so that what is left moves no grain: it stands
 // for 5e-3 of an overlap, 1e-6 of a radius.
-constexpr double equilibrium_tolerance = 5e-3;
+constexpr double force_tolerance = 5e-3;
 
 /// Of the contact modulus: grains are pressed together until they overlap by half a percent of a radius before they are
 /// let go to the packing stress, or the answer would depend on the porosity that was asked for.
@@ -428,7 +428,8 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
       const double error = std::abs(packing.stress / wanted_stress - 1.0);
       if (stage == Stage::pressed && packing.unbalanced_ratio <= pressed_tolerance<dim> && error <= 0.1)
         stage = Stage::let_go;
-      if (stage == Stage::at_pressure && packing.unbalanced_ratio <= equilibrium_tolerance && error <= stress_tolerance)
+      if (stage == Stage::at_pressure && packing.unbalanced_ratio <= force_tolerance &&
+          error <= packing_stress_tolerance)
         break;
       if (k == most_iterations)
         throw InputError(fmt::format(

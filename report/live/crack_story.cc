@@ -1,5 +1,7 @@
 #include "report/live/crack_story.h"
 
+#include "base/prefixes.h"
+
 #include "report/live/chart.h"
 
 #include <fmt/format.h>
@@ -12,8 +14,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr double milli = 1e-3;
-constexpr double mega = 1e6;
 constexpr std::size_t most_rows = 300;
 constexpr std::size_t most_grains = 12'000; ///< some 250 kB
 constexpr std::size_t most_cracks = 20'000;

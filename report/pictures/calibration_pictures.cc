@@ -1,5 +1,7 @@
 #include "report/pictures/calibration_pictures.h"
 
+#include "base/prefixes.h"
+
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -73,7 +75,6 @@ std::string histogram(const std::vector<double>& values)
 
 ShownUnit shown_unit(const std::string& si_unit, const double size)
 {
-  constexpr double giga = 1e9;
   if (si_unit == "rad")
     return {"deg", std::numbers::pi / 180.0};
   if (si_unit == "Pa")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/prefixes.h"
 #include "results/evaluation.h"
 #include "results/series.h"
 
@@ -10,8 +11,6 @@
 /// What all pictures share: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
 namespace feldspar::plot
 {
-inline constexpr double mega = 1e6;
-inline constexpr double milli = 1e-3;
 inline constexpr double percent = 1e-2;
 
 inline constexpr const char* black = "#000000"; ///< measured on rock

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/prefixes.h"
 #include "results/fits/fit.h"
 #include "results/record.h"
 #include "results/statistics.h"
@@ -9,7 +10,6 @@
 /// Numbers as the page writes them, in a unit and with a number of decimals.
 namespace feldspar::text
 {
-inline constexpr double mega = 1e6;
 inline constexpr const char* none = "–";
 
 std::string number(double value, int decimals);

@@ -1,5 +1,7 @@
 #include "results/folder/reference.h"
 
+#include "base/prefixes.h"
+
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
@@ -24,8 +26,6 @@ namespace feldspar
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-constexpr double mega = 1e6;
 
 /// A property that a source may give, and the values that one of a rock can have, in the unit at the end of its name.
 /// Bounds are wide: they are to find a number in another unit.

@@ -2,6 +2,7 @@
 // of the answer is little. The statistics are tested in tests/unit/calibration_test.cc.
 
 #include "tests/app/run_command.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -50,12 +51,6 @@ end
 
 const std::string reference = R"({"rock": "a rock for tests", "experiment": {
   "youngs_modulus_GPa": 40, "tensile_strength_MPa": 6, "uniaxial_compressive_strength_MPa": 100}})";
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& by)
 {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/content.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -14,12 +16,6 @@
 /// Committed results, and their figures as READMEs show them.
 namespace feldspar::tests
 {
-inline std::string content(const std::string& file)
-{
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Of an example by the names of its folder and of the file.
 inline nlohmann::json results_of(const std::string& example, const std::string& study)
 {

@@ -1,5 +1,6 @@
 #include "base/random.h"
 #include "tests/app/run_command.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -74,12 +75,6 @@ void write_inputs(const TemporaryFolder& folder)
 }
 
 std::size_t n_lines(const std::string& text) { return std::size_t(std::count(text.begin(), text.end(), '\n')); }
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void expect_nothing_half_written(const fs::path& folder)
 {

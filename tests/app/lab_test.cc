@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "tests/app/run_command.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -36,12 +37,6 @@ subsection Seeds
   set Seeds = 3, 4
 end
 )";
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
 

@@ -1,6 +1,7 @@
 // The report as a user makes and reads it: out of small specimens, in a browser where one is there.
 
 #include "tests/app/run_command.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -21,12 +22,6 @@ namespace feldspar::tests
 namespace
 {
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::size_t count(const std::string& text, const std::string& what)
 {

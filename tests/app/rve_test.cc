@@ -1,6 +1,7 @@
 // A representative volume as a user strains it.
 
 #include "tests/app/run_command.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -41,12 +42,6 @@ end
 )";
 
 const std::string along_file = "subsection Strain path\n  set File = path.csv\nend\n";
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
 

@@ -27,11 +27,12 @@ using tests::TemporaryFolder;
 
 /// Eight elements of 12 mm with RVEs of some 75 grains. Newton's tolerance is far below what events and fields are
 /// compared to.
-const std::string pull = "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\nend\n"
-                         "subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
-                         "  set Elements across = 2\n  set Elements along = 4\n  set Realisations = 2\n"
-                         "  set Tension step = 1e-5\n  set Newton tolerance = 1e-10\nend\n"
-                         "subsection Tests\n  set List = direct_tension\n  set Stop strain = 2.2e-4\nend\n";
+const std::string pull_of_ranks =
+  "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\nend\n"
+  "subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
+  "  set Elements across = 2\n  set Elements along = 4\n  set Realisations = 2\n"
+  "  set Tension step = 1e-5\n  set Newton tolerance = 1e-10\nend\n"
+  "subsection Tests\n  set List = direct_tension\n  set Stop strain = 2.2e-4\nend\n";
 
 const std::string test_name = "direct_tension_seed_1";
 
@@ -126,7 +127,7 @@ std::string once_there_are_checkpoints(const unsigned int n, const std::string& 
 TEST(SeveralRanks, BreakTheSameSegments)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", pull);
+  folder.write("pull.prm", pull_of_ranks);
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 1 --quiet --threads 1"));
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 2 --quiet --threads 2", mpirun(2)));
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 4 --quiet --threads 1", mpirun(4)));
@@ -174,7 +175,7 @@ TEST(SeveralRanks, BreakTheSameSegmentsOfCylinders)
 TEST(SeveralRanks, OneThatDiesEndsTheRunWhichIsResumedOnAnyNumber)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", pull);
+  folder.write("pull.prm", pull_of_ranks);
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
   folder.write("kill", once_there_are_checkpoints(1, "two", "kill -KILL $(pgrep -P $! | head -n 1)"));
   const auto killed = run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet", "sh ./kill " + mpirun(2));
@@ -191,7 +192,7 @@ TEST(SeveralRanks, OneThatDiesEndsTheRunWhichIsResumedOnAnyNumber)
 TEST(SeveralRanks, EndTogetherWhenAsked)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", pull);
+  folder.write("pull.prm", pull_of_ranks);
   folder.write("ask", once_there_are_checkpoints(1, "out", "kill -USR1 $!")); // which mpirun passes on to all
   const auto asked = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet", "sh ./ask " + mpirun(2));
   EXPECT_EQ(asked.exit_code, 130) << asked.error;
@@ -299,7 +300,7 @@ TEST(SeveralRanks, TakePathsOfCells)
 TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", pull);
+  folder.write("pull.prm", pull_of_ranks);
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
   folder.write("kill", once_there_are_checkpoints(2, "broken", "kill -KILL $!"));
   run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
@@ -338,7 +339,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
 TEST(Checkpoints, AFullDiskLeavesTheOneBeforeAndSaysSo)
 {
   const TemporaryFolder folder;
-  folder.write("pull.prm", pull);
+  folder.write("pull.prm", pull_of_ranks);
   // Files of more than 28 kB cannot be written from some moment on; a checkpoint of this sample has more than 30.
   folder.write("fill", "trap '' XFSZ\n" + once_there_are_checkpoints(1, "out", "prlimit --pid $! --fsize=28000"));
   const auto full = run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet --threads 1", "sh ./fill");

@@ -260,21 +260,13 @@ TEST(Clumps, MeanStressIsThatOfThePlatens)
                                  specimen.groups.begin())](1, 1));
 }
 
-TestParameters quick()
-{
-  TestParameters wanted;
-  wanted.compression_strain_rate = 2.0;
-  wanted.compression_sampling_strain = 5e-5;
-  return wanted;
-}
-
 TEST(Clumps, CrackBetweenEachOtherAndTheEnergiesBalance)
 {
   const Specimen<2> specimen = clumped({0.005});
   EXPECT_EQ(fragments(specimen)[0], fragments(packing())[0]) << "whole at first";
   for (const LaboratoryProtocol* protocol : {&uniaxial_compression, &direct_tension})
     {
-      LabTest<2> test({*protocol}, specimen, quick(), {});
+      LabTest<2> test({*protocol}, specimen, quick_compression(), {});
       double largest_work = 0.0;
       while (test.advance())
         {
@@ -310,7 +302,7 @@ TEST(Clumps, GiveTheSameBitsWithOneThreadAndTwo)
   const Specimen<2> specimen = clumped({0.005});
   const auto end = [&](const std::size_t n_threads) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
-    LabTest<2> test({uniaxial_compression}, specimen, quick(), {});
+    LabTest<2> test({uniaxial_compression}, specimen, quick_compression(), {});
     for (int n = 0; n < 50; ++n)
       test.advance();
     return test.finish(true);
@@ -334,11 +326,11 @@ TEST(Clumps, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_TRUE(back.groups_are_rigid);
   EXPECT_EQ(back.report.n_clumps, specimen.report.n_clumps);
 
-  LabTest<2> whole({uniaxial_compression}, specimen, quick(), {});
+  LabTest<2> whole({uniaxial_compression}, specimen, quick_compression(), {});
   for (int n = 0; n < 30; ++n)
     whole.advance();
   whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<2> again({uniaxial_compression}, back, quick(), {});
+  LabTest<2> again({uniaxial_compression}, back, quick_compression(), {});
   again.read_checkpoint(folder.path() / "test.h5", "one");
   for (int n = 0; n < 20; ++n)
     {

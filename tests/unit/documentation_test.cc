@@ -1,5 +1,7 @@
 // The pages of the documentation point at files, sections and rooms that exist.
 
+#include "tests/content.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@
 namespace
 {
 namespace fs = std::filesystem;
+using feldspar::tests::content;
 
 const fs::path root = FELDSPAR_SOURCE_DIR;
 
@@ -24,12 +27,6 @@ const fs::path root = FELDSPAR_SOURCE_DIR;
 const std::vector<std::string> top_folders = {"app",     "base",    "benchmarks", "calibration", "coupling",
                                               "dem",     "docs",    "examples",   "fem",         "report",
                                               "results", "scripts", "tests",      "third_party"};
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<fs::path> pages()
 {

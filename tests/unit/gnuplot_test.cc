@@ -4,6 +4,7 @@
 
 #include "base/quoted.h"
 #include "report/pictures/plot_style.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -64,12 +65,6 @@ std::vector<std::string> hostile_texts()
     texts.emplace_back(text);
   texts.push_back(std::string(6000, '\'') + "\nsystem \"touch marker\"\n");
   return texts;
-}
-
-std::string content(const fs::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// As it is to be read in the picture.

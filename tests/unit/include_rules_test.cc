@@ -159,7 +159,7 @@ std::size_t n_violations(const std::string& folder, const std::string& text)
   return violations(folder, "synthetic", source).size();
 }
 
-const fs::path root = FELDSPAR_SOURCE_DIR;
+const fs::path source_root = FELDSPAR_SOURCE_DIR;
 
 /// Sources and headers below the folders of the project.
 std::vector<fs::path> sources()
@@ -169,9 +169,9 @@ std::vector<fs::path> sources()
     tops.insert(room.folder.substr(0, room.folder.find('/')));
   std::vector<fs::path> found;
   for (const std::string& top : tops)
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source_root / top))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cc")
-        found.push_back(fs::relative(entry.path(), root));
+        found.push_back(fs::relative(entry.path(), source_root));
   return found;
 }
 } // namespace
@@ -185,7 +185,7 @@ TEST(IncludeRules, HoldInTheSourceTree)
       EXPECT_TRUE(room_of(folder) != nullptr || lies_in(folder, above_all)) << path << " stands in no room";
       EXPECT_TRUE(!folder.starts_with("app/") || is_any_of(folder, rooms_of_the_command))
         << path << " stands in no room";
-      std::ifstream source(root / path);
+      std::ifstream source(source_root / path);
       ASSERT_TRUE(source) << path;
       for (const std::string& violation : violations(folder, path.string(), source))
         ADD_FAILURE() << violation;
@@ -193,7 +193,7 @@ TEST(IncludeRules, HoldInTheSourceTree)
       source.seekg(0);
       n_includes += includes_of(source).size();
     }
-  EXPECT_GT(n_includes, 500u) << "next to nothing was scanned under " << root;
+  EXPECT_GT(n_includes, 500u) << "next to nothing was scanned under " << source_root;
 }
 
 // Two libraries know no grains and have namespaces of their own; all others speak of one rock by one set of names. Named
@@ -211,7 +211,7 @@ TEST(IncludeRules, NamespacesAreThoseOfTheLibraries)
       const std::string folder = path.parent_path().string();
       if (lies_in(folder, {"tests"}) || is_any_of(path.string(), of_the_input))
         continue; // tests look into all of them
-      std::ifstream source(root / path);
+      std::ifstream source(source_root / path);
       std::smatch match;
       for (std::string line; std::getline(source, line);)
         if (std::regex_match(line, match, opening))
@@ -226,7 +226,7 @@ TEST(IncludeRules, NamespacesAreThoseOfTheLibraries)
               << path << " opens " << opened;
           }
     }
-  EXPECT_GT(n_opened, 300u) << "next to nothing was scanned under " << root;
+  EXPECT_GT(n_opened, 300u) << "next to nothing was scanned under " << source_root;
 }
 
 // What a reader takes in at a glance.

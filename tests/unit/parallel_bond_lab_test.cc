@@ -31,7 +31,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(ParallelBonds, Dimensions);
 
-TestParameters quick()
+TestParameters quick_and_dense()
 {
   TestParameters wanted;
   wanted.compression_strain_rate = 2.0;
@@ -62,7 +62,7 @@ TEST(ParallelBondTimeStep, IsThatOfBondAndContactTogether)
 TYPED_TEST(ParallelBonds, APressedSpecimenBreaksAndItsEnergiesBalanceAllTheWay)
 {
   constexpr int dim = TypeParam::value;
-  LabTest<dim> test({uniaxial_compression}, small_bonded_specimen<dim>(), quick(), {});
+  LabTest<dim> test({uniaxial_compression}, small_bonded_specimen<dim>(), quick_and_dense(), {});
   double largest_work = 0.0;
   while (test.advance())
     {
@@ -96,7 +96,7 @@ TYPED_TEST(ParallelBonds, GiveTheSameBitsWithOneThreadAndTwo)
   const auto specimen = small_bonded_specimen<dim>();
   const auto end = [&](const std::size_t n_threads) {
     const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
-    LabTest<dim> test({uniaxial_compression}, specimen, quick(), {});
+    LabTest<dim> test({uniaxial_compression}, specimen, quick_and_dense(), {});
     for (int n = 0; n < 60 && test.advance(); ++n)
       ;
     return test.finish(true);
@@ -122,11 +122,11 @@ TYPED_TEST(ParallelBonds, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_EQ(back.joints.friction, specimen.joints.friction);
 
   // The specimen that was read, whose law brings its own numbers, and a checkpoint in the middle of breaking.
-  LabTest<dim> whole({uniaxial_compression}, specimen, quick(), {});
+  LabTest<dim> whole({uniaxial_compression}, specimen, quick_and_dense(), {});
   for (int n = 0; n < 40; ++n)
     whole.advance();
   whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<dim> again({uniaxial_compression}, back, quick(), {});
+  LabTest<dim> again({uniaxial_compression}, back, quick_and_dense(), {});
   again.read_checkpoint(folder.path() / "test.h5", "one");
   for (int n = 0; n < 25; ++n)
     {

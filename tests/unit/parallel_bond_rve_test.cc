@@ -23,7 +23,7 @@ class ParallelBondRves : public testing::Test
 };
 TYPED_TEST_SUITE(ParallelBondRves, Dimensions);
 
-constexpr EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
+constexpr EquilibriumParameters sharp_bonds{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
 
 template <int dim>
 Specimen<dim> bonded_cell()
@@ -40,7 +40,7 @@ Specimen<dim> bonded_cell()
 }
 
 template <int dim>
-RepresentativeVolume<dim> bonded_rve(const EquilibriumParameters& parameters = sharp)
+RepresentativeVolume<dim> bonded_rve(const EquilibriumParameters& parameters = sharp_bonds)
 {
   return {std::make_shared<const Network<dim>>(bonded_cell<dim>()), parameters};
 }
@@ -123,7 +123,7 @@ TYPED_TEST(ParallelBondRves, TheirTangentIsThatOfADirectSolution)
     {
       // Pulled, then pressed: other contacts act.
       strain_to(rve, axial<dim>(strain) + uneven<dim>(0.1 * strain), 5);
-      Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp);
+      Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp_bonds);
       const DirectSolution<dim> direct(rve.network(), equilibrium.link_tangents());
       EXPECT_LT(relative(equilibrium.tangent(), direct.stiffness), 1e-8);
       // Softer than with all contacts pressed and none sliding.

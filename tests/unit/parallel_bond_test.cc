@@ -16,7 +16,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t n_pairs = 2 * pack_width + 3; // packs, and some over
 
 const ParticleContactParameters contact{60e9, 1.5, 0.4};

@@ -24,6 +24,7 @@
 #include "results/statistics.h"
 #include "results/test_groups.h"
 #include "results/trust.h"
+#include "tests/content.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -102,12 +103,6 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
   record.fragments = fragments_of(test.appearance.grains_at_end, record.dimension());
   test.results = evaluate(record);
   return test;
-}
-
-std::string content(const std::filesystem::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(ResultFolder, IsReadBackAsItWasWritten)

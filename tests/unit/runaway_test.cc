@@ -218,7 +218,8 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
             Specimen<2> mineral = packed;
             put_in_mineral_grains(mineral, {4e-3}, boundary);
             // Stiff shear has short steps: a faster test has no more of them than the others.
-            holds(mineral, stiffness_ratio < 1.0 ? 100.0 : 10.0, fmt::format("mineral grains of ratio {}", stiffness_ratio));
+            holds(mineral, stiffness_ratio < 1.0 ? 100.0 : 10.0,
+                  fmt::format("mineral grains of ratio {}", stiffness_ratio));
           }
       }
 }

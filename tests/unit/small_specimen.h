@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/genesis/genesis.h"
+#include "dem/lab/parameters.h"
 
 #include <type_traits>
 
@@ -35,6 +36,15 @@ inline Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bon
   flat_joint.bond_tensile_strength *= bond_strength_factor;
   flat_joint.bond_cohesion *= bond_strength_factor;
   return make_specimen<3>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+}
+
+/// Compression in some thousand steps.
+inline TestParameters quick_compression()
+{
+  TestParameters wanted;
+  wanted.compression_strain_rate = 2.0;
+  wanted.compression_sampling_strain = 5e-5;
+  return wanted;
 }
 
 /// Grains where one wants them, density 3000 kg/m³, no joints.

@@ -545,17 +545,9 @@ TEST(MineralGrains, ThatAreTooSmallTooLargeOrThereAlreadyAreRefused)
   EXPECT_THROW(put_in_mineral_grains(specimen, {0.005}, {}), InputError);
 }
 
-TestParameters quick()
-{
-  TestParameters wanted;
-  wanted.compression_strain_rate = 2.0;
-  wanted.compression_sampling_strain = 5e-5;
-  return wanted;
-}
-
 TEST(MineralGrains, CrackAtTheirBoundariesAndTheEnergiesBalance)
 {
-  LabTest<2> test({uniaxial_compression}, minerals(), quick(), {});
+  LabTest<2> test({uniaxial_compression}, minerals(), quick_compression(), {});
   double largest_work = 0.0;
   while (test.advance())
     {
@@ -595,11 +587,11 @@ TEST(MineralGrains, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_EQ(back.kept_apart, specimen.kept_apart);
   ASSERT_EQ(back.smooth_joints.size(), specimen.smooth_joints.size());
 
-  LabTest<2> whole({uniaxial_compression}, specimen, quick(), {});
+  LabTest<2> whole({uniaxial_compression}, specimen, quick_compression(), {});
   for (int n = 0; n < 30; ++n)
     whole.advance();
   whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<2> again({uniaxial_compression}, back, quick(), {});
+  LabTest<2> again({uniaxial_compression}, back, quick_compression(), {});
   again.read_checkpoint(folder.path() / "test.h5", "one");
   for (int n = 0; n < 20; ++n)
     {

@@ -15,7 +15,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(FaceElements, AreWholeInAreaAndLumpedInBendingAndTwist)
 {

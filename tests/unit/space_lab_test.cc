@@ -16,7 +16,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Membrane, LiesAroundTheCylinderAndPressesOuterGrainsOnly)
 {
@@ -48,7 +48,7 @@ TEST(Membrane, LiesAroundTheCylinderAndPressesOuterGrainsOnly)
   EXPECT_LT(sum.norm(), 0.03 * side);
 }
 
-TestParameters quick()
+TestParameters quick_in_space()
 {
   TestParameters wanted;
   wanted.compression_strain_rate = 4.0;
@@ -71,9 +71,9 @@ TestOutcome run(LabTest<3>& test)
 TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 {
   const auto specimen = small_cylinder();
-  LabTest<3> tension({direct_tension}, specimen, quick(), {});
+  LabTest<3> tension({direct_tension}, specimen, quick_in_space(), {});
   const auto pulled = evaluate(run(tension).record);
-  LabTest<3> compression({uniaxial_compression}, specimen, quick(), {});
+  LabTest<3> compression({uniaxial_compression}, specimen, quick_in_space(), {});
   const auto outcome = run(compression);
   const auto& record = outcome.record;
   const auto& snapshots = outcome.appearance.snapshots;
@@ -98,7 +98,7 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
 TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
 {
   const auto specimen = small_cylinder();
-  TestParameters wanted = quick();
+  TestParameters wanted = quick_in_space();
   LabTest<3> uniaxial({uniaxial_compression}, specimen, wanted, {});
   const double alone = *evaluate(run(uniaxial).record).peak_stress.value;
   for (const auto boundary : {LateralBoundary::wall, LateralBoundary::membrane})
@@ -121,7 +121,7 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
 
 TEST(SpaceLab, PressesABoxByThreeStresses)
 {
-  auto wanted = quick();
+  auto wanted = quick_in_space();
   wanted.intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
   const auto box = small_cylinder(1, 1e3, "box");
@@ -148,7 +148,7 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
   const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
-  LabTest<3> test({brazilian}, specimen, quick(), {});
+  LabTest<3> test({brazilian}, specimen, quick_in_space(), {});
   const auto outcome = run(test);
   const auto& record = outcome.record;
   const auto results = evaluate(record);
@@ -165,7 +165,7 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
 TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
 {
   const auto specimen = small_cylinder();
-  TestParameters wanted = quick();
+  TestParameters wanted = quick_in_space();
   wanted.lateral_boundary = LateralBoundary::membrane;
   const tests::TemporaryFolder folder;
   const LaboratoryCase test_case{triaxial_compression, 10e6};
