@@ -201,8 +201,7 @@ private:
     if (found == known.end())
       words.refuse(fmt::format("format {} of Gmsh; 2.2, 4.0 and 4.1 can be read", excerpt(version)));
     format = found->second;
-    if (words.next() != "0")
-      words.refuse("a binary file; write it as text: gmsh MESH.msh -save -format msh41 -o TEXT.msh");
+    words.expect("0"); // text
     words.expect("8");
     words.expect("$EndMeshFormat");
   }
@@ -421,4 +420,10 @@ private:
 } // namespace
 
 void check_gmsh(const std::string_view text, const int dimension) { GmshText(text, dimension).check(); }
+
+std::optional<std::size_t> n_nodes_of_gmsh_type(const std::int64_t type)
+{
+  const auto kind = kinds.find(type);
+  return kind == kinds.end() ? std::nullopt : std::optional(kind->second.n_nodes);
+}
 } // namespace feldspar::fem

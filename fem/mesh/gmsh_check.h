@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace feldspar::fem
@@ -9,4 +12,7 @@ namespace feldspar::fem
 /// nodes that are there once and finite, elements of known kinds between them, sides of cells of at most two cells.
 /// Throws InputError, which names the line of what is wrong.
 void check_gmsh(std::string_view text, int dimension);
+
+/// Nodes of an element of one of Gmsh's types; none for a type that check_gmsh() takes in neither dimension.
+std::optional<std::size_t> n_nodes_of_gmsh_type(std::int64_t type);
 } // namespace feldspar::fem

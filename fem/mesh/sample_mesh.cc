@@ -1,6 +1,7 @@
 #include "fem/mesh/sample_mesh.h"
 
 #include "base/input_error.h"
+#include "fem/mesh/gmsh_binary.h"
 #include "fem/mesh/gmsh_check.h"
 
 #include <deal.II/grid/grid_generator.h>
@@ -197,18 +198,24 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
                           const unsigned int n_refinements, const double unit)
 {
   const std::string name = file.string();
-  std::ifstream opened(file);
+  std::ifstream opened(file, std::ios::binary);
   if (!opened)
     throw MeshError(fmt::format("{}: cannot be opened", name));
   std::stringstream stream;
   stream << opened.rdbuf();
+  std::string whose_lines = name;
   try
     {
+      if (is_binary_gmsh(stream.view()))
+        {
+          stream.str(text_of_binary_gmsh(stream.view()));
+          whose_lines += ", as text";
+        }
       check_gmsh(stream.view(), dim);
     }
   catch (const InputError& error)
     {
-      throw MeshError(fmt::format("{}: {}", name, error.what()));
+      throw MeshError(fmt::format("{}: {}", whose_lines, error.what()));
     }
   SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), physical_names(stream, dim - 1, name)};
 
@@ -228,7 +235,7 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
   catch (const std::exception&)
     {
       // deal.II's own text runs over many lines with a stack trace.
-      throw MeshError(fmt::format("{}: is not a Gmsh text mesh of {} whose cells all have positive {}", name,
+      throw MeshError(fmt::format("{}: is not a Gmsh mesh of {} whose cells all have positive {}", name,
                                   dim == 2 ? "quadrilaterals" : "hexahedra", dim == 2 ? "area" : "volume"));
     }
   if (!coarse.all_reference_cells_are_hyper_cube())

@@ -16,6 +16,7 @@
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/running_test.h"
 #include "dem/specimen/specimen_file.h"
+#include "fem/mesh/gmsh_binary.h"
 #include "fem/mesh/gmsh_check.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
@@ -334,13 +335,14 @@ const std::vector<FuzzedReader>& fuzzed_readers()
      }},
     {"mesh",
      [](Content content, Folder) {
+       const std::string text = fem::is_binary_gmsh(content) ? fem::text_of_binary_gmsh(content) : std::string(content);
        try
          {
-           fem::check_gmsh(content, 2);
+           fem::check_gmsh(text, 2);
          }
        catch (const InputError&)
          {
-           fem::check_gmsh(content, 3);
+           fem::check_gmsh(text, 3);
          }
      }},
     {"traces",
