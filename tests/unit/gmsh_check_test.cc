@@ -260,7 +260,7 @@ TEST(GmshCheck, TakesBinaryFiles)
 TEST(GmshCheck, NamesByteAndReasonInABinaryFile)
 {
   const std::string mesh = written_by_gmsh("of_gmsh_2_2_binary");
-  const std::size_t count = mesh.find("$Nodes\n") + 7;  // the number 6 in a line
+  const std::size_t count = mesh.find("$Nodes\n") + 7;        // the number 6 in a line
   const std::size_t elements = mesh.find("$Elements\n") + 12; // behind the number 5 in a line: type, how many, tags
   EXPECT_EQ(complaint_of_bytes(mesh), "");
   EXPECT_EQ(complaint_of_bytes(with(mesh, "2.2 1", "4.0 1")),
@@ -271,15 +271,17 @@ TEST(GmshCheck, NamesByteAndReasonInABinaryFile)
   EXPECT_EQ(complaint_of_bytes(with_number(mesh, count, 'x')),
             fmt::format("byte {}: a number of nodes or elements is expected instead of x", count));
   // Five of six nodes: the sixth stands where the section should end.
-  EXPECT_EQ(complaint_of_bytes(with_number(mesh, count, '5')),
-            fmt::format("byte {}: the end of a section is expected instead of \\x06\\x00\\x00\\x00vH\\x00\\x00\\x00\\x00\\xf0?"
-                        "\\x00\\x00\\x00\\x00\\x00\\x00\\xf0?…",
-                        count + 2 + 5 * 28));
+  EXPECT_EQ(
+    complaint_of_bytes(with_number(mesh, count, '5')),
+    fmt::format("byte {}: the end of a section is expected instead of \\x06\\x00\\x00\\x00vH\\x00\\x00\\x00\\x00\\xf0?"
+                "\\x00\\x00\\x00\\x00\\x00\\x00\\xf0?…",
+                count + 2 + 5 * 28));
   EXPECT_EQ(complaint_of_bytes(with_number(mesh, elements, 10)),
             fmt::format("byte {}: elements of Gmsh's type 10; points, lines, quadrilaterals and hexahedra can be read",
                         elements + 12));
-  EXPECT_EQ(complaint_of_bytes(with_number(mesh, elements + 4, 2'000'000'000)),
-            fmt::format("byte {}: 2000000000 elements with 2 tags follow, where 5 of 5 elements are left", elements + 12));
+  EXPECT_EQ(
+    complaint_of_bytes(with_number(mesh, elements + 4, 2'000'000'000)),
+    fmt::format("byte {}: 2000000000 elements with 2 tags follow, where 5 of 5 elements are left", elements + 12));
   for (std::size_t length = 24; length + 13 < mesh.size(); ++length) // 13: "$EndElements" and the end of its line
     EXPECT_NE(complaint_of_bytes(mesh.substr(0, length)), "") << length;
   // Numbers that make no mesh are found in its text, as those of a file of text.
