@@ -216,12 +216,13 @@ TEST(SeveralRanks, SayOnceWhatIsWrong)
     EXPECT_EQ(outcome.error.find(words, said + 1), std::string::npos) << outcome.error;
     EXPECT_FALSE(fs::exists(folder.path() / "out"));
   };
-  refused(pull + "subsection Sample\n  set Order = 3\nend\n", 2, "Sample/Order = 3: must be an integer in [1, 2]");
-  std::string three = pull;
+  refused(pull_of_ranks + "subsection Sample\n  set Order = 3\nend\n", 2,
+          "Sample/Order = 3: must be an integer in [1, 2]");
+  std::string three = pull_of_ranks;
   three.replace(three.find("across = 2"), 10, "across = 1");
   three.replace(three.find("along = 4"), 9, "along = 2");
   refused(three, 3, "bad.prm: 3 processes for a sample of 2 cells: each needs one; start at most 2");
-  std::string of_file = pull;
+  std::string of_file = pull_of_ranks;
   of_file.replace(of_file.find("Realisations = 2"), 16, "Realisations = 1");
   refused(of_file + "subsection Specimen\n  set Specimen file = none.h5\nend\n", 2, "there is no file none.h5");
 }
@@ -323,7 +324,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
     "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }, "damaged or cut short");
   resumed(
     "missing", [](const fs::path& file) { fs::remove(file); }, "no such file");
-  std::string other = pull;
+  std::string other = pull_of_ranks;
   other.replace(other.find("2.2e-4"), 6, "2e-5  ");
   folder.write("other.prm", other);
   expect_success(run_feldspar(folder.path(), "multiscale other.prm --output other --quiet"));

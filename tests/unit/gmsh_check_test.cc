@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -200,8 +199,7 @@ std::string complaint_of_bytes(const std::string& content)
 template <typename Number>
 std::string with_number(std::string bytes, const std::size_t place, const Number value)
 {
-  std::memcpy(&bytes.at(place), &value, sizeof(value));
-  return bytes;
+  return bytes.replace(place, sizeof(value), reinterpret_cast<const char*>(&value), sizeof(value));
 }
 } // namespace
 
