@@ -7,7 +7,6 @@
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/laws/flat_joint.h"
 #include "results/folder/reference.h"
 
 #include <fmt/format.h>
@@ -50,9 +49,6 @@ SampleSize checked_sample(const Input& input)
     refuse(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic", input.specimen.shape));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
     refuse("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
-  if (has_grains && input.specimen.joint_law != FlatJoint<2>::name)
-    refuse(fmt::format("Specimen/Joint law = {}: the RVE at a point needs Joint law = {}", input.specimen.joint_law,
-                       FlatJoint<2>::name));
   if (!input.variants.entries.empty())
     refuse("Variants/Entry: a multiscale run has no variants; write an input for each");
   for (const TestKind& kind : input.test_list)

@@ -519,6 +519,40 @@ TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
   EXPECT_NE(extract.output.find(" deg about (0.000, 0.000, "), std::string::npos) << extract.output;
 }
 
+// A sample between smooth platens is in one state as long as it does not soften: that of its RVE along the same path, within the tolerance of Newton's
+// method.
+TEST(Multiscale, TakesParallelBonds)
+{
+  TemporaryFolder folder;
+  const std::string cell = "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\n"
+                           "  set Joint law = parallel bond\nend\n";
+  for (const auto& [test, sign, size, step] :
+       {std::tuple("direct_tension", "1", "7.2e-4", "4e-5"), {"uniaxial_compression", "-1", "1.3e-3", "1e-4"}})
+    {
+      folder.write("path.prm",
+                   fmt::format("{}subsection Strain path\n  set Direction = free, {}, free\n  set Size = {}\n"
+                               "  set Largest step = {}\nend\n",
+                               cell, sign, size, step));
+      folder.write("sample.prm",
+                   fmt::format("{}subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
+                               "  set Elements across = 2\n  set Elements along = 4\n  set Orientation = fixed\n"
+                               "  set Realisations = 1\n  set Tension step = {}\n  set Compression step = {}\nend\n"
+                               "subsection Tests\n  set List = {}\n  set Stop strain = {}\nend\n",
+                               cell, step, step, test, size));
+      for (const std::string command : {"rve path.prm --output path", "multiscale sample.prm --output sample"})
+        {
+          const auto run = run_feldspar(folder.path(), command + " --quiet --force");
+          ASSERT_EQ(run.exit_code, 0) << run.error;
+        }
+      const auto curve = folder.path() / fmt::format("sample/curves/{}_seed_1.csv", test);
+      const double modulus = column(folder.path() / "path/curves/rve.csv", "stress_yy_Pa").back() /
+                             column(folder.path() / "path/curves/rve.csv", "strain_yy").back();
+      const double of_sample = column(curve, "axial_stress_Pa").back() / column(curve, "axial_strain").back();
+      EXPECT_NEAR(of_sample, modulus, 1e-3 * modulus) << test;
+      EXPECT_GT(column(curve, "axial_stress_Pa").size(), 10u) << test;
+    }
+}
+
 TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
 {
   TemporaryFolder folder;
