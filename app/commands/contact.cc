@@ -35,10 +35,10 @@ Face<double> make_face(const typename Law::Parameters& joint, const Input& input
           Law::friction(joint, input.particle_contact)};
 }
 
-/// Mean normal stress of a segment after an update [Pa].
-template <int dim>
-double normal_stress(const FlatJoint<dim>&, const Face<double>& face, const FaceElement<dim>& element,
-                     const FaceMotion<dim, double>&, const typename FlatJoint<dim>::template Update<double>& update)
+/// Mean normal stress after an update of an element whose update tells its normal response [Pa].
+template <int dim, typename Law, typename Update>
+double normal_stress(const Law&, const Face<double>& face, const FaceElement<dim>& element,
+                     const FaceMotion<dim, double>&, const Update& update)
 {
   return mean_stress(place_segment(face, element).segment, update.normal);
 }

@@ -68,6 +68,8 @@ struct Input
   FlawParameters flaws;
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
   ParallelBondParameters parallel_bond{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
+  SofteningFlatJointParameters softening_flat_joint{
+    {.installation_gap_ratio = std::nullopt, .coordination_number = 4.2}};
   ParticleContactParameters particle_contact;
   SmoothJointParameters smooth_joint;
   MineralGrainParameters mineral_grains;

@@ -15,6 +15,7 @@ void for_each_joint_section(AnyInput& input, F&& f)
 {
   f(FlatJoint<2>::name, input.flat_joint);
   f(ParallelBond<2>::name, input.parallel_bond);
+  f(SofteningFlatJoint<2>::name, input.softening_flat_joint);
 }
 
 /// Of the joint law that the input names.

@@ -49,6 +49,7 @@ std::vector<Parameter> make_parameter_table()
   Table table;
   table.add("Specimen", &Input::specimen, specimen_entries());
   table.add("Flat joint", &Input::flat_joint, flat_joint_entries());
+  table.add("Softening flat joint", &Input::softening_flat_joint, softening_flat_joint_entries());
   table.add("Parallel bond", &Input::parallel_bond, parallel_bond_entries());
   table.add("Particle contact", &Input::particle_contact, particle_contact_entries());
   table.add("Smooth joint", &Input::smooth_joint, smooth_joint_entries());

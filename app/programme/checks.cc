@@ -7,12 +7,14 @@
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/laws/joint_laws.h"
 #include "results/folder/reference.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -35,6 +37,15 @@ void check_reference(const Input& input)
     read_reference(input.reference_file, test_kinds());
 }
 
+/// Equilibria of representative volumes go from break to break, which not every joint law allows.
+void check_equilibria(const SpecimenParameters& specimen, const std::string_view remedy)
+{
+  if (!JointLaws::has_equilibria(specimen.joint_law))
+    refuse(
+      fmt::format("Specimen/Joint law = {}: softens between breaks, and equilibria are found from break to break; {}",
+                  specimen.joint_law, remedy));
+}
+
 /// The size of a sample whose input can be run.
 SampleSize checked_sample(const Input& input)
 {
@@ -45,6 +56,8 @@ SampleSize checked_sample(const Input& input)
                        needed == 2 ? "the RVEs of a plane sample are of discs (those of plane strain of spheres)"
                                    : "the RVEs of such a Sample/Geometry are of spheres",
                        needed));
+  if (has_grains)
+    check_equilibria(input.specimen, "take another law");
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic", input.specimen.shape));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
@@ -176,6 +189,8 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
         if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
           refuse(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
                              variant.input.specimen.shape));
+        if (variant.input.strain_path.solver == PathSolver::event_by_event)
+          check_equilibria(variant.input.specimen, "set Strain path/Solver = explicit or take another law");
         check(variant.input.strain_path);
       }
     reference_body(input);

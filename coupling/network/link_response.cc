@@ -1,7 +1,10 @@
 #include "coupling/network/link_response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <variant>
 
 namespace feldspar
@@ -262,7 +265,14 @@ LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& a
 {
   if (!network.links()[active.link].has_face)
     return face_response(FlatJoint<dim>(), network, active, motion);
-  return std::visit([&](const auto& law) { return face_response(law, network, active, motion); }, network.law());
+  return std::visit(
+    [&]<typename Law>(const Law& law) -> LinkResponse<dim> {
+      if constexpr (Law::has_equilibria)
+        return face_response(law, network, active, motion);
+      else
+        throw std::logic_error(fmt::format("the {} has no equilibria event by event", Law::name));
+    },
+    network.law());
 }
 
 template LinkResponse<2> response<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);

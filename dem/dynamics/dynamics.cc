@@ -383,6 +383,7 @@ Energies Dynamics<dim>::energies() const
     {
       sum.slip += joints.slip_energy[j];
       sum.strain += joint_energy(joints, j);
+      sum.released += dissipated_by_bonds(joints, j);
     }
   sum = with_smooth_joints(wall_set.added_to(touches.added_to(sum), body), body);
 

@@ -12,7 +12,7 @@ struct Energies
   double kinetic = 0.0;
   double strain = 0.0;
   double slip = 0.0;
-  double released = 0.0; ///< by breaking segments
+  double released = 0.0; ///< by bonds that break or soften
   double damping = 0.0;
   double kinetic_at_start = 0.0; ///< of the motion that the grains were set off with
   double redistribution = 0.0;   ///< set free between finite elements on their way to equilibrium after breaks

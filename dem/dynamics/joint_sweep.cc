@@ -52,6 +52,12 @@ double joint_energy(const Joints<dim>& joints, const std::size_t j)
   return std::visit([&](const auto& law) { return joint_energy(law, joints, j); }, joints.law);
 }
 
+template <int dim>
+double dissipated_by_bonds(const Joints<dim>& joints, const std::size_t j)
+{
+  return std::visit([&](const auto& law) { return dissipated_by_bonds(law, joints, j); }, joints.law);
+}
+
 template struct SweepMemory<2>;
 template struct SweepMemory<3>;
 template std::vector<Break> sweep_joints<2>(Joints<2>&, const Grains<2>&, double, SweepMemory<2>&);
@@ -62,4 +68,6 @@ template bool has_face<2>(const Joints<2>&, std::size_t);
 template bool has_face<3>(const Joints<3>&, std::size_t);
 template double joint_energy<2>(const Joints<2>&, std::size_t);
 template double joint_energy<3>(const Joints<3>&, std::size_t);
+template double dissipated_by_bonds<2>(const Joints<2>&, std::size_t);
+template double dissipated_by_bonds<3>(const Joints<3>&, std::size_t);
 } // namespace feldspar

@@ -62,4 +62,8 @@ bool has_face(const Joints<dim>& joints, std::size_t joint);
 /// Stored in the segments of a joint [J].
 template <int dim>
 double joint_energy(const Joints<dim>& joints, std::size_t joint);
+
+/// What the bonds of a joint that hold have dissipated so far; nothing by a law whose bonds dissipate in breaking only [J].
+template <int dim>
+double dissipated_by_bonds(const Joints<dim>& joints, std::size_t joint);
 } // namespace feldspar

@@ -388,6 +388,17 @@ double joint_energy(const Law& law, const Joints<dim>& joints, const std::size_t
   return law.stored_energy(joints.face(j), joints.elements, joints.opening[j], rotation, state_of);
 }
 
+/// dissipated_by_bonds() with the law known.
+template <int dim, JointLaw<dim> Law>
+double dissipated_by_bonds(const Law& law, const Joints<dim>& joints, const std::size_t j)
+{
+  double sum = 0.0;
+  if constexpr (DissipatesBeforeBreaks<Law, dim>)
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      sum += Law::dissipated_so_far(segment_state<dim>(law, joints, i, j));
+  return sum;
+}
+
 /// has_face() with the law known.
 template <int dim, JointLaw<dim> Law>
 bool has_face(const Law&, const Joints<dim>& joints, const std::size_t j)

@@ -13,27 +13,29 @@ template <typename P>
 std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock)
 {
   for (const Entry<P>& entry :
-       {entry::optional_number("Installation gap ratio", &P::installation_gap_ratio, ranges::from_zero,
-                               "largest gap that gets a joint, over the mean radius; instead of Coordination number",
-                               of_rock),
-        entry::optional_number("Coordination number", &P::coordination_number, ranges::above_zero,
-                               "mean number of joints of a grain, from which the gap follows; the default holds in two "
-                               "dimensions unless Installation gap ratio is given; in three that is 0.05 instead",
-                               of_rock),
-        entry::number("Gapped fraction", &P::gapped_fraction, ranges::fraction,
-                      "share of the joints without bonds and with an initial gap", of_rock),
-        entry::number("Slit fraction", &P::slit_fraction, ranges::fraction,
-                      "share of the joints without bonds whose faces touch; with Gapped fraction at most 1", of_rock),
-        entry::quantity("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero,
-                        "of the gapped joints", of_rock)})
+       {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::from_zero,
+                                  "largest gap that gets a joint, over the mean radius; instead of Coordination number",
+                                  of_rock),
+        entry::optional_number<P>(
+          "Coordination number", &P::coordination_number, ranges::above_zero,
+          "mean number of joints of a grain, from which the gap follows; the default holds in two "
+          "dimensions unless Installation gap ratio is given; in three that is 0.05 instead",
+          of_rock),
+        entry::number<P>("Gapped fraction", &P::gapped_fraction, ranges::fraction,
+                         "share of the joints without bonds and with an initial gap", of_rock),
+        entry::number<P>("Slit fraction", &P::slit_fraction, ranges::fraction,
+                         "share of the joints without bonds whose faces touch; with Gapped fraction at most 1",
+                         of_rock),
+        entry::quantity<P>("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero,
+                           "of the gapped joints", of_rock)})
     entries.push_back(entry);
   return entries;
 }
 
-/// Of section Flat joint.
-inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
+/// Of section Flat joint, and of those of laws with the same faces.
+template <typename P = FlatJointParameters>
+std::vector<Entry<P>> flat_joint_entries()
 {
-  using P = FlatJointParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
   const EntryFlags in_plane{.varies = true,
                             .of_specimen = true,
@@ -45,32 +47,47 @@ inline std::vector<Entry<FlatJointParameters>> flat_joint_entries()
                             .bodies = {Body::box, Body::cylinder, Body::sample},
                             .needs = "divides a face between spheres (Dimension = 3); of discs it is Segments"};
   const std::vector<Entry<P>> entries{
-    entry::integer("Segments", &P::n_segments, {'[', 1.0, 32.0, ']'},
-                   "of a face in two dimensions, each of which breaks by itself", in_plane),
-    entry::integer("Rings", &P::n_rings, {'[', 1.0, 16.0, ']'}, "of a face in three dimensions, of equal width",
-                   in_space),
-    entry::integer("Sectors", &P::n_sectors, {'[', 3.0, 32.0, ']'},
-                   "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself", in_space),
-    entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
-                    "E; the normal stiffness is E over the sum of both radii", of_rock),
-    entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", of_rock),
-    entry::number("Friction", &P::friction, ranges::from_zero, "coefficient, of broken segments", of_rock),
-    entry::number("Radius multiplier", &P::radius_multiplier, ranges::above_zero,
-                  "half length of the face over the radius of the smaller grain", of_rock),
-    entry::quantity("Bond tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
-                    "mean; a segment breaks in tension beyond it", of_rock),
-    entry::quantity("Bond tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress,
-                    "MPa", ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
-    entry::quantity("Bond cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
-                    "mean; shear strength of a bond without normal stress", of_rock),
-    entry::quantity("Bond cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
-                    ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
-    entry::quantity("Bond friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
-                    "by which compression adds to the shear strength of a bond", of_rock),
-    entry::choice("Strength draw", &P::strength_draw,
-                  {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
-                  "whether the segments of a face draw their strengths one by one or together", of_rock)};
+    entry::integer<P>("Segments", &P::n_segments, {'[', 1.0, 32.0, ']'},
+                      "of a face in two dimensions, each of which breaks by itself", in_plane),
+    entry::integer<P>("Rings", &P::n_rings, {'[', 1.0, 16.0, ']'}, "of a face in three dimensions, of equal width",
+                      in_space),
+    entry::integer<P>("Sectors", &P::n_sectors, {'[', 3.0, 32.0, ']'},
+                      "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself", in_space),
+    entry::quantity<P>("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
+                       "E; the normal stiffness is E over the sum of both radii", of_rock),
+    entry::number<P>("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness",
+                     of_rock),
+    entry::number<P>("Friction", &P::friction, ranges::from_zero, "coefficient, of broken segments", of_rock),
+    entry::number<P>("Radius multiplier", &P::radius_multiplier, ranges::above_zero,
+                     "half length of the face over the radius of the smaller grain", of_rock),
+    entry::quantity<P>("Bond tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
+                       "mean; a segment breaks in tension beyond it", of_rock),
+    entry::quantity<P>("Bond tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress,
+                       "MPa", ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+    entry::quantity<P>("Bond cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
+                       "mean; shear strength of a bond without normal stress", of_rock),
+    entry::quantity<P>("Bond cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
+                       ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+    entry::quantity<P>("Bond friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
+                       "by which compression adds to the shear strength of a bond", of_rock),
+    entry::choice<P, StrengthDraw>(
+      "Strength draw", &P::strength_draw,
+      {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
+      "whether the segments of a face draw their strengths one by one or together", of_rock)};
   return and_installation(entries, of_rock);
+}
+
+/// Of section Softening flat joint.
+inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_entries()
+{
+  using P = SofteningFlatJointParameters;
+  std::vector<Entry<P>> entries = flat_joint_entries<P>();
+  entries.push_back(entry::quantity("Softening opening", &P::softening_opening, Measure::length, "um",
+                                    ranges::from_zero,
+                                    "over which the stress of a bond falls along a straight line from its strength to "
+                                    "zero, in tension and in shear",
+                                    {.varies = true, .of_specimen = true}));
+  return entries;
 }
 
 /// Of section Parallel bond.

@@ -36,9 +36,9 @@ PlacedSegment<dim, Real> place_segment(const Face<Real>& face, const FaceElement
 }
 
 /// Adds a segment's forces and, about the contact point, their moment: (9), in three dimensions r × F.
-template <typename Real>
+template <typename Real, typename Update>
 void add_segment(FaceResultants<2, Real>& sum, const std::array<Real, 1>& offset, const Real& area,
-                 const flat_joint::SegmentUpdate<2, Real>& update)
+                 const Update& update)
 {
   sum.normal_force += update.normal.force;
   sum.shear_force[0] += update.state.shear_stress[0] * area;
@@ -46,9 +46,9 @@ void add_segment(FaceResultants<2, Real>& sum, const std::array<Real, 1>& offset
   sum.slip_energy += update.slip_energy;
 }
 
-template <typename Real>
+template <typename Real, typename Update>
 void add_segment(FaceResultants<3, Real>& sum, const std::array<Real, 2>& offset, const Real& area,
-                 const flat_joint::SegmentUpdate<3, Real>& update)
+                 const Update& update)
 {
   const Real shear_1 = update.state.shear_stress[0] * area;
   const Real shear_2 = update.state.shear_stress[1] * area;
@@ -61,11 +61,13 @@ void add_segment(FaceResultants<3, Real>& sum, const std::array<Real, 2>& offset
   sum.slip_energy += update.slip_energy;
 }
 
-/// Updates all segments of a face. `segments` gives each one's bond and old state and takes its update:
-///   Bond<Real> bond(i);  SegmentState<dim, Real> state(i);  void set(i, SegmentUpdate<dim, Real>)
-template <int dim, typename Real, typename Segments>
-FaceResultants<dim, Real> update_face(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
-                                      const FaceMotion<dim, Real>& motion, Segments&& segments)
+/// Updates all segments of a face, each by update_segment(segment, bond, old state, motion). `segments` gives each one's
+/// bond and old state and takes its update:
+///   Bond<Real> bond(i);  State state(i);  void set(i, Update)
+template <int dim, typename Real, typename Segments, typename UpdateSegment>
+FaceResultants<dim, Real> update_face_by(UpdateSegment&& update_segment, const Face<Real>& face,
+                                         const std::vector<FaceElement<dim>>& elements,
+                                         const FaceMotion<dim, Real>& motion, Segments&& segments)
 {
   FaceResultants<dim, Real> sum{Real(0.0), {}, {}, Real(0.0)};
   sum.shear_force.fill(Real(0.0));
@@ -75,15 +77,27 @@ FaceResultants<dim, Real> update_face(const Face<Real>& face, const std::vector<
   for (unsigned int i = 0; i < elements.size(); ++i)
     {
       const auto [segment, offset] = place_segment(face, elements[i]);
-      const auto update =
-        flat_joint::update<dim, Real>(segment, segments.bond(i), segments.state(i),
-                                      {flat_joint::gap_at(motion.opening_before, motion.rotation_before, offset),
-                                       flat_joint::gap_at(motion.opening, motion.rotation, offset), slope,
-                                       flat_joint::slip_at(motion.slip_increment, twist, offset)});
+      const flat_joint::SegmentMotion<dim, Real> moves{
+        flat_joint::gap_at(motion.opening_before, motion.rotation_before, offset),
+        flat_joint::gap_at(motion.opening, motion.rotation, offset), slope,
+        flat_joint::slip_at(motion.slip_increment, twist, offset)};
+      const auto update = update_segment(segment, segments.bond(i), segments.state(i), moves);
       segments.set(i, update);
       add_segment(sum, offset, segment.area(), update);
     }
   return sum;
+}
+
+/// By the law of flat_joint_law.h.
+template <int dim, typename Real, typename Segments>
+FaceResultants<dim, Real> update_face(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
+                                      const FaceMotion<dim, Real>& motion, Segments&& segments)
+{
+  return update_face_by<dim, Real>(
+    [](const auto& segment, const auto& bond, const auto& old, const auto& moves) {
+      return flat_joint::update<dim, Real>(segment, bond, old, moves);
+    },
+    face, elements, motion, segments);
 }
 
 /// Stored in the segments of a face [J]; a segment's shear stress and bond by its number.
@@ -183,6 +197,7 @@ struct FlatJoint : CarriedPlane<dim>
   static constexpr bool face_outlives_bonds = true;
   static constexpr bool face_can_slide_off = true;
   static constexpr bool linear_while_bonded = true;
+  static constexpr bool has_equilibria = true;
 
   FlatJoint() = default;
   FlatJoint(const Parameters&, const ParticleContactParameters&) {}

@@ -112,6 +112,15 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
     } -> std::same_as<typename Law::template State<Real>>;
 };
 
+/// A law may have bonds that dissipate before they break; the energy of a break is then all that its bond has dissipated.
+template <typename Law, int dim>
+concept DissipatesBeforeBreaks = requires(const typename Law::template State<double> state)
+{
+  {
+    Law::dissipated_so_far(state)
+    } -> std::same_as<double>; // of a bond that holds [J]
+};
+
 template <typename Law, int dim>
 concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && UpdatesFaces<Law, dim, double> &&
   UpdatesFaces<Law, dim, simd::Pack> &&
@@ -167,6 +176,10 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     Law::linear_while_bonded
     } -> std::convertible_to<bool>;
   // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
+  // Whether representative volumes find equilibria of its faces event by event (coupling/network has its face_response()).
+  {
+    Law::has_equilibria
+    } -> std::convertible_to<bool>;
   {
     law.bonded_stiffness(face, elements.front(), rows)
     } -> std::same_as<JointStiffness<dim>>;

@@ -3,6 +3,7 @@
 #include "dem/laws/flat_joint.h"
 #include "dem/laws/joint_law.h"
 #include "dem/laws/parallel_bond.h"
+#include "dem/laws/softening_flat_joint.h"
 
 #include <concepts>
 #include <optional>
@@ -25,6 +26,12 @@ struct JointLawList
   using Parameters = std::variant<typename Laws<2>::Parameters...>;
 
   static std::vector<std::string_view> names() { return {Laws<2>::name...}; }
+
+  /// Whether representative volumes find equilibria of the law of this name event by event.
+  static bool has_equilibria(const std::string_view name)
+  {
+    return ((Laws<2>::name == name && Laws<2>::has_equilibria) || ...);
+  }
 
   /// The law with these parameters, `contact` being that of pairs without a face.
   template <int dim>
@@ -50,7 +57,7 @@ struct JointLawList
 };
 
 /// The laws there are.
-using JointLaws = JointLawList<FlatJoint, ParallelBond>;
+using JointLaws = JointLawList<FlatJoint, ParallelBond, SofteningFlatJoint>;
 
 template <int dim>
 using AnyJointLaw = JointLaws::Any<dim>;

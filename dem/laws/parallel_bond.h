@@ -91,6 +91,7 @@ struct ParallelBond : CarriedPlane<dim>
   static constexpr bool face_outlives_bonds = true;
   /// The contact beside the bond presses and slides, and does not pull.
   static constexpr bool linear_while_bonded = false;
+  static constexpr bool has_equilibria = true;
   /// Grains whose bond has broken roll and slide about each other as long as they touch.
   static constexpr bool face_can_slide_off = false;
 

@@ -37,6 +37,12 @@ struct FlatJointParameters
   double initial_gap = 0.0;                     ///< g_0 of the gapped joints [m]
 };
 
+/// The same faces, whose bonds soften beyond their strength.
+struct SofteningFlatJointParameters : FlatJointParameters
+{
+  double softening_opening = 5e-6; ///< w, over which the stress of a bond falls to zero [m]
+};
+
 /// The bonds between the grains; the linear contact beside each is that of ParticleContactParameters.
 struct ParallelBondParameters
 {

@@ -98,6 +98,28 @@ TEST(Contact, NamesItsColumns)
             "sigma_3_Pa,tau_3_Pa,bonded_3,sigma_4_Pa,tau_4_Pa,bonded_4");
 }
 
+TEST(Contact, ABondThatSoftensLosesItsTensionOverItsOpening)
+{
+  const TemporaryFolder folder;
+  // Strength 22 MPa at an opening of 0.825 µm; half of the fall at 2.825 µm, all of it beyond 4.825 µm.
+  folder.write("path.csv", "normal_m,shear_m,rotation_rad\n0.825e-6,0,0\n2.825e-6,0,0\n4.9e-6,0,0\n-1e-7,0,0\n");
+  std::string softening(input);
+  softening.replace(softening.find("Flat joint"), 10, "Softening flat joint");
+  folder.write("joint.prm", "subsection Specimen\n  set Joint law = softening flat joint\nend\n" + softening +
+                              "subsection Softening flat joint\n  set Softening opening = 4 um\nend\n");
+  const auto outcome = run_feldspar(folder.path(), "contact joint.prm --output results");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const Table table = read_table(folder.path() / "results/contact.csv");
+  ASSERT_EQ(table.rows.size(), 4u);
+  const std::vector<double> stress{22e6, 11e6, 0.0, -k_n * 1e-7};
+  for (int i = 1; i <= n_segments; ++i)
+    for (std::size_t row = 0; row < stress.size(); ++row)
+      {
+        EXPECT_NEAR(sigma(table.rows[row], i), stress[row], 1e-9 * 22e6);
+        EXPECT_EQ(bonded(table.rows[row], i), row < 2);
+      }
+}
+
 TEST(Contact, IntactJointIsLinear)
 {
   // Within the strengths: tension 22 MPa at an opening of 0.8 µm, shear 400 MPa at 18 µm.

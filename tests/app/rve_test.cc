@@ -391,6 +391,40 @@ TEST(Rve, GoesItsPathByExplicitDynamicsToo)
   EXPECT_EQ(rve["at_end"]["n_tension_cracks"].get<double>(), table.at("n_tension_cracks").back());
 }
 
+TEST(Rve, TakesBondsThatSoftenByExplicitDynamicsOnly)
+{
+  const TemporaryFolder folder;
+  const std::string law = "subsection Specimen\n  set Joint law = softening flat joint\nend\n"
+                          "subsection Softening flat joint\n  set Softening opening = 1 um\nend\n";
+  folder.write("softening.prm", pulled(by_dynamics) + law);
+  folder.write("brittle.prm", pulled(by_dynamics));
+  const auto highest = [&](const std::string& name) {
+    const auto run = run_feldspar(folder.path(), "rve " + name + ".prm --output " + name);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    const auto stress = read_table(folder.path() / name / "curves/rve.csv").at("stress_yy_Pa");
+    return *std::max_element(stress.begin(), stress.end());
+  };
+  EXPECT_GT(highest("softening"), 1.1 * highest("brittle")) << "bonds beside one that softens share its stress";
+  for (const double imbalance : read_table(folder.path() / "softening/curves/rve.csv").at("energy_imbalance"))
+    EXPECT_LT(imbalance, 0.01);
+
+  const std::string sample = "subsection Sample\n  set Elements across = 1\n  set Elements along = 1\nend\n";
+  folder.write("events.prm", pulled("") + law);
+  folder.write("sample.prm", small_cell + sample + law);
+  for (const auto& [arguments, remedy] :
+       {std::pair("rve events.prm", "set Strain path/Solver = explicit or take another law"),
+        std::pair("multiscale sample.prm", "take another law")})
+    {
+      const auto outcome = run_feldspar(folder.path(), std::string(arguments) + " --output bad");
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_NE(outcome.error.find("Specimen/Joint law = softening flat joint: softens between breaks"),
+                std::string::npos)
+        << outcome.error;
+      EXPECT_NE(outcome.error.find(remedy), std::string::npos) << outcome.error;
+      EXPECT_FALSE(fs::exists(folder.path() / "bad"));
+    }
+}
+
 TEST(Rve, GivesTheSameBitsForAnyNumberOfThreads)
 {
   const TemporaryFolder folder;

@@ -255,9 +255,9 @@ TEST(Input, EveryEntryReachesItsMember)
   folder.write("stages.csv", "axial_strain\n0.01\n");
   folder.write("traces.csv", "from_x_m,from_y_m,to_x_m,to_y_m\n0.01,0.02,0.03,0.04\n");
   const Input input = read_input(folder.write("everything.prm", everything));
-  // Parallel bonds exclude flat joints, and clumps mineral grains; they have tests of their own.
+  // Other joint laws exclude flat joints, and clumps mineral grains; they have tests of their own.
   EXPECT_EQ(scan_prm("everything.prm", std::string(everything)).size() + entry_names("Parallel bond").size() +
-              entry_names("Clumps").size(),
+              entry_names("Softening flat joint").size() + entry_names("Clumps").size(),
             parameter_table().size());
 
   EXPECT_EQ(input.calibration.targets, (std::vector<std::string>{"tensile_strength", "youngs_modulus"}));
@@ -542,7 +542,8 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
             "a.prm:2: Variants/Entry = Flat joint/Segments: is of another joint law; Specimen/Joint law is parallel "
             "bond");
   EXPECT_EQ(error_of_entry("Specimen", "Joint law = parallel"),
-            "a.prm:2: Specimen/Joint law = parallel: must be flat joint or parallel bond");
+            "a.prm:2: Specimen/Joint law = parallel: must be flat joint or parallel bond or softening flat "
+            "joint");
 }
 
 // Each value with each of the others, the last entry fastest; in step as many as the lists are long; a table the same by
@@ -597,6 +598,65 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
     }
 }
 
+TEST(Input, EveryEntryOfSofteningFlatJointsReachesItsMember)
+{
+  constexpr std::string_view joints = R"(subsection Specimen
+  set Joint law = softening flat joint
+end
+subsection Softening flat joint
+  set Segments = 3
+  set Rings = 1
+  set Sectors = 6
+  set Modulus = 70 GPa
+  set Stiffness ratio = 1.5
+  set Friction = 0.4
+  set Radius multiplier = 0.9
+  set Bond tensile strength = 20 MPa
+  set Bond tensile strength standard deviation = 2 MPa
+  set Bond cohesion = 300 MPa
+  set Bond cohesion standard deviation = 30 MPa
+  set Bond friction angle = 15 deg
+  set Strength draw = per contact
+  set Installation gap ratio = 0.07
+  set Coordination number = none
+  set Gapped fraction = 0.1
+  set Slit fraction = 0.2
+  set Initial gap = 1 um
+  set Softening opening = 3 um
+end
+)";
+  const auto entries = scan_prm("joints.prm", std::string(joints));
+  EXPECT_EQ(entries.size(), entry_names("Softening flat joint").size() + 1);
+  // Those of space have no use in the plane, where they must be left out.
+  std::string in_plane(joints);
+  for (const std::string line : {"  set Rings = 1\n", "  set Sectors = 6\n"})
+    in_plane.erase(in_plane.find(line), line.size());
+  const TemporaryFolder folder;
+  const Input input = read_input(folder.write("joints.prm", in_plane));
+  const SofteningFlatJointParameters& read = input.softening_flat_joint;
+  EXPECT_EQ(read.n_segments, 3u);
+  EXPECT_EQ(read.modulus, 70e9);
+  EXPECT_EQ(read.stiffness_ratio, 1.5);
+  EXPECT_EQ(read.friction, 0.4);
+  EXPECT_EQ(read.radius_multiplier, 0.9);
+  EXPECT_EQ(read.bond_tensile_strength, 20e6);
+  EXPECT_EQ(read.bond_tensile_strength_deviation, 2e6);
+  EXPECT_EQ(read.bond_cohesion, 300e6);
+  EXPECT_EQ(read.bond_cohesion_deviation, 30e6);
+  EXPECT_DOUBLE_EQ(read.bond_friction_angle, std::numbers::pi / 12.0);
+  EXPECT_EQ(read.strength_draw, StrengthDraw::per_contact);
+  EXPECT_EQ(read.installation_gap_ratio, 0.07);
+  EXPECT_EQ(read.coordination_number, std::nullopt);
+  EXPECT_EQ(read.gapped_fraction, 0.1);
+  EXPECT_EQ(read.slit_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(read.initial_gap, 1e-6);
+  EXPECT_DOUBLE_EQ(read.softening_opening, 3e-6);
+  EXPECT_EQ(input.flat_joint.n_segments, 4u) << "the section of another law";
+  EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = softening flat joint\nend\n"
+                              "subsection Softening flat joint\nset Softening opening = -1 um\nend"),
+            "a.prm:5: Softening flat joint/Softening opening = -1 um: must be >= 0 um");
+}
+
 TEST(Input, VariantsMayDifferInJointLaw)
 {
   const TemporaryFolder folder;
@@ -623,7 +683,8 @@ end
   // Each is told with its own section alone, and without smooth joints and the form of clumps, which neither has.
   for (const Parameter& parameter : parameter_table())
     {
-      if (parameter.section == "Smooth joint" || parameter.name() == "Clumps/Form")
+      if (parameter.section == "Smooth joint" || parameter.section == "Softening flat joint" ||
+          parameter.name() == "Clumps/Form")
         {
           EXPECT_FALSE(has_use_for(both[0].input, parameter) || has_use_for(both[1].input, parameter));
           continue;
@@ -654,7 +715,8 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
             std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segments").find("go together"), std::string::npos);
   EXPECT_EQ(error_of_entry("Variants", "Entry = Segments"),
-            "a.prm:2: Variants/Entry = Segments: lacks its section; write Section/Entry: Flat joint/Segments");
+            "a.prm:2: Variants/Entry = Segments: lacks its section; write Section/Entry: Flat joint/Segments or "
+            "Softening flat joint/Segments");
   EXPECT_NE(error_of_entry("Variants", "Entry = Specimen/Dimension").find("it cannot vary"), std::string::npos);
   EXPECT_NE(error_of_entry("Variants", "Entry = Flat joint/Segmens").find("mean \"Flat joint/Segments\"?"),
             std::string::npos);

@@ -32,6 +32,7 @@ struct ElasticBond : CarriedPlane<dim>
   static constexpr bool face_outlives_bonds = false;
   static constexpr bool face_can_slide_off = false;
   static constexpr bool linear_while_bonded = true;
+  static constexpr bool has_equilibria = false;
 
   ElasticBond() = default;
   explicit ElasticBond(const Parameters&, const ParticleContactParameters& = {}) {}

@@ -3,9 +3,8 @@
 #include "tests/unit/small_specimen.h"
 
 #include <numbers>
-#include <string_view>
 
-/// Parallel bonds for tests, and specimens with them.
+/// Parallel bonds for tests.
 namespace feldspar
 {
 /// All alike: 50 MPa in tension, 60 MPa and 30° in shear; the bond narrower than the grains and softer than their contact.
@@ -22,21 +21,5 @@ inline ParallelBondParameters test_bonds()
   wanted.bond_friction_angle = std::numbers::pi / 6.0;
   wanted.installation_gap_ratio = 1e-6;
   return wanted;
-}
-
-/// Some ninety grains in the plane, or 150 in a cylinder, joined by bonds of scattered strength.
-template <int dim>
-Specimen<dim> small_bonded_specimen()
-{
-  SpecimenParameters wanted;
-  wanted.dimension = dim;
-  wanted.shape = dim == 2 ? "box" : "cylinder";
-  wanted.width = dim == 2 ? 0.012 : 0.008;
-  wanted.height = dim == 2 ? 0.020 : 0.012;
-  wanted.porosity = dim == 2 ? 0.16 : 0.40;
-  ParallelBondParameters bonds = test_bonds();
-  bonds.bond_tensile_strength_deviation = bonds.bond_cohesion_deviation = 10e6;
-  bonds.installation_gap_ratio = 0.05;
-  return make_specimen<dim>(wanted, bonds, {}, 1, [](std::string_view, double) {});
 }
 } // namespace feldspar

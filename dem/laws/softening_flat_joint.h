@@ -1,0 +1,108 @@
+#pragma once
+
+#include "dem/laws/flat_joint.h"
+#include "dem/laws/softening_segment.h"
+
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace feldspar
+{
+/// The flat joint with segments that soften (softening_segment.h), as a joint law (joint_law.h).
+template <int dim>
+struct SofteningFlatJoint : CarriedPlane<dim>
+{
+  using Parameters = SofteningFlatJointParameters;
+  static constexpr std::string_view name = "softening flat joint";
+  static constexpr std::size_t n_more = 3;
+  static constexpr bool face_outlives_bonds = true;
+  static constexpr bool face_can_slide_off = true;
+  /// A segment that has softened remembers it while its bond holds.
+  static constexpr bool linear_while_bonded = false;
+  static constexpr bool has_equilibria = false;
+
+  SofteningFlatJoint() = default;
+  SofteningFlatJoint(const Parameters& wanted, const ParticleContactParameters&)
+    : softening_opening(wanted.softening_opening)
+  {
+  }
+
+  template <typename Archive>
+  void transfer(Archive& archive)
+  {
+    archive.value("softening_opening", softening_opening);
+  }
+
+  bool is_possible() const
+  {
+    return softening_opening >= 0.0 && softening_opening <= std::numeric_limits<double>::max();
+  }
+
+  template <typename Real>
+  using State = softening::State<dim, Real>;
+  template <typename Real>
+  using Update = softening::Update<dim, Real>;
+
+  static FaceDivision<dim> division(const Parameters& wanted) { return FlatJoint<dim>::division(wanted); }
+  static double friction(const Parameters& wanted, const ParticleContactParameters& contact)
+  {
+    return FlatJoint<dim>::friction(wanted, contact);
+  }
+  static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
+  {
+    return FlatJoint<dim>::draw_bonds(wanted, n_elements, random);
+  }
+
+  template <typename Real, typename Elements>
+  FaceResultants<dim, Real> update(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
+                                   const FaceMotion<dim, Real>& motion, Elements&& states) const
+  {
+    return update_face_by<dim, Real>(
+      [this](const auto& segment, const auto& bond, const auto& old, const auto& moves) {
+        return softening::update<dim, Real>(segment, bond, softening_opening, old, moves);
+      },
+      face, elements, motion, states);
+  }
+
+  template <typename StateOf>
+  double stored_energy(const Face<double>& face, const std::vector<FaceElement<dim>>& elements, const double opening,
+                       const std::array<double, n_rotations<dim>>& rotation, StateOf&& state_of) const
+  {
+    double sum = face_energy<dim>(
+      face, elements, opening, rotation, [&](const unsigned int i) { return state_of(i).shear_stress; },
+      [](unsigned int) { return false; });
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      if (const State<double> state = state_of(i); state.bonded)
+        {
+          const auto [segment, offset] = place_segment(face, elements[i]);
+          sum += (1.0 - state.more[0]) *
+                 softening::energy_of_bond(segment, flat_joint::gap_at(opening, rotation, offset), rotation[0]);
+        }
+    return sum;
+  }
+
+  /// What a bond that holds has dissipated so far [J].
+  static double dissipated_so_far(const State<double>& state) { return state.bonded ? state.more[2] : 0.0; }
+
+  static FaceSprings stiffest(const Face<double>& face) { return FlatJoint<dim>::stiffest(face); }
+
+  /// As long as no segment has softened.
+  JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>& element,
+                                       const ElementRows<dim>& rows) const
+  {
+    return FlatJoint<dim>().bonded_stiffness(face, element, rows);
+  }
+  static Vector<dim> strain(const ElementRows<dim>& rows, const Motion<dim>& motion)
+  {
+    return FlatJoint<dim>::strain(rows, motion);
+  }
+  static BondStress bond_stress(const Face<double>& face, const Vector<dim>& strain)
+  {
+    return FlatJoint<dim>::bond_stress(face, strain);
+  }
+
+private:
+  double softening_opening = 0.0; ///< w [m]
+};
+} // namespace feldspar
