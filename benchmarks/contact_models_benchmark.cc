@@ -33,6 +33,13 @@ Specimen<2> of_flat_joints()
   return specimen_of(joint);
 }
 
+Specimen<2> of_softening_flat_joints()
+{
+  SofteningFlatJointParameters joint;
+  joint.installation_gap_ratio = gap_ratio;
+  return specimen_of(joint);
+}
+
 Specimen<2> of_parallel_bonds()
 {
   ParallelBondParameters bond;
@@ -68,6 +75,7 @@ void step(benchmark::State& state, const std::function<Specimen<2>()>& make)
 }
 
 BENCHMARK_CAPTURE(step, flat_joint, of_flat_joints);
+BENCHMARK_CAPTURE(step, softening_flat_joint, of_softening_flat_joints);
 BENCHMARK_CAPTURE(step, parallel_bond, of_parallel_bonds);
 BENCHMARK_CAPTURE(step, clumps, of_clumps);
 BENCHMARK_CAPTURE(step, grain_based, of_mineral_grains);

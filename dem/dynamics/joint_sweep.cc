@@ -20,9 +20,9 @@ SweepMemory<dim>::SweepMemory(const Joints<dim>& joints)
           least_tension = std::min(least_tension, joints.tensile_strength[segment]);
           least_cohesion = std::min(least_cohesion, joints.cohesion[segment]);
         }
-      const bool is_whole = joints.holds_wholly(j);
-      *weakest.at(tensile_strength, j) = is_whole ? least_tension : -joint_sweep::infinity;
-      *weakest.at(cohesion, j) = is_whole ? least_cohesion : -joint_sweep::infinity;
+      const bool whole = std::visit([&](const auto& law) { return is_whole(law, joints, j); }, joints.law);
+      *weakest.at(tensile_strength, j) = whole ? least_tension : -joint_sweep::infinity;
+      *weakest.at(cohesion, j) = whole ? least_cohesion : -joint_sweep::infinity;
     }
 }
 

@@ -81,7 +81,7 @@ struct StoredSegments
   const Face<Real>& face;
   const FaceBefore<dim, Real>& before;
   std::vector<Break>& breaks;
-  Mask some_broke{false};
+  Mask some_changed{false}; ///< broke, or remembers now what the motion of its face does not tell
 
   static constexpr std::size_t n_rows = JointTables<dim>::n_segment_rows;
 
@@ -123,9 +123,10 @@ struct StoredSegments
       for (std::size_t k = 0; k < Law::n_more; ++k)
         simd::store(update.state.more[k], joints.more(k).pack(i, first));
     const Mask broke = update.tension_break || update.shear_break;
+    if constexpr (RespondsAsOne<Law, dim, Real>)
+      some_changed = some_changed || broke || Law::remembers(update.state);
     if (!simd::any(broke))
       return;
-    some_broke = some_broke || broke;
     for (std::size_t j = 0; j < simd::width<Real>; ++j)
       if (simd::lane(broke, j))
         {
@@ -168,18 +169,18 @@ template <typename Real, typename Law, int dim>
 {
   StoredSegments<Law, dim, Real> segments{joints, j, face, before, breaks};
   FaceResultants<dim, Real> sum = law.update(face, joints.elements, motion, segments);
-  const auto is_whole = before.is_whole && !segments.some_broke;
+  const auto is_whole = before.is_whole && !segments.some_changed;
   sum.normal_force = simd::select(is_whole, as_one.normal_force, sum.normal_force);
   for (std::size_t c = 0; c < sum.shear_force.size(); ++c)
     sum.shear_force[c] = simd::select(is_whole, as_one.shear_force[c], sum.shear_force[c]);
   for (std::size_t c = 0; c < sum.moment.size(); ++c)
     sum.moment[c] = simd::select(is_whole, as_one.moment[c], sum.moment[c]);
 
-  if (simd::any(before.is_whole && segments.some_broke))
+  if (simd::any(before.is_whole && segments.some_changed))
     for (const std::size_t row : {memory.tensile_strength, memory.cohesion})
       {
         double* const least = memory.weakest.at(row, j);
-        simd::store(simd::select(segments.some_broke, Real(-infinity), simd::load<Real>(least)), least);
+        simd::store(simd::select(segments.some_changed, Real(-infinity), simd::load<Real>(least)), least);
       }
   add_slip_energy(joints, j, sum.slip_energy);
   return sum;
@@ -350,10 +351,8 @@ std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grain
   return all;
 }
 
-/// What a segment remembers, stored or known from the motion of its face.
 template <int dim, JointLaw<dim> Law>
-typename Law::template State<double> segment_state(const Law&, const Joints<dim>& joints, const unsigned int i,
-                                                   const std::size_t j)
+typename Law::template State<double> stored_state(const Joints<dim>& joints, const unsigned int i, const std::size_t j)
 {
   const std::size_t segment = joints.segment(i, j);
   typename Law::template State<double> state;
@@ -363,8 +362,29 @@ typename Law::template State<double> segment_state(const Law&, const Joints<dim>
   if constexpr (Law::n_more > 0)
     for (std::size_t k = 0; k < Law::n_more; ++k)
       state.more[k] = *joints.more_state.at(i * Law::n_more + k, j);
+  return state;
+}
+
+/// Whether a face responds as one: all its bonds hold, and none remembers more than the motion of the face tells.
+template <int dim, JointLaw<dim> Law>
+bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
+{
+  if (!joints.holds_wholly(j))
+    return false;
   if constexpr (RespondsAsOne<Law, dim, double>)
-    if (joints.holds_wholly(j))
+    for (unsigned int i = 0; i < joints.n_segments; ++i)
+      if (Law::remembers(stored_state<dim, Law>(joints, i, j)))
+        return false;
+  return true;
+}
+
+/// What a segment remembers, stored or known from the motion of its face.
+template <int dim, JointLaw<dim> Law>
+typename Law::template State<double> segment_state(const Law& law, const Joints<dim>& joints, const unsigned int i,
+                                                   const std::size_t j)
+{
+  if constexpr (RespondsAsOne<Law, dim, double>)
+    if (is_whole(law, joints, j))
       {
         std::array<double, n_rotations<dim>> rotation;
         for (int c = 0; c < n_rotations<dim>; ++c)
@@ -374,7 +394,7 @@ typename Law::template State<double> segment_state(const Law&, const Joints<dim>
           slip[c] = joints.slip[c][j];
         return Law::whole_state(joints.face(j), joints.elements[i], rotation, slip);
       }
-  return state;
+  return stored_state<dim, Law>(joints, i, j);
 }
 
 /// joint_energy() with the law known.

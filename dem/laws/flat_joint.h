@@ -262,6 +262,12 @@ struct FlatJoint : CarriedPlane<dim>
     return {shear, decltype(Real() < Real())(true)};
   }
 
+  template <typename Real>
+  static auto remembers(const State<Real>&)
+  {
+    return decltype(Real() < Real())(false);
+  }
+
   template <typename StateOf>
   double stored_energy(const Face<double>& face, const std::vector<FaceElement<dim>>& elements, const double opening,
                        const std::array<double, n_rotations<dim>>& rotation, StateOf&& state_of) const

@@ -92,13 +92,14 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
     } -> std::same_as<FaceResultants<dim, Real>>;
 };
 
-/// A law may know the response of a face whose elements are all bonded from its motion since installation. The sweep then
+/// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
+/// installation. The sweep then
 /// looks at elements one by one only where a bond may break or one has broken, and their shear stress need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
                                  const std::array<Real, n_rotations<dim>> rotation,
-                                 const std::array<Real, dim - 1> slip)
+                                 const std::array<Real, dim - 1> slip, const typename Law::template State<Real> state)
 {
   // Whether it is certain that no bond breaks; the bond has the least strengths of the face.
   {
@@ -110,6 +111,10 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
   {
     Law::whole_state(face, element, rotation, slip)
     } -> std::same_as<typename Law::template State<Real>>;
+  // Whether a bonded element remembers more than whole_state() tells: its face no longer responds as one.
+  {
+    Law::remembers(state)
+    } -> std::same_as<decltype(Real() < Real())>;
 };
 
 /// A law may have bonds that dissipate before they break; the energy of a break is then all that its bond has dissipated.

@@ -65,6 +65,36 @@ struct SofteningFlatJoint : CarriedPlane<dim>
       face, elements, motion, states);
   }
 
+  /// As long as no segment has softened: the flat joint.
+  template <typename Real>
+  static auto surely_holds(const Face<Real>& face, const WholeFace<dim>& whole, const Bond<Real>& least,
+                           const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
+                           const std::array<Real, dim - 1>& slip)
+  {
+    return FlatJoint<dim>::surely_holds(face, whole, least, opening, rotation, slip);
+  }
+  template <typename Real>
+  static FaceResultants<dim, Real> whole_response(const Face<Real>& face, const WholeFace<dim>& whole,
+                                                  const Real& opening,
+                                                  const std::array<Real, n_rotations<dim>>& rotation,
+                                                  const std::array<Real, dim - 1>& slip)
+  {
+    return FlatJoint<dim>::whole_response(face, whole, opening, rotation, slip);
+  }
+  template <typename Real>
+  static State<Real> whole_state(const Face<Real>& face, const FaceElement<dim>& element,
+                                 const std::array<Real, n_rotations<dim>>& rotation,
+                                 const std::array<Real, dim - 1>& slip)
+  {
+    const auto state = FlatJoint<dim>::whole_state(face, element, rotation, slip);
+    return {state.shear_stress, state.bonded, {Real(0.0), Real(0.0), Real(0.0)}};
+  }
+  template <typename Real>
+  static auto remembers(const State<Real>& state)
+  {
+    return state.more[0] > 0.0;
+  }
+
   template <typename StateOf>
   double stored_energy(const Face<double>& face, const std::vector<FaceElement<dim>>& elements, const double opening,
                        const std::array<double, n_rotations<dim>>& rotation, StateOf&& state_of) const

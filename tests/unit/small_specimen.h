@@ -9,12 +9,13 @@
 namespace feldspar
 {
 /// Table 1 in a box of 12 × 20 mm: some ninety grains.
-inline Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0)
+template <typename Joint = FlatJointParameters>
+Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0,
+                           Joint flat_joint = Joint())
 {
   SpecimenParameters wanted;
   wanted.width = 0.012;
   wanted.height = 0.020;
-  FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength *= bond_strength_factor;
   flat_joint.bond_cohesion *= bond_strength_factor;
@@ -22,8 +23,9 @@ inline Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bon
 }
 
 /// Table 1 in a cylinder (or box) of 8 × 12 mm: some 150 grains.
-inline Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0,
-                                  const std::string& shape = "cylinder")
+template <typename Joint = FlatJointParameters>
+Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0,
+                           const std::string& shape = "cylinder", Joint flat_joint = Joint())
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;
@@ -31,7 +33,6 @@ inline Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bon
   wanted.width = 0.008;
   wanted.height = 0.012;
   wanted.porosity = 0.40; // of so small a body; the walls leave voids
-  FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
   flat_joint.bond_tensile_strength *= bond_strength_factor;
   flat_joint.bond_cohesion *= bond_strength_factor;
