@@ -18,7 +18,7 @@ studies=("$@")
   contact-models/{parallel-bond,grain-based}
   calibrate-beishan/calibrate
   flawed-granite/flaw
-  toughness/toughness
+  toughness/{toughness,softening,softening-strength}
   direct-shear/{smooth-plane,intact}
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}

@@ -13,7 +13,7 @@ namespace feldspar::plot
 namespace
 {
 /// None of them that of a kind of cracks.
-constexpr std::array colours{green, purple, orange, sky};
+constexpr std::array colours{green, purple, orange, sky, brown, lime};
 } // namespace
 
 std::string colour(const Series& series, const std::size_t n)

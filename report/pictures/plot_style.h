@@ -22,6 +22,8 @@ inline constexpr const char* green = "#009E73";
 inline constexpr const char* purple = "#CC79A7";
 inline constexpr const char* sky = "#56B4E9";
 inline constexpr const char* orange = "#E69F00";
+inline constexpr const char* brown = "#8C564B"; // this and the next are not of that scheme
+inline constexpr const char* lime = "#9ACD32";
 
 // A colour has one meaning on a page: these two are kinds of cracks and no series.
 inline constexpr const char* tension_colour = vermillion;

@@ -28,6 +28,11 @@ inline std::string number(const nlohmann::json& value, const double scale, const
   return fmt::format("{:.{}f}", value.get<double>() / scale, decimals);
 }
 
+inline double mean_of(const nlohmann::json& study, const std::string& group, const std::string& key = "peak_stress_Pa")
+{
+  return study["ensemble"][group][key]["mean"].get<double>();
+}
+
 inline std::string mean_and_deviation(const nlohmann::json& study, const std::string& group, const std::string& key,
                                       const double scale, const int decimals)
 {

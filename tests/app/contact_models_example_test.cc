@@ -21,11 +21,6 @@ const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/contact
 
 json study(const std::string& name) { return results_of("contact-models", name); }
 
-double mean_of(const json& of, const std::string& group, const std::string& key = "peak_stress_Pa")
-{
-  return of["ensemble"][group][key]["mean"].get<double>();
-}
-
 double ratio_of_strengths(const json& of, const std::string& of_group = "")
 {
   return mean_of(of, fmt::format("direct_tension{}", of_group)) /

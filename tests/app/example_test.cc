@@ -378,22 +378,55 @@ TEST(Example, TheBenchmarksReadmeShowsTheStepsOfTheLargeCylinder)
   shown("\n| triaxial compression, seating at 10 MPa | " + number(tests[2]["step_s"], 1e-3, 0) + " |");
 }
 
+/// Toughness in MPa √m and work of fracture in J/m² of a variant, by the beam and by the half disc, as cells of a table.
+std::string cells_of_bending(const nlohmann::json& study, const int variant)
+{
+  const auto cell = [&](const char* kind, const char* key, const double scale, const int decimals) {
+    return mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals);
+  };
+  return fmt::format(" {} | {} | {} | {} |", cell("three_point_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
+                     cell("semicircular_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
+                     cell("three_point_bending", "fracture_energy_J_per_m2", 1.0, 1),
+                     cell("semicircular_bending", "fracture_energy_J_per_m2", 1.0, 1));
+}
+
 TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
 {
-  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/toughness/";
-  const std::string readme = content(folder + "README.md");
-  const auto study = nlohmann::json::parse(content(folder + "results/toughness.json"));
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/toughness/README.md");
+  const auto shown = [&](const std::string& row) {
+    EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+  };
+  const auto of_radii = results_of("toughness", "toughness");
   for (const auto& [radius, variant] : {std::pair("0.62", 1), {"0.88", 2}, {"1.24", 3}})
+    shown(fmt::format("| {} |{}", radius, cells_of_bending(of_radii, variant)));
+
+  const auto bent = results_of("toughness", "softening");
+  const auto pressed = results_of("toughness", "softening-strength");
+  const double strength = 22e6, stiffness = 80e9 / (2.0 * 0.82e-3); // of a bond between grains of the mean radius
+  int variant = 1;
+  for (const double opening : {0.0, 1e-6, 2e-6, 5e-6, 10e-6})
     {
-      const auto cell = [&](const char* kind, const char* key, const double scale, const int decimals) {
-        return mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals);
+      const auto peak = [&](const char* kind) {
+        return mean_and_deviation(pressed, fmt::format("{}_variant_{}", kind, variant), "peak_stress_Pa", 1e6, 1);
       };
-      const std::string row = fmt::format("| {} | {} | {} | {} | {} |", radius,
-                                          cell("three_point_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
-                                          cell("semicircular_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
-                                          cell("three_point_bending", "fracture_energy_J_per_m2", 1.0, 1),
-                                          cell("semicircular_bending", "fracture_energy_J_per_m2", 1.0, 1));
-      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      shown(fmt::format("| {:.0f} | {:.0f} | {} | {} |{}", 1e6 * opening,
+                        0.5 * strength * (opening + strength / stiffness), peak("direct_tension"),
+                        peak("uniaxial_compression"), cells_of_bending(bent, variant)));
+
+      // The same row with strengths and opening scaled by one factor to the tensile strength of the granite.
+      const auto mean = [&](const nlohmann::json& study, const char* kind, const char* key) {
+        return mean_of(study, fmt::format("{}_variant_{}", kind, variant), key);
+      };
+      const double scale = 9.53e6 / mean(pressed, "direct_tension", "peak_stress_Pa");
+      const auto bending = [&](const char* key, const double factor, const int decimals) {
+        return fmt::format("{:.{}f} | {:.{}f}", factor * mean(bent, "three_point_bending", key), decimals,
+                           factor * mean(bent, "semicircular_bending", key), decimals);
+      };
+      shown(fmt::format("| {:.1f} | {:.1f} | {:.0f} | {:.0f} | {} | {} |", 1e6 * opening * scale, 22.0 * scale,
+                        400.0 * scale, scale * mean(pressed, "uniaxial_compression", "peak_stress_Pa") / 1e6,
+                        bending("fracture_toughness_Pa_sqrt_m", scale / 1e6, 2),
+                        bending("fracture_energy_J_per_m2", scale * scale, 0)));
+      ++variant;
     }
 }
 

@@ -54,8 +54,8 @@ class LaboratoryTests : public testing::Test
 {
 };
 
-using Cases = testing::Types<ParallelBonds<2>, ParallelBonds<3>, SofteningJoints<2>, SofteningJoints<3>>;
-TYPED_TEST_SUITE(LaboratoryTests, Cases);
+using OtherLaws = testing::Types<ParallelBonds<2>, ParallelBonds<3>, SofteningJoints<2>, SofteningJoints<3>>;
+TYPED_TEST_SUITE(LaboratoryTests, OtherLaws);
 
 /// Some ninety grains in the plane, or 150 in a cylinder, joined by bonds of scattered strength.
 template <typename Case>

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace feldspar
+namespace feldspar::softening
 {
 namespace
 {
@@ -265,7 +265,7 @@ struct FaceStates
 {
   std::vector<softening::State<2, double>> states{4, {{0.0}, true, {0.0, 0.0, 0.0}}};
 
-  static Bond<double> bond(unsigned int) { return feldspar::bond; }
+  static Bond<double> bond(unsigned int) { return softening::bond; }
   const auto& state(const unsigned int i) const { return states[i]; }
   void set(const unsigned int i, const softening::Update<2, double>& update) { states[i] = update.state; }
 };
@@ -368,4 +368,4 @@ TEST(SofteningSegment, ABondWithoutTensileStrengthBearsNoTensionAndNothingIsNotA
   EXPECT_DOUBLE_EQ(update.normal.force, 4e6 * segment.area());
 }
 } // namespace
-} // namespace feldspar
+} // namespace feldspar::softening

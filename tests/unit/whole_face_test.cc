@@ -25,7 +25,7 @@ static_assert(!RespondsAsOne<SegmentBySegment<FlatJoint<2>>, 2, simd::Pack> &&
               !RespondsAsOne<SegmentBySegment<FlatJoint<3>>, 3, double>);
 
 template <template <int> class L, int n>
-struct Case
+struct LawAndDimension
 {
   static constexpr int dim = n;
   using Law = L<n>;
@@ -65,9 +65,10 @@ template <typename>
 class WholeFace : public testing::Test
 {
 };
-using Cases =
-  testing::Types<Case<FlatJoint, 2>, Case<FlatJoint, 3>, Case<SofteningFlatJoint, 2>, Case<SofteningFlatJoint, 3>>;
-TYPED_TEST_SUITE(WholeFace, Cases, );
+using LawsThatRespondAsOne =
+  testing::Types<LawAndDimension<FlatJoint, 2>, LawAndDimension<FlatJoint, 3>, LawAndDimension<SofteningFlatJoint, 2>,
+                 LawAndDimension<SofteningFlatJoint, 3>>;
+TYPED_TEST_SUITE(WholeFace, LawsThatRespondAsOne, );
 
 TYPED_TEST(WholeFace, RespondsAndBreaksAsItsSegmentsDo)
 {
