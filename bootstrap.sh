@@ -66,7 +66,7 @@ need_packages()
     apt-get install --quiet --yes --no-install-recommends "${missing[@]}" </dev/null
 }
 
-# Several files a unit: two thirds of the processor time of a clean build or less, and the same bits. Who changes the code turns it
+# Several files a unit: about two thirds of the processor time of a clean build, and the same bits. Who changes the code turns it
 # off in build/release (CONTRIBUTING.md).
 joined_units=-DCMAKE_UNITY_BUILD=ON
 

@@ -301,6 +301,17 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
                                           mean_and_deviation(study, kind, key, scale, decimals));
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
+
+  const auto triaxial = results_of("beishan-cylinder", "full-size-triaxial-10");
+  const std::string kind = "triaxial_compression_10_MPa";
+  const auto& confined = test_of(triaxial, kind + "_seed_1");
+  EXPECT_EQ(confined["n_joints"], packing["n_joints"]);
+  const std::string row =
+    fmt::format("| strength at 10 MPa [MPa] | {} | {} |", number(confined["peak_stress_Pa"], 1e6, 1),
+                mean_and_deviation(study, kind, "peak_stress_Pa", 1e6, 1));
+  EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+  EXPECT_NE(readme.find(fmt::format("took {} minutes by the clock", number(confined["wall_time_s"], 60.0, 0))),
+            std::string::npos);
 }
 
 TEST(Example, StaticPackingsAreTheRockOfDynamics)

@@ -541,6 +541,7 @@ const std::map<std::string, std::string> without_piece{
   {"free-sides-3d-20-mm-cell.json", "packings of spheres take minutes"},
   {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},
+  {"full-size-triaxial-10.json", "the packing of 49 464 spheres and a test of it take minutes"},
 };
 
 TEST(CommittedResults, OfExamplesHaveAPieceOrAReason)
