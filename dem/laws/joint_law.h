@@ -93,8 +93,8 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
 };
 
 /// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
-/// installation. The sweep then
-/// looks at elements one by one only where a bond may break or one has broken, and their shear stress need not be stored.
+/// installation. The sweep then looks at elements one by one only where a bond may break or one has broken, and their
+/// shear stress need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
@@ -180,11 +180,11 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
   {
     Law::linear_while_bonded
     } -> std::convertible_to<bool>;
-  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
-  // Whether representative volumes find equilibria of its faces event by event (coupling/network has its face_response()).
+  // Whether representative volumes find equilibria of its faces event by event: coupling/network has its face_response().
   {
     Law::has_equilibria
     } -> std::convertible_to<bool>;
+  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
   {
     law.bonded_stiffness(face, elements.front(), rows)
     } -> std::same_as<JointStiffness<dim>>;

@@ -310,8 +310,16 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
     fmt::format("| strength at 10 MPa [MPa] | {} | {} |", number(confined["peak_stress_Pa"], 1e6, 1),
                 mean_and_deviation(study, kind, "peak_stress_Pa", 1e6, 1));
   EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
-  EXPECT_NE(readme.find(fmt::format("took {} minutes by the clock", number(confined["wall_time_s"], 60.0, 0))),
+  EXPECT_NE(readme.find(fmt::format("at 10 MPa took {} minutes and {} GB",
+                                    number(packing["triaxial_10_processor_time_s"], 60.0, 0),
+                                    number(packing["triaxial_10_peak_memory_kB"], 1e6, 1))),
             std::string::npos);
+  EXPECT_NE(readme.find(fmt::format("At 10 MPa {} % of the cracks up to the peak",
+                                    number(confined["shear_share_at_peak"], 0.01, 0))),
+            std::string::npos);
+  EXPECT_NE(
+    readme.find(fmt::format("ends at {:.0f} % of the peak", 100.0 * (1.0 - confined["post_peak_drop"].get<double>()))),
+    std::string::npos);
 }
 
 TEST(Example, StaticPackingsAreTheRockOfDynamics)
