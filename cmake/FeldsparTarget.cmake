@@ -38,6 +38,14 @@ if(FELDSPAR_FUZZ)
   target_compile_options(feldspar_settings INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Less optimisation, a quarter less time to compile, the same bits: for targets that lead runs and write results, whose own
+# loops do not show beside those of dem/, fem/ and coupling/.
+function(feldspar_optimise_lightly)
+  foreach(name ${ARGN})
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
+
 # The settings are for building here, not part of what is installed.
 function(feldspar_add_library name)
   add_library(${name} STATIC ${ARGN})

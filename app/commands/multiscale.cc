@@ -58,11 +58,11 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
 /// RVEs, tests and report of a run in its folder, from wherever it stands.
 RunEnd go(const Run& run, std::vector<std::string> remarks)
 {
-  const auto& [folder, input_file, input, quiet] = run;
-  Progress progress(quiet || !ranks::is_first());
+  const Input& input = run.input;
+  Progress progress(run.quiet || !ranks::is_first());
 
   // Make the rock.
-  const auto rocks = make_rocks(input, input_file, folder, progress);
+  const auto rocks = make_rocks(input, run.input_file, run.folder, progress);
 
   // Break it.
   std::vector<PlannedSample> planned;
@@ -72,9 +72,9 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     }
   catch (const InputError& error)
     {
-      throw InputError(fmt::format("{}: {}", input_file.string(), error.what()));
+      throw InputError(fmt::format("{}: {}", run.input_file.string(), error.what()));
     }
-  ranks::first([&] { std::filesystem::create_directories(folder / "fields"); });
+  ranks::first([&] { std::filesystem::create_directories(run.folder / "fields"); });
   std::vector<FinishedTest> tests;
   std::vector<BoardTest> shown;
   for (const PlannedSample& one : planned)
@@ -86,7 +86,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
       if (ranks::any(interrupted()))
         break;
       const std::size_t k = tests.size();
-      tests.push_back(run_test(one, input, folder, [&](const CurveSample* const row, const std::string& more) {
+      tests.push_back(run_test(one, input, run.folder, [&](const CurveSample* const row, const std::string& more) {
         row ? board.update(k, *row, more) : board.update(k, more);
       }));
       board.finish(k);
@@ -100,18 +100,19 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
   if (failed != tests.end() &&
       std::all_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); }))
-    throw InputError(fmt::format("{}: {}", input_file.string(), failed->record.failure));
+    throw InputError(fmt::format("{}: {}", run.input_file.string(), failed->record.failure));
 
   // Report.
   const bool was_interrupted = ranks::any(interrupted());
   ranks::first([&] {
-    auto [envelopes, missing] = write_and_report(provenance(input, input_file), tests, input.reference_file, folder);
+    auto [envelopes, missing] =
+      write_and_report(provenance(input, run.input_file), tests, input.reference_file, run.folder);
     append(remarks, std::move(missing));
     std::vector<SpecimenReport> bodies;
     for (const Rock& rock : rocks)
       append(bodies, rock.reports());
     append(remarks, beside_reference_body(input, bodies));
-    write_log(folder, describe_run(input, rocks, tests, envelopes, remarks), quiet);
+    write_log(run.folder, describe_run(input, rocks, tests, envelopes, remarks), run.quiet);
   });
   // Of what was interrupted while it was drawn the pictures are still to be made.
   return {ranks::any(was_interrupted || interrupted()),

@@ -202,12 +202,12 @@ void share_out_paths(const Run& run, Progress& progress)
         own.push_back(paths[k]);
     Board board(progress, std::max<std::size_t>(own.size(), 1));
     for_each_job(own.size(), [&](const std::size_t k) {
-      const auto& [variant, specimen, name] = own[k];
-      const auto cell = read_specimen<dim>(run.folder / (orders[specimen].name + ".h5"));
+      const PlannedPath& path = own[k];
+      const auto cell = read_specimen<dim>(run.folder / (orders[path.specimen].name + ".h5"));
       if (cell.periodic)
-        run_rve<dim>(all_variants[variant], name, cell, run.folder,
+        run_rve<dim>(all_variants[path.variant], path.name, cell, run.folder,
                      [&](const double progress_of_path, const PathSample<dim>& sample) {
-                       board.update(k, progress_of_path, describe(name, sample));
+                       board.update(k, progress_of_path, describe(path.name, sample));
                      });
     });
     progress.finish(fmt::format("{} of {} RVE(s)", own.size(), paths.size()));
@@ -218,35 +218,35 @@ void share_out_paths(const Run& run, Progress& progress)
 template <int dim>
 RunEnd strain_alone(const Run& run, Progress& progress)
 {
-  const auto& [folder, input_file, input, quiet] = run;
+  const Input& input = run.input;
 
   // Make the rock.
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
-  const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
+  const auto specimens = provide_specimens<dim>(all_variants, orders, run.folder, progress);
   for (const auto& specimen : specimens)
     if (!specimen.periodic)
       throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; a representative volume "
                                    "needs a periodic cell (feldspar lab takes walls)",
-                                   input_file.string()));
+                                   run.input_file.string()));
 
   // Strain it.
-  std::filesystem::create_directories(folder / "checkpoints");
+  std::filesystem::create_directories(run.folder / "checkpoints");
   const auto runs = plan(input, all_variants, orders);
   std::vector<FinishedRve<dim>> rves(runs.size());
   Board board(progress, runs.size());
   for_each_job(runs.size(), [&](const std::size_t k) {
-    const auto& [variant, specimen, name] = runs[k];
-    rves[k] = run_rve<dim>(all_variants[variant], name, specimens[specimen], folder,
+    const PlannedPath& path = runs[k];
+    rves[k] = run_rve<dim>(all_variants[path.variant], path.name, specimens[path.specimen], run.folder,
                            [&](const double progress_of_path, const PathSample<dim>& sample) {
-                             board.update(k, progress_of_path, describe(name, sample));
+                             board.update(k, progress_of_path, describe(path.name, sample));
                            });
   });
   progress.finish(fmt::format("{} RVE(s)", rves.size()));
 
   // Report.
   const bool was_interrupted = interrupted();
-  write_results(provenance(input, input_file), rves, folder);
+  write_results(provenance(input, run.input_file), rves, run.folder);
   std::string text;
   for (const auto& rve : rves)
     text += describe(rve) + "\n";
@@ -255,7 +255,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
     bodies.push_back(specimen.report);
   for (const std::string& line : beside_reference_body(input, bodies))
     text += line + "\n";
-  write_log(folder, text, quiet);
+  write_log(run.folder, text, run.quiet);
   const auto failed =
     std::find_if(rves.begin(), rves.end(), [](const FinishedRve<dim>& rve) { return !rve.record.failure.empty(); });
   return {was_interrupted, failed == rves.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};

@@ -46,15 +46,14 @@ TEST(ContactModels, StandInOneTable)
       text += fmt::format(" {} |", figure(model));
     expect_shown(text);
   };
-  for (const auto& [name, group, key, scale, decimals] :
-       {Row{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
-        {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
-        {"Young's modulus, tangent at half of the peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa", 1e9,
-         1},
-        {"strength at 5 MPa [MPa]", "triaxial_compression_5_MPa", "peak_stress_Pa", 1e6, 1},
-        {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
-        {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1}})
-    row(name, [&](const json& of) { return mean_and_deviation(of, group, key, scale, decimals); });
+  for (const Row& one : {Row{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
+                         {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
+                         {"Young's modulus, tangent at half of the peak [GPa]", "uniaxial_compression",
+                          "youngs_modulus_tangent_Pa", 1e9, 1},
+                         {"strength at 5 MPa [MPa]", "triaxial_compression_5_MPa", "peak_stress_Pa", 1e6, 1},
+                         {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
+                         {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1}})
+    row(one.name, [&](const json& of) { return mean_and_deviation(of, one.kind, one.key, one.scale, one.decimals); });
   row("ratio of their means", [](const json& of) { return fmt::format("{:.3f}", ratio_of_strengths(of)); });
   row("slope of the line of Mohr and Coulomb, σ₁ over σ₃",
       [](const json& of) { return fmt::format("{:.2f}", slope(of)); });

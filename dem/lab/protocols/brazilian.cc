@@ -53,8 +53,8 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, con
 }
 
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const Specimen<dim> lying = laid_on_side(specimen);
@@ -106,7 +106,7 @@ constinit const LaboratoryProtocol brazilian = complete({
   .strain_rate = &TestParameters::brazilian_strain_rate,
   .forecast = {PeakForecast::With::tension, 4.0},
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_brazilian<2>,
+  .set_up_3d = set_up_brazilian<3>,
 });
 } // namespace feldspar

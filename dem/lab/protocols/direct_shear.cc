@@ -36,8 +36,8 @@ double push(const Dynamics<dim>& dynamics, const HalfBox& half)
 }
 
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double normal_stress, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double normal_stress,
+                                   const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -94,7 +94,7 @@ constinit const LaboratoryProtocol direct_shear = complete({
            .pressure_acts_across = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::shear_strain_rate,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_direct_shear<2>,
+  .set_up_3d = set_up_direct_shear<3>,
 });
 } // namespace feldspar

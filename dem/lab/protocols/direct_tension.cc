@@ -10,8 +10,8 @@ namespace feldspar
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                     const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -57,7 +57,7 @@ constinit const LaboratoryProtocol direct_tension = complete({
   .strain_rate = &TestParameters::tension_strain_rate,
   .forecast = {PeakForecast::With::tension},
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_direct_tension<2>,
+  .set_up_3d = set_up_direct_tension<3>,
 });
 } // namespace feldspar

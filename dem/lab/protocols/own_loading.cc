@@ -13,8 +13,8 @@ namespace feldspar
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                  const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -107,7 +107,7 @@ constinit const LaboratoryProtocol own_loading = complete({
            .follows_stages = true},
   .strain_rate = &TestParameters::compression_strain_rate,
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_own_loading<2>,
+  .set_up_3d = set_up_own_loading<3>,
 });
 } // namespace feldspar

@@ -22,8 +22,8 @@ double shape_factor(const double notch_ratio)
 }
 
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   // A core lies on its side, so that the half disc is cut across it.
@@ -79,7 +79,7 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
   .strain_rate = &TestParameters::bending_strain_rate,
   .forecast = {PeakForecast::With::tension, 1.3},
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_semicircular_bending<2>,
+  .set_up_3d = set_up_semicircular_bending<3>,
 });
 } // namespace feldspar

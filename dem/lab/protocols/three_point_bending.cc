@@ -22,8 +22,8 @@ double intensity(const double a)
 }
 
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_three_point_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                          const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   // Its longer side is the beam's length.
@@ -65,7 +65,7 @@ constinit const LaboratoryProtocol three_point_bending = complete({
            .strength_decimals = 2},
   .strain_rate = &TestParameters::bending_strain_rate,
   .forecast = {PeakForecast::With::tension, 4.0},
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_three_point_bending<2>,
+  .set_up_3d = set_up_three_point_bending<3>,
 });
 } // namespace feldspar

@@ -30,8 +30,8 @@ void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double 
 }
 
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, const double confining_pressure, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
+                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const double height = specimen.size[axis];
@@ -122,7 +122,7 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
   .strain_rate = &TestParameters::compression_strain_rate,
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_triaxial_compression<2>,
+  .set_up_3d = set_up_triaxial_compression<3>,
 });
 } // namespace feldspar

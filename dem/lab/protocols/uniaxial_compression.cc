@@ -7,8 +7,8 @@ namespace feldspar
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up(const Specimen<dim>& specimen, double /*confining_pressure*/, const TestParameters& wanted,
-                      const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.compression_strain_rate);
@@ -35,7 +35,7 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
   .strain_rate = &TestParameters::compression_strain_rate,
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
-  .set_up_2d = set_up<2>,
-  .set_up_3d = set_up<3>,
+  .set_up_2d = set_up_uniaxial_compression<2>,
+  .set_up_3d = set_up_uniaxial_compression<3>,
 });
 } // namespace feldspar
