@@ -250,7 +250,7 @@ private:
       throw InputError(fmt::format("{}: no such command{}", name, suggestion(name, {names.begin(), names.end()})));
   }
 
-  CLI::App app{"Feldspar: laboratory tests on rock made of grains and flat joints", "feldspar"};
+  CLI::App app{"Feldspar: laboratory tests on rock made of grains and joints", "feldspar"};
   CommonOptions common;
   ReportOptions report;
   ParametersOptions parameters;

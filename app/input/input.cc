@@ -104,6 +104,21 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
       check(sides->among(input.smooth_joint), "Flaws", "Shapes");
 }
 
+/// Boundaries without a bond are said, not forgotten: the defaults of section Smooth joint are those of open flaws, and a
+/// rock of such boundaries falls apart.
+void check_mineral_grains(const Input& input, const GivenEntries& values)
+{
+  const auto is_said = [&](const std::string& entry) {
+    const auto& varied = input.variants.entries;
+    return values.has("Smooth joint", entry) ||
+           std::find(varied.begin(), varied.end(), "Smooth joint/" + entry) != varied.end();
+  };
+  if (input.mineral_grains.mean_size && !is_said("Tensile strength") && !is_said("Cohesion"))
+    throw values.error("Mineral grains", "Mean size",
+                       "says nothing of the bonds at the boundaries: give Smooth joint/Tensile strength and Cohesion, "
+                       "or 0 MPa for open boundaries");
+}
+
 void check_clumps(const Input& input, const GivenEntries& values)
 {
   if (!input.clumps.diameter)
@@ -282,6 +297,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
       check_flaws(variant.input, values);
       check_smooth_joints(variant.input, values);
       check_clumps(variant.input, values);
+      check_mineral_grains(variant.input, values);
     }
   return input;
 }

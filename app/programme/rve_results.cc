@@ -105,13 +105,19 @@ void write_constants(Json& json, const IsotropicConstants& constants)
   json["anisotropy"] = constants.anisotropy;
 }
 
-/// Largest of a figure over all samples.
+/// Largest of a figure over the samples. Where a path has not set off yet, as in explicit dynamics at a first row of zeros, all
+/// terms are round-off and so are their ratios: such a sample does not count.
 template <int dim, typename Of>
 double largest(const PathRecord<dim>& record, const Of& of)
 {
+  double turnover = 0.0;
+  for (const auto& sample : record.samples)
+    turnover = std::max(turnover, sample.turnover());
+  constexpr double round_off = 1e-12;
   double found = 0.0;
   for (const auto& sample : record.samples)
-    found = std::max(found, of(sample));
+    if (sample.turnover() > round_off * turnover)
+      found = std::max(found, of(sample));
   return found;
 }
 

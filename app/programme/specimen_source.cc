@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <variant>
 
@@ -194,19 +195,20 @@ std::string describe(const SpecimenReport& report)
     report.n_cut_joints == 0
       ? ""
       : fmt::format("cored: joints cut / grains removed       {} / {}\n", report.n_cut_joints, report.n_removed_grains);
+  const std::string core = // a small specimen has no such grains
+    std::isfinite(report.coordination_number_core) ? fmt::format("{:.3f}", report.coordination_number_core) : "-";
   return fmt::format("grains                                   {}\n{}"
                      "joints                                   {}\n{}"
                      "coordination number                      {:.3f}\n"
-                     "  of grains 3 diameters from the walls   {:.3f}\n"
+                     "  of grains 3 diameters from the walls   {}\n"
                      "installation gap over mean radius        {:.4f}\n"
                      "porosity                                 {:.4f}\n"
                      "overlap over mean radius, mean / largest {:.2e} / {:.2e}\n"
                      "width over mean grain diameter           {:.1f}\n"
                      "radii scaled by                          {:.4f}\n{}",
-                     report.n_grains, clumps, report.n_joints, smooth, report.coordination_number,
-                     report.coordination_number_core, report.installation_gap_ratio, report.porosity,
-                     report.mean_overlap_ratio, report.largest_overlap_ratio, report.resolution,
-                     report.radius_multiplier, coring);
+                     report.n_grains, clumps, report.n_joints, smooth, report.coordination_number, core,
+                     report.installation_gap_ratio, report.porosity, report.mean_overlap_ratio,
+                     report.largest_overlap_ratio, report.resolution, report.radius_multiplier, coring);
 }
 
 template <int dim>

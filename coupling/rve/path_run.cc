@@ -66,10 +66,16 @@ std::uint64_t LegCourse<dim>::n_increments(const double largest_step) const
 }
 
 template <int dim>
+double PathSample<dim>::turnover() const
+{
+  return std::abs(work.boundary) + std::abs(stored_energy) + std::abs(work.slip) + std::abs(work.released) +
+         std::abs(work.settled);
+}
+
+template <int dim>
 double PathSample<dim>::energy_imbalance() const
 {
-  const double size = std::abs(work.boundary) + std::abs(stored_energy) + std::abs(work.slip) +
-                      std::abs(work.released) + std::abs(work.settled);
+  const double size = turnover();
   return size > 0.0 ? std::abs(unaccounted()) / size : 0.0;
 }
 

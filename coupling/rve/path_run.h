@@ -65,7 +65,9 @@ struct PathSample
 
   /// Boundary work less all it went into [J].
   double unaccounted() const { return work.boundary - stored_energy - work.slip - work.released - work.settled; }
-  /// |unaccounted| over the sum of all terms.
+  /// The sum of the sizes of these terms [J].
+  double turnover() const;
+  /// |unaccounted| over the turnover.
   double energy_imbalance() const;
 };
 

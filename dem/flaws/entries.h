@@ -16,8 +16,8 @@ inline std::vector<Entry<MineralGrainParameters>> mineral_grain_entries()
   return {entry::optional_quantity("Mean size", &P::mean_size, Measure::length, "mm", ranges::above_zero,
                                    "diameter of the circle (in three dimensions: ball) of the mean volume of the "
                                    "mineral grains, which are the Voronoi cells of random points over the packing: a "
-                                   "grain-based model, with a smooth joint at every joint between two of them; none "
-                                   "makes no mineral grains",
+                                   "grain-based model, with a smooth joint at every joint between two of them, whose "
+                                   "strengths section Smooth joint must give; none makes no mineral grains",
                                    {.varies = true, .of_specimen = true})};
 }
 

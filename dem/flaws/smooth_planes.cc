@@ -15,8 +15,7 @@ std::string objection(const SmoothJointParameters& wanted)
   if (std::tan(wanted.dilation_angle) <= wanted.friction)
     return "";
   constexpr double degree = std::numbers::pi / 180.0;
-  return fmt::format("dilation angle = {:g} deg: must be at most the angle of friction, {:.3g} deg",
-                     wanted.dilation_angle / degree, std::atan(wanted.friction) / degree);
+  return fmt::format("dilation must be at most the angle of friction, {:.3g} deg", std::atan(wanted.friction) / degree);
 }
 
 template <int dim>

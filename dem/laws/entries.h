@@ -82,6 +82,11 @@ inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_ent
 {
   using P = SofteningFlatJointParameters;
   std::vector<Entry<P>> entries = flat_joint_entries<P>();
+  for (Entry<P>& entry : entries)
+    if (entry.name == "Bond tensile strength")
+      entry.meaning = "mean; beyond it the stress of a segment falls as Softening opening says";
+    else if (entry.name == "Friction")
+      entry.meaning = "coefficient, of segments that are broken or soften in shear";
   entries.push_back(entry::quantity("Softening opening", &P::softening_opening, Measure::length, "um",
                                     ranges::from_zero,
                                     "over which the stress of a bond falls along a straight line from its strength to "

@@ -72,7 +72,10 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                 "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "
                 "of `feldspar multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
                 of_body),
-    entry::choice("Joint law", &P::joint_law, laws,
-                  "between grains that meet; its parameters are in the section of its name", of_rock)};
+    entry::choice(
+      "Joint law", &P::joint_law, laws,
+      "between grains that meet; its parameters are in the section of its name. Clumps and the mineral grains of a "
+      "grain-based model are sections of their own, and go with a law",
+      of_rock)};
 }
 } // namespace feldspar

@@ -108,7 +108,7 @@ public:
         const std::string block = add_data(rows);
         const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", point_type(series), colour(series, n));
         later.push_back(fmt::format("{} using 1:2:3 with {} {} {}", block, tension ? "xerrorbars" : "yerrorbars", looks,
-                                    title(is_second ? "" : label)));
+                                    key.entry(is_second ? "" : label)));
         of_page.push_back(std::move(bars));
         of_page.push_back(std::move(marks));
         is_second = true;
@@ -133,7 +133,7 @@ public:
     const std::string block = add_data(rows);
     first.push_back(fmt::format("{} using 1:2 with lines lw 1.2 dt 3 lc rgb '{}' notitle", block, line.colour));
     later.push_back(fmt::format("{} using 1:2:3 with yerrorbars pt {} ps 0.8 lw 1.2 lc rgb '{}' {}", block,
-                                point_type(series) - 1, line.colour, title(label)));
+                                point_type(series) - 1, line.colour, key.entry(label)));
     ChartLine marks = line;
     marks.kind = ChartLine::Kind::marks;
     marks.goes_with = label;
@@ -162,7 +162,7 @@ public:
           }
       }
     first.push_back(fmt::format("{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", add_data(rows), looks.width,
-                                looks.dashes, looks.colour, title(label)));
+                                looks.dashes, looks.colour, key.entry(label)));
     of_page.push_back(std::move(line));
   }
 
@@ -178,8 +178,8 @@ public:
   {
     const std::string label = reference.experiment.label + ": mean, range";
     bool is_second = false;
-    const auto draw_range = [&](const std::string& key, const bool tension) {
-      const auto value = reference.experiment.find(key);
+    const auto draw_range = [&](const std::string& property, const bool tension) {
+      const auto value = reference.experiment.find(property);
       if (!value)
         return;
       const double middle = value->middle();
@@ -188,7 +188,7 @@ public:
       const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -middle, -high, -low)
                                                  : fmt::format("0 {} {} {}\n", middle, low, high));
       later.push_back(fmt::format("{} using 1:2:3:4 with {} pt 8 ps 1.1 lw 2.2 lc rgb '{}' {}", block,
-                                  tension ? "xerrorbars" : "yerrorbars", black, title(is_second ? "" : label)));
+                                  tension ? "xerrorbars" : "yerrorbars", black, key.entry(is_second ? "" : label)));
       const auto at = [&](const double strength) {
         return tension ? std::array{-strength, 0.0} : std::array{0.0, strength};
       };
@@ -247,7 +247,8 @@ public:
   {
     const std::string block = add_data(fmt::format("{} 0\n{} {}\n", sigma_3 / mega, sigma_3 / mega, highest_1 / mega));
     const std::string label = "tensile cut-off of the intact form";
-    first.push_back(fmt::format("{} using 1:2 with lines lw 1 dt 3 lc rgb '{}' {}", block, of_colour, title(label)));
+    first.push_back(
+      fmt::format("{} using 1:2 with lines lw 1 dt 3 lc rgb '{}' {}", block, of_colour, key.entry(label)));
     of_page.push_back({.label = label,
                        .colour = of_colour,
                        .width = 1.0,
@@ -263,8 +264,8 @@ public:
                    (lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
                    (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega,
                    (upper ? upper->sigma_1 : 1.08 * highest_1) / mega);
-    text +=
-      "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\nset key vertical maxrows 5 font ',12'\nplot ";
+    text += "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\n" + key.set_up(width) +
+            " font ',12'\nplot ";
     const auto add = [&](const std::vector<std::string>& entries) {
       for (const auto& entry : entries)
         text += entry + ", \\\n";
@@ -285,6 +286,10 @@ public:
 
   bool empty() const { return first.empty() && later.empty(); }
 
+  /// Of the picture [px].
+  int height() const { return 640 + key.further_height(width); }
+
+  static constexpr int width = 660; ///< [px]
   double lowest_3 = 0.0;
   double highest_3 = 0.0;
   double highest_1 = 0.0;
@@ -305,8 +310,8 @@ private:
       }
     if (rows.empty())
       return;
-    later.push_back(
-      fmt::format("{} using 1:2 with points {} lc rgb '{}' {}", add_data(rows), looks, of_colour, title(source.label)));
+    later.push_back(fmt::format("{} using 1:2 with points {} lc rgb '{}' {}", add_data(rows), looks, of_colour,
+                                key.entry(source.label)));
     of_page.push_back(std::move(marks));
   }
 
@@ -321,6 +326,7 @@ private:
   std::vector<std::string> first; ///< curves
   std::vector<std::string> later; ///< points, drawn over them
   std::vector<ChartLine> of_page;
+  ColumnKey key;
   int n_blocks = 0;
 };
 
@@ -371,8 +377,8 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
      .caption = "Strength envelope" + (all.size() > 1 ? " of " + all[which].label : std::string()),
      .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
                     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
-     .width = 660,
-     .height = 640,
+     .width = plotted.width,
+     .height = plotted.height(),
      .script = plotted.script(),
      .live = plotted.json()});
   // Near the uniaxial test, where the forms differ.
@@ -383,8 +389,8 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
         {.name = "envelope_near_uniaxial" + of_series,
          .caption = "The same near the uniaxial and the tension test",
          .alternative = "The strength envelope between tension and low confinement, enlarged.",
-         .width = 660,
-         .height = 640,
+         .width = plotted.width,
+         .height = plotted.height(),
          .script = plotted.script(EnvelopePoint{sigma_3, 2.2 * *envelopes.data.uniaxial_compressive_strength})});
     }
   return pictures;
@@ -416,8 +422,8 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
   return {{.name = "envelopes",
            .caption = "Strength of all series",
            .alternative = "Strength against confinement of all series, each with the intact Hoek–Brown envelope.",
-           .width = 660,
-           .height = 640,
+           .width = plotted.width,
+           .height = plotted.height(),
            .script = plotted.script(),
            .live = plotted.json()}};
 }

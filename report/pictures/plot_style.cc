@@ -64,6 +64,38 @@ std::string title(const std::string& text)
   return text.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_text(text));
 }
 
+std::string ColumnKey::entry(const std::string& label)
+{
+  if (!label.empty())
+    {
+      ++n_entries;
+      // Bytes that go on with a character of UTF-8 begin with the bits 10.
+      longest = std::max(
+        longest, int(std::count_if(label.begin(), label.end(), [](const char c) { return (c & 0xC0) != 0x80; })));
+    }
+  return title(label);
+}
+
+int ColumnKey::n_rows(const int picture_width) const
+{
+  constexpr int usual = 5;
+  // What gnuplot reckons for a column, and how far columns may stick out: it takes letters for wider than they are.
+  constexpr double letter = 8.4, mark = 53.0, reach = 1.08;
+  const int n_columns = std::max(1, int(reach * picture_width / (letter * longest + mark)));
+  return std::max(usual, (n_entries + n_columns - 1) / n_columns);
+}
+
+std::string ColumnKey::set_up(const int picture_width) const
+{
+  return fmt::format("set key vertical maxrows {}", n_rows(picture_width));
+}
+
+int ColumnKey::further_height(const int picture_width) const
+{
+  constexpr int usual = 5, row = 23;
+  return row * (n_rows(picture_width) - usual);
+}
+
 void add_cracks(std::string& data, std::string& plots, const std::size_t n, const CrackKind kind,
                 const std::string& rows, const double line_width)
 {

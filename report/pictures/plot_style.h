@@ -53,6 +53,25 @@ std::string frame(const std::string& x_label, const std::string& y_label);
 /// `title` for the key of a plot, or none.
 std::string title(const std::string& text);
 
+/// The key under a plot in columns of five rows. Where labels are too long for so many columns side by side there are fewer,
+/// with more rows: gnuplot would draw what does not fit beyond the edge of the picture.
+class ColumnKey
+{
+public:
+  /// `title` of an entry, as above.
+  std::string entry(const std::string& label);
+  /// gnuplot's setting, for a picture of this width [px].
+  std::string set_up(int picture_width) const;
+  /// What a picture of this width must be higher, so that the key takes no room from the axes [px].
+  int further_height(int picture_width) const;
+
+private:
+  int n_rows(int picture_width) const;
+
+  int n_entries = 0;
+  int longest = 0; ///< [characters]
+};
+
 /// gnuplot's name for data of an owner, such as a test: letters that it takes, a `_` for each other.
 std::string data_block(const std::string& what, const std::string& owner);
 

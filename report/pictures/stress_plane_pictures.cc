@@ -41,14 +41,14 @@ public:
     for (const auto& [x, y] : line.points)
       fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", x, y);
     data += fmt::format("$data{} << EOD\n{}EOD\n", n, rows);
-    const std::string key = title(line.goes_with.empty() ? line.label : "");
+    const std::string title = key.entry(line.goes_with.empty() ? line.label : "");
     plots += n ? ", \\\n" : "plot ";
     if (line.kind == ChartLine::Kind::marks)
       plots +=
-        fmt::format("$data{} using 1:2 with points pt {} ps 0.8 lw 1.4 lc rgb '{}' {}", n, mark, line.colour, key);
+        fmt::format("$data{} using 1:2 with points pt {} ps 0.8 lw 1.4 lc rgb '{}' {}", n, mark, line.colour, title);
     else
       plots += fmt::format("$data{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", n, line.width, line.dashes,
-                           line.colour, key);
+                           line.colour, title);
     ++n;
     chart.lines.push_back(std::move(line));
   }
@@ -60,9 +60,11 @@ public:
 
   std::string json() const { return chart.json(); }
   bool empty() const { return n == 0; }
+  const ColumnKey& columns() const { return key; }
 
 private:
   Chart chart;
+  ColumnKey key;
   std::string data;
   std::string plots;
   int n = 0;
@@ -196,6 +198,7 @@ std::vector<Picture> p_q_picture(const std::vector<Series>& all, const std::vect
 {
   PlanePlot plotted(
     {.x_label = "mean stress p = (σ₁ + σ₂ + σ₃)/3 [MPa], compression positive", .y_label = "q = σ₁ − σ₃ [MPa]"});
+  constexpr int width = 660; // [px]
   bool any_compression = false;
   for (std::size_t n = 0; n < all.size(); ++n)
     {
@@ -233,10 +236,11 @@ std::vector<Picture> p_q_picture(const std::vector<Series>& all, const std::vect
     {.name = "p_q",
      .caption = "Strengths over the mean stress. Under confinement σ₂ = σ₃; in tension σ₁ = σ₂ = 0",
      .alternative = "The difference of the largest and the smallest principal stress at failure against their mean.",
-     .width = 660,
-     .height = 480,
+     .width = width,
+     .height = 480 + plotted.columns().further_height(width),
      .script = plotted.script("set yrange [0:*]\nset arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb "
-                              "'#b0b0b0' back\nset key vertical maxrows 5\n"),
+                              "'#b0b0b0' back\n" +
+                              plotted.columns().set_up(width) + "\n"),
      .live = plotted.json()}};
 }
 } // namespace feldspar

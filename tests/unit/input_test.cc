@@ -484,6 +484,18 @@ TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)
             "a.prm:2: Clumps/Form = cells: has no effect: Clumps/Diameter is none");
 }
 
+TEST(Input, MineralGrainsNeedAWordOnTheBondsAtTheirBoundaries)
+{
+  const std::string minerals = "subsection Mineral grains\n  set Mean size = 5 mm\nend\n";
+  const std::string unsaid = error_of("a.prm", minerals);
+  EXPECT_TRUE(unsaid.starts_with("a.prm:2: Mineral grains/Mean size = 5 mm: says nothing of the bonds")) << unsaid;
+  EXPECT_NE(error_of("a.prm", minerals + "subsection Smooth joint\n  set Friction = 0.6\nend\n"), "");
+  for (const std::string said :
+       {"Smooth joint\n  set Tensile strength = 0 MPa", "Smooth joint\n  set Cohesion = 30 MPa",
+        "Variants\n  set Entry = Smooth joint/Cohesion\n  set Values = 10 MPa; 20 MPa"})
+    EXPECT_EQ(error_of("a.prm", minerals + "subsection " + said + "\nend\n"), "") << said;
+}
+
 TEST(Input, EveryEntryOfParallelBondsReachesItsMember)
 {
   constexpr std::string_view bonds = R"(subsection Specimen
@@ -1108,6 +1120,9 @@ TEST(Input, SmoothJointsThatCannotBeAreNamed)
   EXPECT_NE(error("Smooth joint", "Friction = 0.4").find("has no effect: Mineral grains/Mean size is none"),
             std::string::npos);
   EXPECT_NE(error("Smooth joint", "Normal stiffness = 50 GPa").find("GPa/mm"), std::string::npos);
+  EXPECT_NE(error("Smooth joint", "Dilation angle = 40 deg\nend\nsubsection Mineral grains\n  set Mean size = 5 mm")
+              .find("Dilation angle = 40 deg: dilation must be at most the angle of friction, 26.6 deg"),
+            std::string::npos);
   EXPECT_NE(error("Mineral grains", "Mean size = 0 mm").find("must be > 0 mm"), std::string::npos);
   EXPECT_NE(error("Flaws", "Shapes = closed flaw from 1, 1 mm to 9, 9 mm friction 0.4")
               .find("shape 1, closed flaw: friction is of smooth sides; say smooth before it"),

@@ -496,6 +496,38 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
 }
 
+// gnuplot reckons 8.4 px for a letter and 53 px beside it, and 713 px hold all columns: 204 px for labels of 18 letters, so that
+// six stand in columns of five, and 523 px for labels of 56, so that they stand in one.
+TEST(EnvelopePicture, GivesLongLabelsOfManySeriesAKeyOfMoreRows)
+{
+  const auto picture_of = [](const std::string& label) {
+    std::vector<Series> all;
+    for (const char* const n : {"1", "2", "3", "4", "5", "6"})
+      {
+        FinishedTest one = compression(1), two = compression(2);
+        one.results.peak_stress = {100e6, ""};
+        two.results.peak_stress = {110e6, ""};
+        all.push_back({label + n, SeriesKind::specimens, {}, {one, two}, {}});
+      }
+    std::vector<StrengthEnvelopes> envelopes;
+    for (const Series& series : all)
+      envelopes.push_back(fit_strength_envelopes(strength_data(series.tests)));
+    return combined_envelope_picture(all, envelopes, std::nullopt).at(0);
+  };
+  const Picture brief = picture_of("law ");
+  const Picture verbose = picture_of("Specimen/Joint law = softening flat joint ");
+  EXPECT_NE(brief.script.find("set key vertical maxrows 5"), std::string::npos);
+  const auto entries = [](const Picture& picture) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = picture.script.find(" title '", at)) != std::string::npos; ++at)
+      ++n;
+    return n;
+  };
+  ASSERT_EQ(entries(brief), 6u);
+  EXPECT_NE(verbose.script.find("set key vertical maxrows 6"), std::string::npos);
+  EXPECT_EQ(verbose.height, brief.height + 23);
+}
+
 // τ = c + σ_n tan φ touches all circles of σ_1 = q_u + N σ_3: φ = asin((N - 1)/(N + 1)), c = q_u/(2 √N).
 TEST(TouchingPoint, OfALineLiesOnMohrAndCoulombs)
 {
