@@ -228,6 +228,18 @@ TEST(OwnLoading, EndsWhereTheLateralStrainCannotBeLed)
             "stage 1 of 1, lateral strain -0.01: not reached at an axial strain of 0.001, where the test stops");
 }
 
+TEST(OwnLoading, RefusesALateralStrainThatTheGaugeCannotTell)
+{
+  // A grain without a joint does not count to the gauge.
+  const auto loose = placed_specimen({0.2, 0.2}, {std::vector{0.5, 0.5}, std::vector{0.3, 0.7}});
+  const auto start = [&](const LoadingStage& stage) {
+    LabTest<2> test({own_loading}, loose, following({stage}), {});
+    test.advance();
+  };
+  EXPECT_THROW(start({.lateral_strain = -1e-3, .strain_rate = 0.2}), InputError);
+  EXPECT_NO_THROW(start({.axial_strain = 1e-3}));
+}
+
 TEST(OwnLoading, LedByTheLateralStrainIsTakenUpAgainToTheSameBitsWithAnotherNumberOfThreads)
 {
   const TemporaryFolder folder;
