@@ -80,17 +80,20 @@ double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
 }
 
 /// Of a loading table, as a strain at the rate of compression: its ways to strains and its holds. How far it is to a stress is
-/// not known beforehand.
+/// not known beforehand, nor how far the lateral strain has come before a stage that it leads.
 double known_length_of_stages(const TestParameters& tests)
 {
   double length = 0.0;
   double at = 0.0;
+  double lateral = 0.0;
+  const auto faster = [&](const LoadingStage& stage) {
+    return stage.strain_rate.value_or(tests.compression_strain_rate) / tests.compression_strain_rate;
+  };
   for (const LoadingStage& stage : tests.loading_stages)
     if (stage.axial_strain)
-      {
-        const double faster = stage.strain_rate.value_or(tests.compression_strain_rate) / tests.compression_strain_rate;
-        length += std::abs(*stage.axial_strain - std::exchange(at, *stage.axial_strain)) / faster;
-      }
+      length += std::abs(*stage.axial_strain - std::exchange(at, *stage.axial_strain)) / faster(stage);
+    else if (stage.lateral_strain)
+      length += std::abs(*stage.lateral_strain - std::exchange(lateral, *stage.lateral_strain)) / faster(stage);
     else
       length += stage.duration.value_or(0.0) * tests.compression_strain_rate;
   return length;

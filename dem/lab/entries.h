@@ -53,7 +53,7 @@ inline std::vector<Entry<TestParameters>> test_entries()
                   "shear displacement over the length of the plane between two rows of the curve", of_grains),
     entry::file("Loading table", &P::loading_table,
                 "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
-                "confining_pressure_Pa, strain_rate_per_s; compression positive",
+                "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive",
                 of_grains_alike),
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",

@@ -17,8 +17,8 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::array<std::string_view, 5> columns{"axial_strain", "axial_stress_Pa", "hold_s", "confining_pressure_Pa",
-                                                  "strain_rate_per_s"};
+constexpr std::array<std::string_view, 6> columns{"axial_strain",          "axial_stress_Pa",   "hold_s",
+                                                  "confining_pressure_Pa", "strain_rate_per_s", "lateral_strain"};
 
 void check_columns(const CsvReader& table, const std::string& file)
 {
@@ -38,8 +38,22 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
                          stress);
   if (stage.axial_strain && stage.axial_stress)
     return "axial_strain and axial_stress_Pa are both given; a stage ends at one of them";
-  if (!stage.axial_strain && !stage.axial_stress && !stage.duration)
-    return "has no target; give axial_strain, axial_stress_Pa or hold_s";
+  if (stage.lateral_strain && (stage.axial_strain || stage.axial_stress || stage.duration))
+    return "lateral_strain and another target are both given; a stage led by the lateral strain ends at it";
+  if (!stage.axial_strain && !stage.axial_stress && !stage.duration && !stage.lateral_strain)
+    return "has no target; give axial_strain, axial_stress_Pa, hold_s or lateral_strain";
+  if (stage.lateral_strain && !(*stage.lateral_strain < 0.0 && *stage.lateral_strain >= -largest_axial_strain))
+    return fmt::format(
+      "lateral_strain = {:g}: must lie in [{}, 0); compression is positive, a specimen that widens has "
+      "a negative one",
+      *stage.lateral_strain, -largest_axial_strain);
+  if (stage.lateral_strain && !stage.strain_rate)
+    return "lateral_strain needs strain_rate_per_s, of itself; at a fifth of an axial rate most rock is shortened as fast "
+           "at first";
+  if (stage.lateral_strain && before && before->lateral_strain && *stage.lateral_strain >= *before->lateral_strain)
+    return fmt::format(
+      "lateral_strain = {:g}: must be below {:g} of the stage before; a broken specimen does not narrow",
+      *stage.lateral_strain, *before->lateral_strain);
   if (stage.axial_strain && stage.duration)
     return "axial_strain and hold_s are both given; a hold keeps the platens, or an axial_stress_Pa";
   if (stage.axial_strain && !(*stage.axial_strain >= 0.0 && *stage.axial_strain <= largest_axial_strain))
@@ -84,6 +98,7 @@ std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)
       stage.duration = cell(columns[2]);
       stage.confining_pressure = cell(columns[3]).value_or(stages.empty() ? 0.0 : stages.back().confining_pressure);
       stage.strain_rate = cell(columns[4]);
+      stage.lateral_strain = cell(columns[5]);
       if (const std::string what = objection(stage, stages.empty() ? nullptr : &stages.back()); !what.empty())
         throw InputError(fmt::format("{}:{}: stage {}: {}", file, table.line_of_row(), stages.size() + 1, what));
       stages.push_back(stage);
@@ -98,13 +113,15 @@ std::string words(const LoadingStage& stage)
   const std::string stress = stage.axial_stress ? fmt::format("axial stress {:g} MPa", *stage.axial_stress / 1e6) : "";
   if (stage.duration)
     return fmt::format("hold of {:g} s{}", *stage.duration, stage.axial_stress ? " at " + stress : "");
+  if (stage.lateral_strain)
+    return fmt::format("lateral strain {:g}", *stage.lateral_strain);
   return stage.axial_strain ? fmt::format("axial strain {:g}", *stage.axial_strain) : stress;
 }
 
 std::string full_text(const LoadingStage& stage)
 {
   const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "none"; };
-  return fmt::format("{},{},{},{},{}\n", text(stage.axial_strain), text(stage.axial_stress), text(stage.duration),
-                     stage.confining_pressure, text(stage.strain_rate));
+  return fmt::format("{},{},{},{},{},{}\n", text(stage.axial_strain), text(stage.axial_stress), text(stage.duration),
+                     stage.confining_pressure, text(stage.strain_rate), text(stage.lateral_strain));
 }
 } // namespace feldspar

@@ -12,9 +12,11 @@ struct LoadingStage
 {
   std::optional<double> axial_strain = {}; ///< at its end
   std::optional<double> axial_stress = {}; ///< at its end; of a hold: throughout [Pa]
-  std::optional<double> duration = {};     ///< of a hold; none: it ends at its strain or stress [s]
-  double confining_pressure = 0.0;         ///< at its end [Pa]
-  std::optional<double> strain_rate = {};  ///< magnitude; none: that of compression [1/s]
+  /// At its end, of the gauge since the seating; the platens lead the specimen there. A widening is negative.
+  std::optional<double> lateral_strain = {};
+  std::optional<double> duration = {};    ///< of a hold; none: it ends at its strain or stress [s]
+  double confining_pressure = 0.0;        ///< at its end [Pa]
+  std::optional<double> strain_rate = {}; ///< of the strain that leads, magnitude; none: axial, of compression [1/s]
 };
 
 /// The stages of a loading table, row by row, in a CSV file. Throws InputError, one line with the file and the number of

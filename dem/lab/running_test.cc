@@ -25,6 +25,12 @@ SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specim
   return (*set_up)(specimen, test.confining_pressure, wanted, dynamics);
 }
 
+template <int dim>
+double mean_lateral_strain(const Tensor<dim>& gradient)
+{
+  return (gradient.trace() - gradient(dim - 1, dim - 1)) / (dim - 1);
+}
+
 /// The grains of the joint that broke.
 template <int dim>
 GrainPair ends_of(const Specimen<dim>& body, const Break& event)
@@ -142,6 +148,10 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     shortening_at_start = set_up.loading.shortening(dynamics);
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
+  if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
+    throw InputError(
+      "Tests/Loading table: lateral_strain cannot be measured: too few grains with joints in the middle of "
+      "the specimen; make it wider or the grains smaller");
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
   record.curve.push_back(sample());
@@ -207,14 +217,21 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
   const auto& loading = set_up.loading;
   if (loading.drive_stage)
     {
+      StageMoment now = moment();
+      const auto is_due = [&] {
+        return stage_walk.strain_rate() * (dynamics.time() - time_of_last_row) >= loading.sampling_strain ||
+               // Led by the lateral strain, the axial one may run and turn round meanwhile.
+               (stage_walk.is_led_by_lateral_strain() &&
+                std::abs(axial_strain() - record.curve.back().axial_strain) >= loading.sampling_strain);
+      };
       do
         {
           check();
-          loading.drive_stage(dynamics, stage_walk.demand(moment()));
+          loading.drive_stage(dynamics, stage_walk.demand(now));
           step();
+          now = moment();
         }
-      while (!stage_walk.is_at_end_of_stage(moment()) &&
-             stage_walk.strain_rate() * (dynamics.time() - time_of_last_row) < loading.sampling_strain);
+      while (!stage_walk.is_at_end_of_stage(now) && !is_due());
     }
   else
     {
@@ -235,13 +252,22 @@ template <int dim>
 StageMoment LabTest<dim>::moment() const
 {
   const EndStress stress = set_up.loading.end_stress(set_up.dynamics);
-  return {set_up.dynamics.time(), -axial_strain(), -0.5 * (stress.lower + stress.upper)};
+  StageMoment now{set_up.dynamics.time(), -axial_strain(), -0.5 * (stress.lower + stress.upper)};
+  if (stage_walk.needs_lateral_strain())
+    now.lateral_strain = -mean_lateral_strain<dim>(displacement_gradient());
+  return now;
 }
 
 template <int dim>
 double LabTest<dim>::lateral_stress() const
 {
   return record.has_servo ? set_up.loading.servo_stress(set_up.dynamics) : 0.0 - record.confining_pressure; // no -0
+}
+
+template <int dim>
+Tensor<dim> LabTest<dim>::displacement_gradient() const
+{
+  return gauge.displacement_gradient(BodyCentres<dim>(set_up.dynamics.specimen()).all());
 }
 
 template <int dim>
@@ -260,10 +286,10 @@ CurveSample LabTest<dim>::sample() const
   row.lateral_stress = lateral_stress();
   const double area = specimen.volume() / specimen.size[axis];
   row.mid_stress = -dynamics.force_across(0.5 * specimen.size[axis]) / area; // pulled down from below: tension
-  const Tensor<dim> gradient = gauge.displacement_gradient(BodyCentres<dim>(specimen).all());
+  const Tensor<dim> gradient = displacement_gradient();
   row.gauge_axial_strain = gradient(axis, axis);
   row.gauge_volumetric_strain = gradient.trace();
-  row.gauge_lateral_strain = (gradient.trace() - gradient(axis, axis)) / (dim - 1);
+  row.gauge_lateral_strain = mean_lateral_strain<dim>(gradient);
   row.n_tension_cracks = n_tension;
   row.n_shear_cracks = n_shear;
   row.unbalanced_force_ratio = dynamics.unbalanced_force_ratio();

@@ -68,7 +68,7 @@ public:
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
   /// every step, which may throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws
-  /// InputError where the confinement cannot be reached.
+  /// InputError where the confinement cannot be reached, or a strain that leads not be measured.
   bool advance(const std::function<void()>& check = [] {});
 
   bool has_ended() const { return ended; }
@@ -91,6 +91,8 @@ private:
   template <typename Archive>
   void transfer(Archive& archive);
   double lateral_stress() const;
+  /// Of the gauge, from where it was set.
+  Tensor<dim> displacement_gradient() const;
   CurveSample sample() const;
   void seat(const std::function<void()>& check);
   void load_to_next_row(const std::function<void()>& check);

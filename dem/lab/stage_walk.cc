@@ -11,17 +11,26 @@ void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
   const LoadingStage& next = wanted.loading_stages[begun.size()];
   begun.push_back({words(next), next.confining_pressure, row, row, false});
   start = now;
+  widening_let_be = 0.0;
   highest_stress = now.axial_stress;
   strain_at_highest = now.axial_strain;
 }
 
+bool StageWalk::needs_lateral_strain() const
+{
+  return std::any_of(wanted.loading_stages.begin(), wanted.loading_stages.end(),
+                     [](const LoadingStage& one) { return one.lateral_strain.has_value(); });
+}
+
 /// The confinement goes evenly with the strain or the time of the stage from one value to the next.
-StageDemand StageWalk::demand(const StageMoment& now) const
+StageDemand StageWalk::demand(const StageMoment& now)
 {
   const LoadingStage& running = stage();
   double share = 1.0;
   if (running.duration)
     share = (now.time - start.time) / *running.duration;
+  else if (running.lateral_strain && *running.lateral_strain < start.lateral_strain)
+    share = (now.lateral_strain - start.lateral_strain) / (*running.lateral_strain - start.lateral_strain);
   else if (running.axial_strain && *running.axial_strain != start.axial_strain)
     share = (now.axial_strain - start.axial_strain) / (*running.axial_strain - start.axial_strain);
   const double pressure_before = wanted.loading_stages[begun.size() == 1 ? 0 : begun.size() - 2].confining_pressure;
@@ -31,6 +40,14 @@ StageDemand StageWalk::demand(const StageMoment& now) const
   result.closing_rate = 0.0;
   if (running.duration)
     result.held_stress = running.axial_stress;
+  else if (running.lateral_strain)
+    {
+      // What a fracture has run ahead by is let be but for this: to undo it all would unload the specimen.
+      constexpr double most = 1e-4;
+      const double ahead = start.lateral_strain - now.lateral_strain - rate_of(running) * (now.time - start.time);
+      widening_let_be = std::clamp(widening_let_be, ahead - most, ahead + most);
+      result.missing_widening = widening_let_be - ahead;
+    }
   else
     {
       const bool presses =
@@ -48,6 +65,8 @@ bool StageWalk::is_at_end_of_stage(const StageMoment& now) const
   const auto passes = [](const double value, const double from, const double target) {
     return target > from ? value >= target : value <= target;
   };
+  if (running.lateral_strain)
+    return now.lateral_strain <= *running.lateral_strain;
   return running.axial_strain ? passes(now.axial_strain, start.axial_strain, *running.axial_strain)
                               : passes(now.axial_stress, start.axial_stress, *running.axial_stress);
 }
@@ -64,6 +83,13 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
       highest_stress = now.axial_stress;
       strain_at_highest = now.axial_strain;
     }
+  const auto give_up = [&](const std::string& why) {
+    early = fmt::format("stage {} of {}, {}: {}", begun.size(), stages.size(), record.target, why);
+    return true;
+  };
+  if (running.lateral_strain && start.lateral_strain <= *running.lateral_strain)
+    return give_up(
+      fmt::format("the specimen was as wide before it, at a lateral strain of {:.2g}", start.lateral_strain));
   if (is_at_end_of_stage(now))
     {
       record.reached = true;
@@ -72,13 +98,18 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
       begin_next(record.last_row, now);
       return false;
     }
-  const auto give_up = [&](const std::string& why) {
-    early = fmt::format("stage {} of {}, {}: {}", begun.size(), stages.size(), record.target, why);
-    return true;
-  };
   const double most = wanted.stop_strain.value_or(largest_axial_strain);
   if (now.axial_strain >= most)
     return give_up(fmt::format("not reached at an axial strain of {:g}, where the test stops", most));
+  if (running.lateral_strain)
+    {
+      constexpr double most_times = 3.0;
+      const double due_after = (start.lateral_strain - *running.lateral_strain) / rate_of(running);
+      if (now.time - start.time > most_times * due_after)
+        return give_up(fmt::format("the lateral strain has only come to {:.2g} in {:g} times as long as its rate takes",
+                                   now.lateral_strain, most_times));
+      return false;
+    }
   if (!running.axial_stress || running.duration || *running.axial_stress <= start.axial_stress)
     return false;
   // Only where cracks have opened in the stage, and well above the waves of its first rows.

@@ -19,15 +19,17 @@ struct StageMoment
 {
   double time; ///< of the dynamics [s]
   double axial_strain;
-  double axial_stress; ///< mean of both ends [Pa]
+  double axial_stress;         ///< mean of both ends [Pa]
+  double lateral_strain = 0.0; ///< of the gauge, where a stage of the table is led by it
 };
 
 /// What a stage asks for at one moment.
 struct StageDemand
 {
-  double confining_pressure;         ///< compression positive [Pa]
-  double closing_rate;               ///< of the platens over the height of the specimen [1/s]
-  std::optional<double> held_stress; ///< by the platens instead, compression positive [Pa]
+  double confining_pressure;                   ///< compression positive [Pa]
+  double closing_rate;                         ///< of the platens over the height of the specimen [1/s]
+  std::optional<double> held_stress;           ///< by the platens instead, compression positive [Pa]
+  std::optional<double> missing_widening = {}; ///< strain that the platens are to bring about instead
 };
 
 /// Leads a test through the stages of its loading table, one after another; docs/theory.md §4.11.
@@ -42,8 +44,12 @@ public:
   /// Sets off at the first row of the curve.
   void begin(const StageMoment& now);
 
-  StageDemand demand(const StageMoment& now) const;
+  /// Asked before each step.
+  StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;
+  /// Of a table with a stage that the lateral strain leads: moments have to tell it.
+  bool needs_lateral_strain() const;
+  bool is_led_by_lateral_strain() const { return stage().lateral_strain.has_value(); }
   /// Of the stage that runs, its magnitude [1/s].
   double strain_rate() const { return rate_of(stage()); }
 
@@ -67,6 +73,8 @@ public:
     archive.value("stage_time", start.time);
     archive.value("stage_strain", start.axial_strain);
     archive.value("stage_stress", start.axial_stress);
+    archive.value("stage_lateral_strain", start.lateral_strain);
+    archive.value("stage_widening_let_be", widening_let_be);
     archive.value("stage_highest_stress", highest_stress);
     archive.value("stage_strain_at_highest", strain_at_highest);
     std::uint64_t n_begun = begun.size();
@@ -99,5 +107,6 @@ private:
   StageMoment start{};         ///< of the stage that runs
   double highest_stress = 0.0; ///< of its rows so far [Pa]
   double strain_at_highest = 0.0;
+  double widening_let_be = 0.0; ///< of a stage led by the lateral strain, beyond what its rate has come to
 };
 } // namespace feldspar

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,131 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
     }
 }
 
+/// The first two thousandths axially, then by the gauge.
+TestParameters led_by_lateral_strain(const double to, const double confinement)
+{
+  return following({{.axial_strain = 2e-3, .confining_pressure = confinement},
+                    {.lateral_strain = -to, .confining_pressure = confinement, .strain_rate = 0.25}});
+}
+
+/// Both ways past the peak. Led by the gauge, to a lateral strain, the axial one goes back while the specimen goes on breaking.
+template <int dim>
+void compare_controls(const Specimen<dim>& specimen, const double lateral_strain)
+{
+  const auto by_platens = run(specimen, following({{.axial_strain = 8e-3, .confining_pressure = 5e6}}));
+  const auto by_gauge = run(specimen, led_by_lateral_strain(lateral_strain, 5e6));
+  EXPECT_EQ(by_gauge.ended_early, "");
+  const auto one = evaluate(by_platens);
+  const auto other = evaluate(by_gauge);
+  ASSERT_TRUE(one.peak_stress.value && other.peak_stress.value);
+  // Another order of cracks: the peaks of one packing at two rates differ by a few per cent too.
+  EXPECT_NEAR(*other.peak_stress.value, *one.peak_stress.value, 0.04 * *one.peak_stress.value);
+  EXPECT_NEAR(*other.strain_at_peak.value, *one.strain_at_peak.value, 0.04 * *one.strain_at_peak.value);
+  const auto stress_at = [](const TestRecord& record, const double strain) {
+    const auto row = std::find_if(record.curve.begin(), record.curve.end(),
+                                  [=](const auto& sample) { return -sample.axial_strain >= strain; });
+    return -row->axial_stress;
+  };
+  for (const double share : {0.4, 0.6})
+    {
+      const double strain = share * *one.strain_at_peak.value;
+      EXPECT_NEAR(stress_at(by_gauge, strain), stress_at(by_platens, strain), 0.01 * stress_at(by_platens, strain));
+    }
+
+  const auto& curve = by_gauge.curve;
+  const auto peak = std::min_element(curve.begin(), curve.end(),
+                                     [](const auto& a, const auto& b) { return a.axial_stress < b.axial_stress; });
+  const auto back =
+    std::max_element(peak, curve.end(), [](const auto& a, const auto& b) { return a.axial_strain < b.axial_strain; });
+  // Platens that turn round at their full speed, 0.5 · 0.3 c · 1e-4 each, send out waves of a strain of 3e-5.
+  const double gone_back = back->axial_strain - peak->axial_strain;
+  EXPECT_GT(gone_back, 3.0 * 3e-5);
+  // Unloaded only, it would go down along the slope of its rise, without cracks and narrowing.
+  const double slope = stress_at(by_platens, 2e-3) / 2e-3;
+  EXPECT_GT(back->axial_stress - peak->axial_stress, 1.2 * slope * gone_back);
+  EXPECT_GT(back->n_tension_cracks + back->n_shear_cracks, peak->n_tension_cracks + peak->n_shear_cracks);
+  EXPECT_GT(back->gauge_lateral_strain, peak->gauge_lateral_strain);
+}
+
+TEST(OwnLoading, LedByTheLateralStrainSnapsBackPastTheSamePeak) { compare_controls(small_specimen(), 8e-3); }
+
+TEST(OwnLoading, OfACylinderIsLedByTheLateralStrainToo) { compare_controls(small_cylinder(), 6e-3); }
+
+TEST(OwnLoading, KeepsTheRateOfTheLateralStrain)
+{
+  // Of a specimen that does not break: what is missed is what moves the platens, which close at the rate over Poisson's ratio;
+  // at 0.3 c/H = 8e4/s and 1/s to 2.5/s that is up to 3e-5. Waves of the start add to it.
+  const auto record =
+    run<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -8e-4, .strain_rate = 0.25}}));
+  EXPECT_TRUE(record.cracks.empty());
+  EXPECT_TRUE(record.stages.at(0).reached);
+  for (const CurveSample& row : record.curve)
+    EXPECT_NEAR(row.gauge_lateral_strain, 0.25 * row.time, 5e-5);
+}
+
+TEST(OwnLoading, EndsWhereTheLateralStrainCannotBeLed)
+{
+  // Poisson's ratio of 0.1 and more has widened the specimen by 4e-4 at least.
+  const auto narrow = run<2>(small_specimen(1, unbreakable),
+                             following({{.axial_strain = 4e-3}, {.lateral_strain = -1e-4, .strain_rate = 0.25}}));
+  EXPECT_FALSE(narrow.stages.at(1).reached);
+  const std::string reason =
+    "stage 2 of 2, lateral strain -0.0001: the specimen was as wide before it, at a lateral strain of ";
+  EXPECT_EQ(narrow.ended_early.substr(0, reason.size()), reason);
+  // Platens that close at no more than 0.3 c/H · 1e-4 cannot keep 100/s.
+  const auto fast =
+    run<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -2e-3, .strain_rate = 100.0}}));
+  EXPECT_FALSE(fast.stages.at(0).reached);
+  EXPECT_TRUE(fast.ended_early.ends_with(" in 3 times as long as its rate takes")) << fast.ended_early;
+  auto small = following({{.lateral_strain = -1e-2, .strain_rate = 0.25}});
+  small.stop_strain = 1e-3;
+  EXPECT_EQ(run<2>(small_specimen(), small).ended_early,
+            "stage 1 of 1, lateral strain -0.01: not reached at an axial strain of 0.001, where the test stops");
+}
+
+TEST(OwnLoading, RefusesALateralStrainThatTheGaugeCannotTell)
+{
+  // A grain without a joint does not count to the gauge.
+  const auto loose = placed_specimen({0.2, 0.2}, {std::vector{0.5, 0.5}, std::vector{0.3, 0.7}});
+  const auto start = [&](const LoadingStage& stage) {
+    LabTest<2> test({own_loading}, loose, following({stage}), {});
+    test.advance();
+  };
+  EXPECT_THROW(start({.lateral_strain = -1e-3, .strain_rate = 0.2}), InputError);
+  EXPECT_NO_THROW(start({.axial_strain = 1e-3}));
+}
+
+TEST(OwnLoading, LedByTheLateralStrainIsTakenUpAgainToTheSameBitsWithAnotherNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const auto specimen = small_specimen();
+  const auto wanted = led_by_lateral_strain(0.007, 5e6);
+  LabTest<2> whole({own_loading}, specimen, wanted, {});
+  const auto has_peaked = [](const LabTest<2>& test) { return test.curve().back().gauge_lateral_strain > 6e-3; };
+  const auto limit_threads = [](const std::size_t n) {
+    return oneapi::tbb::global_control(oneapi::tbb::global_control::max_allowed_parallelism, n);
+  };
+  {
+    const auto limit = limit_threads(1);
+    do
+      ASSERT_TRUE(whole.advance());
+    while (!has_peaked(whole));
+    whole.write_checkpoint(file, "a test");
+    while (whole.advance())
+      ;
+  }
+  const auto limit = limit_threads(2);
+  LabTest<2> part({own_loading}, specimen, wanted, {});
+  part.read_checkpoint(file, "a test");
+  while (part.advance())
+    ;
+  ASSERT_EQ(part.curve().size(), whole.curve().size());
+  EXPECT_EQ(part.n_steps(), whole.n_steps());
+  EXPECT_EQ(part.curve().back().axial_strain, whole.curve().back().axial_strain);
+  EXPECT_EQ(part.curve().back().axial_stress, whole.curve().back().axial_stress);
+}
+
 TEST(OwnLoading, IsTakenUpAgainInTheMiddleOfAStageToTheSameBits)
 {
   const TemporaryFolder folder;
@@ -220,7 +346,7 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
 {
   EXPECT_EQ(error_of("axial_strain,speed\n1e-3,2\n"),
             "stages.csv:1: \"speed\" is no column of a loading table; they are axial_strain, axial_stress_Pa, hold_s, "
-            "confining_pressure_Pa, strain_rate_per_s");
+            "confining_pressure_Pa, strain_rate_per_s, lateral_strain");
   const std::string header = "axial_strain,axial_stress_Pa,hold_s,confining_pressure_Pa,strain_rate_per_s\n";
   EXPECT_EQ(error_of(header), "stages.csv: there is no stage below the header");
   EXPECT_EQ(error_of(header + "1e-3,,,,\n1e-3,2e6,,,\n"),
@@ -230,7 +356,7 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
             "the table are in Pa, 60 MPa is 60e6");
   EXPECT_EQ(error_of(header + "1e-3,,,5,\n").substr(0, 49), "stages.csv:2: stage 1: confining_pressure_Pa = 5 ");
   EXPECT_EQ(error_of(header + ",,,5e6,\n"),
-            "stages.csv:2: stage 1: has no target; give axial_strain, axial_stress_Pa or hold_s");
+            "stages.csv:2: stage 1: has no target; give axial_strain, axial_stress_Pa, hold_s or lateral_strain");
   EXPECT_EQ(error_of(header + "-1e-3,,,,\n"),
             "stages.csv:2: stage 1: axial_strain = -0.001: must lie in [0, 0.2]; compression is positive");
   EXPECT_EQ(
@@ -243,6 +369,22 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
     "the way to a strain");
   EXPECT_EQ(error_of(header + "1e-3,,,,0\n"),
             "stages.csv:2: stage 1: strain_rate_per_s = 0: must be above 0; the target gives the direction");
+  const std::string led = "lateral_strain,axial_strain,strain_rate_per_s\n";
+  EXPECT_EQ(error_of(led + "0.002,,0.2\n"),
+            "stages.csv:2: stage 1: lateral_strain = 0.002: must lie in [-0.2, 0); compression is positive, a specimen "
+            "that widens has a negative one");
+  EXPECT_EQ(
+    error_of(led + "-0.002,0.01,0.2\n"),
+    "stages.csv:2: stage 1: lateral_strain and another target are both given; a stage led by the lateral strain "
+    "ends at it");
+  EXPECT_EQ(
+    error_of(led + "-0.002,,\n"),
+    "stages.csv:2: stage 1: lateral_strain needs strain_rate_per_s, of itself; at a fifth of an axial rate most "
+    "rock is shortened as fast at first");
+  EXPECT_EQ(
+    error_of(led + "-0.002,,0.2\n-0.001,,0.2\n"),
+    "stages.csv:3: stage 2: lateral_strain = -0.001: must be below -0.002 of the stage before; a broken specimen "
+    "does not narrow");
   // The line is that of the file, the stage that of the specimen: empty lines are no stages.
   EXPECT_EQ(error_of(header + "\n\n1e-3,,,,0\n").substr(0, 23), "stages.csv:4: stage 1: ");
   EXPECT_EQ(error_of(header + "1e-3,,,,fast\n").substr(0, 13), "stages.csv:2:");

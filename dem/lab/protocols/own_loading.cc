@@ -24,7 +24,8 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   const double pressure_at_start = first.confining_pressure;
   double fastest = 0.0;
   for (const LoadingStage& stage : wanted.loading_stages)
-    fastest = std::max(fastest, stage.strain_rate.value_or(wanted.compression_strain_rate));
+    fastest = std::max(fastest, stage.lateral_strain ? wanted.compression_strain_rate
+                                                     : stage.strain_rate.value_or(wanted.compression_strain_rate));
   const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
 
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
@@ -79,10 +80,20 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
     if (presses && !first.duration)
       start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate));
   };
+  // The widening answers the platens after some half of a wave's travel. Mending in it less than a sixth of what is missed
+  // leaves the loop stable even where a broken specimen widens by several times what it is shortened.
+  const double closing_per_widening = 0.3 * wave_speed(specimen) / height; // [1/s]
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);
     if (demand.held_stress)
       hold_ends(state, *demand.held_stress);
+    else if (demand.missing_widening)
+      {
+        const EndStress stress = stress_of(state, platens, around.end_area(state));
+        const bool may_open = -0.5 * (stress.lower + stress.upper) > demand.confining_pressure;
+        const double rate = closing_per_widening * *demand.missing_widening;
+        close(state, platens, (may_open ? rate : std::max(0.0, rate)) * height);
+      }
     else
       close(state, platens, demand.closing_rate * height);
   };
