@@ -657,7 +657,8 @@ TEST(CaptionOfCurves, NamesBandsWhereThereAreAny)
   const auto caption = [](const std::vector<FinishedTest>& tests) {
     const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
     std::string text;
-    for (const Picture& picture : curve_pictures(all).at(0).pictures)
+    const auto pictures = curve_pictures(all).at(0).pictures;
+    for (const Picture& picture : pictures)
       text += picture.caption + "\n";
     return text;
   };
