@@ -223,6 +223,26 @@ void check_flaws(const Input& input, const GivenEntries& values)
   check(input.flaws.traces, "Traces file");
 }
 
+/// The entries of grains, joints and contacts that are given though the specimen file has them already.
+std::vector<std::string> settled_by_file(const Input& input, const GivenEntries& values)
+{
+  std::vector<std::string> entries;
+  if (input.specimen.specimen_file.empty())
+    return entries;
+  // These are checked against the file, or name it.
+  const std::vector<std::string> read{"Specimen/Dimension", "Specimen/Joint law", "Specimen/Specimen file",
+                                      "Specimen/Packing file"};
+  const auto is_of_body = [&](const GivenEntry& given) {
+    return given.section == "Specimen" || given.section == "Particle contact" ||
+           given.section == section_of(input.specimen.joint_law);
+  };
+  for (const GivenEntry& given : values.all())
+    if (const std::string name = given.section + "/" + given.entry;
+        is_of_body(given) && std::find(read.begin(), read.end(), name) == read.end())
+      entries.push_back(name);
+  return entries;
+}
+
 /// Reads the loading table, where a test follows it.
 void complete_loading(Input& input, const GivenEntries& values)
 {
@@ -288,6 +308,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
   settle_installation(input, values);
   complete_loading(input, values);
   complete_variants(input, values);
+  input.settled_by_file = settled_by_file(input, values);
   check_joint_law(input, values);
   for (const Variant& variant : variants(input))
     {

@@ -81,6 +81,7 @@ struct Input
   std::uint64_t steps_between_checkpoints = 20000;
   std::vector<std::uint64_t> seeds{1};
   VariantParameters variants;
+  std::vector<std::string> settled_by_file; ///< entries that are given beside a specimen file, which settles them
   ContactParameters contact;
   StrainPathParameters strain_path;
   EquilibriumParameters equilibrium;

@@ -13,6 +13,7 @@
 #include "dem/specimen/specimen_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +150,9 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
   check_memory(variants, orders);
   if (const std::string effort = describe_effort(variants, orders); !effort.empty())
     progress.remark(effort);
+  if (const auto& settled = variants.front().input.settled_by_file; !settled.empty())
+    progress.remark(fmt::format("the specimen is that of {}; these entries have no effect on it: {}",
+                                variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));
   std::vector<Specimen<dim>> specimens(orders.size());
   GenesisBoard board(progress, variants, orders);
   for_each_job(orders.size(), [&](const std::size_t k) {

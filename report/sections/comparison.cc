@@ -286,7 +286,7 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
   constexpr std::size_t page = 80;
   constexpr std::size_t narrowest = 20; // of the headings
   std::vector<std::array<std::string, n_columns>> cells;
-  cells.push_back({"", "this run", "paper's model", "experiment"});
+  cells.push_back({"", "this run", "reference model", "experiment"});
   for (const auto& row : rows)
     {
       const auto value = [&](const double number) { return fmt::format("{:.{}f}", number, row.decimals); };

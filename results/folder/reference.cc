@@ -404,7 +404,7 @@ Reference read_reference(const std::filesystem::path& file, const std::vector<Te
         reference.citations.push_back(printable(fmt::format("{}: {}", name, text(words, top / "citation" / name))));
     }
   reference.experiment = source_of(json["experiment"], "experiment", kinds, top / "experiment");
-  reference.model.label = "paper's model";
+  reference.model.label = "reference model";
   if (json.contains("paper_model"))
     reference.model = source_of(json["paper_model"], reference.model.label, kinds, top / "paper_model");
   return reference;

@@ -595,13 +595,13 @@ TEST(TerminalText, OfAComparisonFitsAndLeavesOutWhatIsEmpty)
     {"uniaxial compressive strength", "MPa", 1, Statistics{3, 176.0, 5.1, 2.9, 12.7}, std::nullopt, measured},
     {"Young's modulus, tangent 40-60 % of peak", "GPa", 1, Statistics{3, 55.5, 0.4, 0.2, 1.0}, std::nullopt,
      std::nullopt}};
-  EXPECT_EQ(as_text(rows).find("paper's model"), std::string::npos);
+  EXPECT_EQ(as_text(rows).find("reference model"), std::string::npos);
   // There is room for 80 - 2 - 11 - 2 - 22 = 43 characters of a heading; the second has 46.
   EXPECT_NE(as_text(rows).find("uniaxial compressive strength [MPa] "), std::string::npos) << as_text(rows);
   EXPECT_NE(as_text(rows).find("\n  [GPa]\n"), std::string::npos) << as_text(rows);
   rows[0].model = ReferenceValue{167.4, std::nullopt, std::nullopt};
   const std::string text = as_text(rows);
-  EXPECT_NE(text.find("paper's model"), std::string::npos);
+  EXPECT_NE(text.find("reference model"), std::string::npos);
   EXPECT_LE(widest_line(text), 80u) << text;
   EXPECT_NE(text.find("\n  40-60 % of peak [GPa]\n"), std::string::npos) << text;
 }
