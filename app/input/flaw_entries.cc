@@ -3,7 +3,7 @@
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
-#include "base/csv.h"
+#include "app/input/traces.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 
@@ -28,7 +28,6 @@ namespace feldspar
 namespace
 {
 constexpr std::size_t most_shapes = 10000;
-constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
 
 std::vector<std::string_view> words_of(std::string_view text)
 {
@@ -379,20 +378,6 @@ Shape parse_shape(const std::string_view text)
   throw InputError(
     fmt::format("{} is no shape; it begins with one of: {}", in_quotes(trim(text)), fmt::join(names, ", ")));
 }
-
-std::vector<Shape> read_traces(const std::filesystem::path& file)
-{
-  std::vector<Shape> traces;
-  for (const auto& row : read_csv(file, header_of_traces))
-    {
-      if (traces.size() == most_shapes)
-        throw InputError(fmt::format("{}: must be at most {} traces", file.string(), most_shapes));
-      traces.emplace_back(ClosedFlaw{{{row[0], row[1]}, {row[2], row[3]}}});
-      if (row[0] == row[2] && row[1] == row[3])
-        throw InputError(fmt::format("{}:{}: the trace ends where it begins", file.string(), traces.size() + 1));
-    }
-  return traces;
-}
 } // namespace
 
 std::vector<Shape> parse_shapes(std::string_view text)
@@ -460,8 +445,8 @@ std::vector<Entry<Input>> flaw_entries()
                         [](const Input& input) {
                           return input.flaws.traces_file.empty() ? std::string(none) : input.flaws.traces_file;
                         }},
-     "closed flaws of a joint map, a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m (y along the axis of the "
-     "tests)",
+     "closed flaws of a joint map: a CSV with the columns from_x_m,from_y_m,to_x_m,to_y_m, or a DXF whose lines and "
+     "polylines are the traces, in the unit of its header (y along the axis of the tests)",
      of_body}};
 }
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "app/input/input.h"
 #include "app/input/laboratory_curve.h"
 #include "app/input/strain_path.h"
+#include "app/input/traces.h"
 #include "app/programme/reference_body.h"
 #include "base/csv.h"
 #include "base/input_error.h"
@@ -349,6 +350,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
      [](Content content, Folder folder) {
        put_into_small_specimen(read_input_with("Flaws", "Traces file", content, folder).flaws.all());
      }},
+    {"drawing",
+     [](Content content, Folder folder) { put_into_small_specimen(read_traces(write(folder / "map.dxf", content))); }},
     {"shapes", [](Content content, Folder) { put_into_small_specimen(parse_shapes(content)); }},
     {"variants",
      [](Content content, Folder folder) { variants(read_input_with("Variants", "Table", content, folder)); }},
