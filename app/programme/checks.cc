@@ -71,7 +71,9 @@ SampleSize checked_sample(const Input& input)
   check_body(input, Body::sample);
   if (!has_grains && input.sample.weak_seed != WeakSeed::none)
     refuse("Sample/Weak seed: weakens the bonds between grains; it needs Material = grains");
-  if (!has_grains && !continuum_of(input.sample.material).softens && !input.tests.stop_strain)
+  const bool any_ends_by_its_peak = std::any_of(input.test_list.begin(), input.test_list.end(),
+                                                [](const TestKind& kind) { return !kind.follows_stages; });
+  if (!has_grains && !continuum_of(input.sample.material).softens && !input.tests.stop_strain && any_ends_by_its_peak)
     refuse(
       fmt::format("Tests/Stop strain = none: {} does not soften, so a test would not end; give the strain at which "
                   "it is to stop",

@@ -132,30 +132,33 @@ namespace
 {
 /// Geometrically linear RVEs bear any pressure: beyond small strains that means nothing.
 template <int dim>
-void check_confinement(const double pressure, const Network<dim>& network)
+void check_confinement(const double pressure, const char* const entry, const Network<dim>& network)
 {
   constexpr double largest = 0.01;
   const Voigt<dim> all_round = stress_voigt<dim>(-pressure * Tensor<dim>::Identity());
   const Voigt<dim> strain = network.intact_stiffness().partialPivLu().solve(all_round);
   if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
-    throw InputError(
-      fmt::format("Tests/Confinements: {:g} MPa would strain the intact RVE by {:.2g} %; small strains end "
-                  "at {:g} %, which is {:.0f} MPa",
-                  pressure / 1e6, 100.0 * size, 100.0 * largest, pressure * largest / size / 1e6));
+    throw InputError(fmt::format("{}: {:g} MPa would strain the intact RVE by {:.2g} %; small strains end "
+                                 "at {:g} %, which is {:.0f} MPa",
+                                 entry, pressure / 1e6, 100.0 * size, 100.0 * largest,
+                                 pressure * largest / size / 1e6));
 }
 } // namespace
 
 std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& rocks)
 {
   for (const Rock& rock : rocks)
-    for (const double pressure : input.confinements)
-      if (any_takes_confining_pressure(input.test_list))
-        std::visit(
-          [&](const auto& packings) {
-            if (!packings.realisations.empty())
-              check_confinement(pressure, *packings.realisations.front());
-          },
-          rock.packings);
+    std::visit(
+      [&](const auto& packings) {
+        if (packings.realisations.empty())
+          return;
+        if (any_takes_confining_pressure(input.test_list))
+          for (const double pressure : input.confinements)
+            check_confinement(pressure, "Tests/Confinements", *packings.realisations.front());
+        for (const LoadingStage& stage : input.tests.loading_stages)
+          check_confinement(stage.confining_pressure, "Tests/Loading table", *packings.realisations.front());
+      },
+      rock.packings);
   std::vector<PlannedSample> planned;
   for (const Rock& rock : rocks)
     for (const TestCase& test : test_cases(input.test_list, input.confinements))

@@ -24,6 +24,11 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   record.body = TestBody::finite_elements;
   record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
   record.confining_pressure = test.confining_pressure;
+  if (test.kind.follows_stages)
+    {
+      stage_walk.emplace(wanted);
+      stage_row.confining_pressure = wanted.loading_stages.at(0).confining_pressure;
+    }
   bookkeeping.solver_work.emplace();
 }
 
@@ -38,39 +43,54 @@ void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::ui
 
 SampleSetUp SampleTest::Parts::set_up()
 {
-  return {test.confining_pressure, [this](const fem::NewtonReport& report) {
-            standing.n_newton_iterations = report.n_iterations;
-            standing.n_cascades = report.n_cascades;
-            if (watch)
-              watch(standing);
-          }};
+  return {[this](const fem::NewtonReport& report) {
+    standing.n_newton_iterations = report.n_iterations;
+    standing.n_cascades = report.n_cascades;
+    if (watch)
+      watch(standing);
+  }};
 }
 
 void SampleTest::Parts::seat()
 {
-  if (test.confining_pressure > 0.0)
-    go([this](const double fraction) { return body->seat(fraction); });
+  if (const double pressure = pressure_of_last_row(); pressure > 0.0)
+    go([=, this](const double fraction) { return body->hold(pressure, pressure, fraction); });
   height_at_seating = body->top_displacement();
   lateral_strain_at_seating = body->lateral_strain();
   seated = true;
   record.curve.push_back(sample_row());
+  if (stage_walk)
+    stage_walk->begin(stage_moment());
 }
 
 void SampleTest::Parts::load()
 {
+  if (stage_walk)
+    return load_by_stage();
+  const double pressure = test.confining_pressure;
   const double step = sign() > 0.0 ? sample.tension_step : sample.compression_step;
   widens = widens || (may_widen() && stress_falls());
   if (!widens)
     {
       const double top = height_at_seating + sign() * step * double(record.curve.size()) * size.height;
-      go([=, this](const double fraction) { return body->press(top, fraction); });
+      go([=, this](const double fraction) { return body->press(top, pressure, fraction); });
     }
   if (widens)
     {
       if (!steps)
         wanted_width = std::max(body->lateral_strain(), width_of_last_row()) + step;
-      go([=, this](const double fraction) { return body->widen(wanted_width, fraction); });
+      go([=, this](const double fraction) { return body->widen(wanted_width, pressure, fraction); });
     }
+}
+
+bool SampleTest::Parts::is_over()
+{
+  if (!stage_walk)
+    return stop_rule.is_met_by(record.curve.back(), test.confining_pressure, wanted);
+  const bool over = stage_walk->is_over(record.curve, stage_moment());
+  record.stages = stage_walk->records();
+  record.ended_early = stage_walk->ended_early();
+  return over;
 }
 
 bool SampleTest::Parts::stress_falls() const
@@ -166,9 +186,11 @@ CurveSample SampleTest::Parts::sample_row()
   CurveSample row;
   row.step = bookkeeping.steps;
   row.axial_strain = axial_strain();
-  row.axial_stress = is_first ? -test.confining_pressure : body->platen_stress("top");
+  row.axial_stress = is_first ? -pressure_of_last_row() : body->platen_stress("top");
   row.end_stress_difference = is_first ? 0.0 : body->platen_stress("top") + body->platen_stress("bottom");
-  row.lateral_stress = -test.confining_pressure;
+  row.lateral_stress = -pressure_of_last_row();
+  if (stage_walk)
+    row.time = stage_row.time;
   row.mid_stress = body->mean_axial_stress();
   row.gauge_axial_strain = row.axial_strain;
   row.gauge_lateral_strain = body->lateral_strain() - lateral_strain_at_seating;

@@ -2,6 +2,7 @@
 
 #include "coupling/sample/sample_body.h"
 #include "coupling/sample/sample_run.h"
+#include "dem/lab/stage_walk.h"
 #include "dem/lab/stop_rule.h"
 #include "fem/solid/advance.h"
 
@@ -13,6 +14,22 @@
 
 namespace feldspar
 {
+/// Where a row of a test that follows stages leads.
+struct StageRow
+{
+  enum class Lead
+  {
+    platens,       ///< to a displacement of the top [m]
+    stress,        ///< held by the platens, compression positive [Pa]
+    lateral_strain ///< of the body
+  };
+
+  Lead lead = Lead::platens;
+  double target = 0.0;
+  double confining_pressure = 0.0; ///< [Pa]
+  double time = 0.0;               ///< at its end, by the rates of the stages [s]
+};
+
 /// A multiscale test on its way: what it consists of, and its steps.
 struct SampleTest::Parts
 {
@@ -25,6 +42,8 @@ struct SampleTest::Parts
   SampleSize size{};
   std::optional<fem::FieldOutput> fields;
   StopRule stop_rule;
+  std::optional<StageWalk> stage_walk; ///< of a test that follows stages
+  StageRow stage_row;                  ///< the last one, or the one on its way
   TestRecord record;
   RunBookkeeping bookkeeping;
   std::function<void()> step_done;
@@ -50,6 +69,8 @@ struct SampleTest::Parts
   void seat();
   /// To the next row.
   void load();
+  /// After a row.
+  bool is_over();
   /// In steps that break no more than their share. Where a step cut twice for that, or the smallest, still does, it is an
   /// avalanche, which no step divides. From where it was left, if it was. `solve` goes a fraction of the way that is left.
   void go(const std::function<fem::NewtonReport(double)>& solve);
@@ -62,13 +83,19 @@ struct SampleTest::Parts
   template <typename Archive>
   void transfer(Archive& archive, std::string& fields_written, fem::StoredSolid& solid);
 
+  /// On the sides [Pa]; before the first row, that of the seating.
+  double pressure_of_last_row() const { return stage_walk ? stage_row.confining_pressure : test.confining_pressure; }
   double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }
   fem::StepControl first_steps() const { return {1.0, sample.smallest_step_share, 1.0}; }
 
 private:
   double sign() const { return test.kind.sign; }
   /// From the first avalanche or fall of the stress on.
-  bool may_widen() const { return seated && sample.widened_past_peak && sign() < 0.0; }
+  bool may_widen() const { return seated && sample.widened_past_peak && sign() < 0.0 && !stage_walk; }
+  /// In stage_rows.cc.
+  void load_by_stage();
+  StageMoment stage_moment() const;
+  StageRow next_row_of_stage();
   bool stress_falls() const;
   double width_of_last_row() const { return lateral_strain_at_seating + record.curve.back().gauge_lateral_strain; }
 };

@@ -166,8 +166,7 @@ public:
   FiniteElementBody(const SampleParameters& its_sample, const SampleSetUp& set_up, fem::SampleMesh<dim> its_mesh,
                     const fem::Material<material_dim>& material)
     : sample(its_sample)
-    , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth,
-              set_up.confining_pressure}
+    , platens{kinematics_of(sample.geometry), sample.rough_platens ? fem::Platens::rough : fem::Platens::smooth}
     , mesh(std::move(its_mesh))
     , lower_corner(dealii::GridTools::compute_bounding_box(*mesh.triangulation).get_boundary_points().first)
     , its_size(size_of(mesh, sample))
@@ -175,14 +174,20 @@ public:
   {
   }
 
-  fem::NewtonReport seat(const double fraction) override { return solid.solve(platens.seating(), fraction); }
-  fem::NewtonReport press(const double top_displacement, const double fraction) override
+  fem::NewtonReport hold(const double axial_stress, const double confining_pressure, const double fraction) override
   {
-    return solid.solve(platens.pressing(top_displacement), fraction);
+    return solid.solve(platens.under(confining_pressure).holding(axial_stress), fraction);
   }
-  fem::NewtonReport widen(const double lateral_strain, const double fraction) override
+  void let_force_hold_platen() override { solid.bear_by_pressure("top", dim - 1); }
+  fem::NewtonReport press(const double top_displacement, const double confining_pressure,
+                          const double fraction) override
   {
-    return solid.solve(platens.widening(lateral_strain * volume_of_lateral_strain()), fraction);
+    return solid.solve(platens.under(confining_pressure).pressing(top_displacement), fraction);
+  }
+  fem::NewtonReport widen(const double lateral_strain, const double confining_pressure, const double fraction) override
+  {
+    return solid.solve(platens.under(confining_pressure).widening(lateral_strain * volume_of_lateral_strain()),
+                       fraction);
   }
   void accept() override { solid.accept(); }
   void reject() override { solid.reject(); }
@@ -211,7 +216,10 @@ public:
     return swept / volume_of_lateral_strain();
   }
   double n_lateral_directions() const override { return platens.kinematics == fem::Kinematics::plane ? 1.0 : 2.0; }
-  double platen_stress(const std::string& end) const override { return solid.reaction(end, dim - 1) / solid.area(end); }
+  double platen_stress(const std::string& end) const override
+  {
+    return solid.reaction(end, dim - 1) / solid.area(end) - solid.pressure(end);
+  }
   double mean_axial_stress() const override { return solid.mean_stress()[material_dim - 1]; }
 
   std::vector<Crack> cracks_of_last_step() const override

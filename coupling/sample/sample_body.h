@@ -23,7 +23,6 @@ namespace feldspar
 /// What is asked of a body between platens.
 struct SampleSetUp
 {
-  double confining_pressure;                           ///< [Pa]
   std::function<void(const fem::NewtonReport&)> watch; ///< as SolidParameters::watch
 };
 
@@ -34,12 +33,14 @@ class SampleBody
 public:
   virtual ~SampleBody() = default;
 
-  /// A fraction of the way to the confining pressure all round, the top plate free to follow.
-  virtual fem::NewtonReport seat(double fraction) = 0;
-  /// The same to a displacement of the top platen [m].
-  virtual fem::NewtonReport press(double top_displacement, double fraction) = 0;
+  /// A fraction of the way to a confining pressure and a stress that holds the top platen [Pa], compression positive.
+  virtual fem::NewtonReport hold(double axial_stress, double confining_pressure, double fraction) = 0;
+  /// Makes the force of the top platen a stress that holds it, from which hold() goes on.
+  virtual void let_force_hold_platen() = 0;
+  /// A fraction of the way to a displacement of the top platen [m].
+  virtual fem::NewtonReport press(double top_displacement, double confining_pressure, double fraction) = 0;
   /// To a lateral strain, the platens as near as that takes.
-  virtual fem::NewtonReport widen(double lateral_strain, double fraction) = 0;
+  virtual fem::NewtonReport widen(double lateral_strain, double confining_pressure, double fraction) = 0;
   virtual void accept() = 0;
   virtual void reject() = 0;
   virtual void limit_events(std::uint64_t most_events) = 0;

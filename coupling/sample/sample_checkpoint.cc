@@ -44,6 +44,17 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   transfer_flag(archive, "row_on_its_way", on_its_way);
   transfer_flag(archive, "widens", widens);
   archive.value("wanted_lateral_strain", wanted_width);
+  if (stage_walk)
+    {
+      stage_walk->transfer(archive);
+      auto lead = std::uint32_t(stage_row.lead);
+      archive.value("stage_row_lead", lead);
+      stage_row.lead = StageRow::Lead(lead);
+      archive.value("stage_row_target", stage_row.target);
+      archive.value("stage_row_confining_pressure_Pa", stage_row.confining_pressure);
+      archive.value("stage_row_time_s", stage_row.time);
+      record.stages = stage_walk->records();
+    }
   transfer_flag(archive, "avalanche", avalanche);
   archive.value("n_cuts_for_breaks", n_cuts_for_breaks);
   archive.value("rank_mean_s", bookkeeping.ranks.mean);

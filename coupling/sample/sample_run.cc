@@ -50,13 +50,14 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
         parts->seat();
       parts->load();
       record.curve.push_back(parts->sample_row());
-      parts->ended = parts->stop_rule.is_met_by(record.curve.back(), parts->test.confining_pressure, parts->wanted);
+      parts->ended = parts->is_over();
     }
   catch (const fem::StepFailure& failure)
     {
       if (!parts->seated)
-        throw InputError(fmt::format("Tests/Confinements: the sample finds no equilibrium under {:g} MPa: {}",
-                                     parts->test.confining_pressure / 1e6, failure.what()));
+        throw InputError(fmt::format("{}: the sample finds no equilibrium under {:g} MPa: {}",
+                                     parts->stage_walk ? "Tests/Loading table" : "Tests/Confinements",
+                                     parts->pressure_of_last_row() / 1e6, failure.what()));
       parts->steps.reset();
       parts->ended = true;
       record.ended_early =

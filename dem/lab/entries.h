@@ -17,6 +17,8 @@ inline std::vector<Entry<TestParameters>> test_entries()
                              .bodies = {Body::plane_box, Body::box, Body::cylinder},
                              .needs = "is of tests on specimens of grains"};
   const EntryFlags of_grains_alike{.bodies = of_grains.bodies, .needs = of_grains.needs};
+  const EntryFlags of_platens{.bodies = {Body::plane_box, Body::box, Body::cylinder, Body::sample},
+                              .needs = "is of tests on bodies between platens"};
   const EntryFlags of_cylinder{.varies = true,
                                .bodies = {Body::cylinder},
                                .needs = "goes round a cylinder of grains: Shape = cylinder, Dimension = 3"};
@@ -51,10 +53,12 @@ inline std::vector<Entry<TestParameters>> test_entries()
                     "of the shear displacement over the length of the plane; magnitude", of_grains),
     entry::number("Shear sampling strain", &P::shear_sampling_strain, sampling,
                   "shear displacement over the length of the plane between two rows of the curve", of_grains),
-    entry::file("Loading table", &P::loading_table,
-                "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
-                "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive",
-                of_grains_alike),
+    entry::file(
+      "Loading table", &P::loading_table,
+      "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
+      "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
+      "rates only say how long a strain takes beside a hold",
+      of_platens),
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
                    of_grains_alike),

@@ -52,6 +52,9 @@ public:
   bool is_led_by_lateral_strain() const { return stage().lateral_strain.has_value(); }
   /// Of the stage that runs, its magnitude [1/s].
   double strain_rate() const { return rate_of(stage()); }
+  /// The stage that runs, and where the test stood when it began.
+  const LoadingStage& stage() const { return wanted.loading_stages[begun.size() - 1]; }
+  const StageMoment& start_of_stage() const { return start; }
 
   /// Once a row has been added to the curve: ends the stage where it has got to its target or never will, and begins the
   /// next. Whether that was the last one.
@@ -85,18 +88,17 @@ public:
     for (std::size_t k = 0; k < n_begun; ++k)
       {
         StageRecord& one = begun[k];
-        auto group = archive.subgroup(fmt::format("stage_{}", k));
-        group.text("target", one.target);
-        group.value("confining_pressure", one.confining_pressure);
-        group.value("first_row", one.first_row);
-        group.value("last_row", one.last_row);
-        transfer_flag(group, "reached", one.reached);
+        const std::string name = fmt::format("stage_{}_", k);
+        archive.text(name + "target", one.target);
+        archive.value(name + "confining_pressure", one.confining_pressure);
+        archive.value(name + "first_row", one.first_row);
+        archive.value(name + "last_row", one.last_row);
+        transfer_flag(archive, name + "reached", one.reached);
       }
-    archive.text("ended_early", early);
+    archive.text("stages_ended_early", early);
   }
 
 private:
-  const LoadingStage& stage() const { return wanted.loading_stages[begun.size() - 1]; }
   double rate_of(const LoadingStage& one) const { return one.strain_rate.value_or(wanted.compression_strain_rate); }
   std::string table() const;
   void begin_next(std::uint64_t row, const StageMoment& now);

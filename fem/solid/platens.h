@@ -21,13 +21,20 @@ struct PlatenTest
   double confining_pressure = 0.0; ///< on the sides [Pa], compression positive
 
   /// The confining pressure all round: the top is a plate held by that force.
-  Load<dim> seating() const
+  Load<dim> seating() const { return holding(confining_pressure); }
+
+  /// The top a plate held by a force over its area at rest [Pa], compression positive; the sides under the confining
+  /// pressure.
+  Load<dim> holding(const double axial_stress) const
   {
     Load<dim> load = held();
-    load.pressures.push_back({"top", confining_pressure});
+    load.pressures.push_back({"top", axial_stress});
     load.free_plates = {{"top", dim - 1}};
     return load;
   }
+
+  /// The same test under another confining pressure [Pa].
+  PlatenTest under(const double another_pressure) const { return {kinematics, platens, another_pressure}; }
 
   /// Platens at a displacement of the top [m], the sides under the confining pressure.
   Load<dim> pressing(const double top_displacement) const

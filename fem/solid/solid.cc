@@ -169,6 +169,21 @@ double Solid<dim, material_dim>::reaction(const std::string& boundary, const uns
 }
 
 template <int dim, int material_dim>
+double Solid<dim, material_dim>::pressure(const std::string& boundary) const
+{
+  const auto found = accepted->pressures.find(boundary);
+  return found == accepted->pressures.end() ? 0.0 : found->second;
+}
+
+template <int dim, int material_dim>
+void Solid<dim, material_dim>::bear_by_pressure(const std::string& boundary, const unsigned int component)
+{
+  // The boundary faces upwards: its pressure acts against the coordinate.
+  accepted->pressures[boundary] -= reaction(boundary, component) / area(boundary);
+  accepted->external_force = assemble_forces(elements, points.volumes, *accepted, AffineConstraints<double>()).external;
+}
+
+template <int dim, int material_dim>
 double Solid<dim, material_dim>::area(const std::string& boundary) const
 {
   return elements.integral(boundary, displacement(), [](const auto&, const auto&) { return 1.0; });

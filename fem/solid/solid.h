@@ -46,6 +46,13 @@ public:
   /// From the next solve on.
   void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
 
+  /// Against a boundary [Pa]; zero where none has been applied.
+  double pressure(const std::string& boundary) const;
+
+  /// Turns the force that holds a displacement of a boundary into a pressure on it, so that a free plate may take over
+  /// from where the solid stands. Collective.
+  void bear_by_pressure(const std::string& boundary, unsigned int component);
+
   /// Force on the body along a coordinate by what holds a boundary's displacement [N], without its own pressure. In
   /// the plane per metre of thickness; in r-z around the whole circle.
   double reaction(const std::string& boundary, unsigned int component) const;

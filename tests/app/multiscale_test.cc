@@ -153,6 +153,42 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
   EXPECT_FALSE(nlohmann::json::parse(contents(folder.path() / "run/summary.json"))["tests"][0].contains("ended_early"));
 }
 
+// Up, down, further up and down, then towards more than the sample bears. Cracks open above the highest strain there was
+// (Kaiser's effect); what has cracked is softer, so that the way down is flatter each time, and some strain is left.
+TEST(Multiscale, FollowsALoadingTable)
+{
+  TemporaryFolder folder;
+  folder.write("cycles.csv", "axial_strain,axial_stress_Pa\n0.0016,\n,1e6\n0.0022,\n,1e6\n,900e6\n");
+  folder.write("cycles.prm", input("  set Compression step = 1e-4\n",
+                                   "  set List = own_loading\n  set Loading table = cycles.csv\n"));
+  const auto run = run_feldspar(folder.path(), "multiscale cycles.prm --output run");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const auto test = nlohmann::json::parse(contents(folder.path() / "run/summary.json"))["tests"][0];
+  const auto& stages = test.at("stages");
+  ASSERT_EQ(stages.size(), 5u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_TRUE(stages[k].at("reached")) << k;
+  EXPECT_FALSE(stages[4].at("reached"));
+  EXPECT_FALSE(test.at("ended_early").get<std::string>().empty());
+  const auto figure = [&](const std::size_t stage, const char* const name) {
+    return stages[stage].at(name).get<double>();
+  };
+  EXPECT_GT(figure(0, "n_cracks"), 0.0);
+  EXPECT_LT(figure(1, "n_cracks"), 0.05 * figure(0, "n_cracks"));
+  EXPECT_GT(figure(2, "n_cracks"), 0.0);
+  EXPECT_LT(figure(3, "n_cracks"), 0.05 * figure(2, "n_cracks"));
+  EXPECT_LT(figure(3, "slope_Pa"), figure(1, "slope_Pa"));
+  EXPECT_GT(figure(1, "axial_strain_at_end"), 0.0);
+  EXPECT_LT(figure(1, "axial_strain_at_end"), 1e-4);
+  // Down to the stress of the table, at most a row's beyond.
+  EXPECT_NEAR(figure(1, "axial_stress_at_end_Pa"), 1e6, 0.1e6);
+  const auto strain = column(folder.path() / "run/curves/own_loading_seed_1.csv", "axial_strain");
+  const auto cracks = column(folder.path() / "run/curves/own_loading_seed_1.csv", "n_tension_cracks");
+  const std::size_t turned = stages[2].at("first_row");
+  for (std::size_t k = turned; k < strain.size() && strain[k] < 0.0014; ++k) // 0.0016 was the highest so far
+    EXPECT_LT(cracks[k], cracks[turned] + 0.05 * figure(0, "n_cracks")) << strain[k];
+}
+
 TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
 {
   TemporaryFolder folder;

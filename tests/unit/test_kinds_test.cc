@@ -129,7 +129,7 @@ TEST(TestKinds, OfANameOnlyRunOnNoFiniteElementsUnderNoPressureAndGiveNoElasticC
 {
   EXPECT_EQ(objection_to_finite_elements(torsion),
             "Tests/List: torsion: the sample stands between platens; it makes direct_tension, uniaxial_compression, "
-            "triaxial_compression");
+            "triaxial_compression, own_loading");
   EXPECT_NE(objection_to_finite_elements(brazilian.kind), "");
   EXPECT_EQ(objection_to_finite_elements(triaxial_compression.kind), "");
 

@@ -115,6 +115,7 @@ constinit const LaboratoryProtocol own_loading = complete({
            .title = "Own loading",
            .strength = "highest axial stress",
            .sign = -1.0,
+           .runs_on_finite_elements = true,
            .follows_stages = true},
   .strain_rate = &TestParameters::compression_strain_rate,
   .takes_cylinders = true,
