@@ -3,7 +3,7 @@
 #include "calibration/answer.h"
 #include "calibration/response_model.h"
 #include "calibration/target_outcomes.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <filesystem>
 #include <map>

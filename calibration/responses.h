@@ -3,7 +3,7 @@
 #include "calibration/parameters.h"
 #include "results/folder/reference.h"
 #include "results/kinds.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <cmath>
 #include <functional>

@@ -155,6 +155,7 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
     }
 }
 
+// deal.II's entries of an XDMF file can be stored by Boost's archives alone.
 std::string FieldOutput::stored() const
 {
   std::ostringstream text;

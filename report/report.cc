@@ -5,8 +5,8 @@
 #include "report/pictures/lab_pictures.h"
 #include "report/sections/sections.h"
 #include "report/sections/test_tables.h"
-#include "results/bodies.h"
 #include "results/folder/result_folder.h"
+#include "results/runs/bodies.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <filesystem>
 #include <functional>

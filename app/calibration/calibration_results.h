@@ -3,7 +3,7 @@
 #include "app/input/input.h"
 #include "app/run/run.h"
 #include "calibration/calibration_file.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <vector>
 

@@ -17,7 +17,7 @@
 #include "report/sections/comparison.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
-#include "results/trust.h"
+#include "results/runs/trust.h"
 
 #include <fmt/format.h>
 

@@ -18,7 +18,7 @@
 #include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
-#include "results/trust.h"
+#include "results/runs/trust.h"
 
 #include <fmt/format.h>
 

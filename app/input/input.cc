@@ -131,8 +131,7 @@ void check_clumps(const Input& input, const GivenEntries& values)
   if (!input.flaws.all().empty())
     refuse("excludes section Flaws, which is given too; keep one of them");
   for (const TestKind& kind : input.test_list)
-    if (kind.name != direct_tension.kind.name && kind.name != uniaxial_compression.kind.name &&
-        kind.name != triaxial_compression.kind.name)
+    if (!protocol_of(kind).takes_clumps)
       throw values.error("Tests", "List",
                          fmt::format("{} takes no clumps; take it out, or set Clumps/Diameter = none", kind.name));
 }

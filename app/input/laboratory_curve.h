@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <filesystem>
 

@@ -5,7 +5,7 @@
 #include "app/run/checkpoints.h"
 #include "app/screen/progress.h"
 #include "dem/specimen/specimen.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 #include "results/test_outcome.h"
 
 #include <filesystem>

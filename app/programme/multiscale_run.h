@@ -4,7 +4,7 @@
 #include "app/screen/progress.h"
 #include "coupling/sample/sample_run.h"
 #include "dem/specimen/specimen.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <algorithm>
 #include <cstddef>

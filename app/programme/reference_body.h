@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "results/bodies.h"
+#include "results/runs/bodies.h"
 
 #include <optional>
 #include <string>

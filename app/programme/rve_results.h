@@ -2,7 +2,7 @@
 
 #include "coupling/rve/path_run.h"
 #include "results/evaluation.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <filesystem>
 #include <memory>

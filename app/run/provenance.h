@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <filesystem>
 

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "dem/dynamics/contact_stress.h"
-#include "dem/dynamics/smooth_sweep.h"
+#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
 #include <fmt/format.h>

@@ -41,6 +41,7 @@ struct LaboratoryProtocol
   double TestParameters::*strain_rate = nullptr; ///< the magnitude of the rate of CurveSample::axial_strain [1/s]
   PeakForecast forecast = {};
   bool takes_cylinders = false; ///< in space; boxes are taken by all
+  bool takes_clumps = false;    ///< in the plane: specimens of rigid groups of grains
   // Optional instead of null: the sanitizers' null checks keep an address from being compared in a constant.
   std::optional<SetUp<2>> set_up_2d = {}; ///< none where the test is not made in the plane
   std::optional<SetUp<3>> set_up_3d = {};

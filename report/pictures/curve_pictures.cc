@@ -2,7 +2,7 @@
 
 #include "report/live/chart.h"
 #include "report/pictures/plot_style.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

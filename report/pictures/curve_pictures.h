@@ -1,7 +1,7 @@
 #pragma once
 
 #include "report/pictures/gnuplot.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <string>
 #include <vector>

@@ -3,8 +3,8 @@
 #include "report/live/chart.h"
 #include "report/pictures/plot_style.h"
 #include "results/fits/residual_strength.h"
+#include "results/runs/test_groups.h"
 #include "results/statistics.h"
-#include "results/test_groups.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "report/pictures/gnuplot.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/reference.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <optional>
 #include <vector>

@@ -1,11 +1,11 @@
 #include "report/pictures/lab_pictures.h"
 
 #include "base/quoted.h"
-#include "report/pictures/crack_pictures.h"
-#include "report/pictures/map_marks.h"
+#include "report/pictures/maps/crack_map.h"
+#include "report/pictures/maps/map_marks.h"
 #include "report/pictures/plane_view.h"
 #include "report/pictures/plot_style.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/prefixes.h"
 #include "results/evaluation.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "report/pictures/gnuplot.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <string>
 #include <vector>

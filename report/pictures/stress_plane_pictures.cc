@@ -4,8 +4,8 @@
 #include "report/pictures/envelope_pictures.h"
 #include "report/pictures/plot_style.h"
 #include "results/fits/residual_strength.h"
+#include "results/runs/test_groups.h"
 #include "results/statistics.h"
-#include "results/test_groups.h"
 
 #include <fmt/format.h>
 

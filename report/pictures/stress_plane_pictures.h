@@ -2,7 +2,7 @@
 
 #include "report/pictures/gnuplot.h"
 #include "results/fits/strength_envelopes.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <cstddef>
 #include <functional>

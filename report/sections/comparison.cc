@@ -2,7 +2,7 @@
 
 #include "results/fits/direct_shear.h"
 #include "results/fits/mohr_coulomb.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

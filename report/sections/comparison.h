@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/folder/reference.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 #include "results/statistics.h"
 
 #include <optional>

@@ -3,8 +3,8 @@
 #include "base/append.h"
 #include "report/pictures/plot_style.h"
 #include "report/sections/text.h"
+#include "results/runs/test_groups.h"
 #include "results/statistics.h"
-#include "results/test_groups.h"
 
 #include <fmt/format.h>
 

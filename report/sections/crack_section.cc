@@ -1,11 +1,13 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/crack_pictures.h"
 #include "report/pictures/envelope_pictures.h"
+#include "report/pictures/maps/crack_map.h"
+#include "report/pictures/maps/fragment_pictures.h"
+#include "report/pictures/maps/rose_picture.h"
 #include "report/pictures/space_pictures.h"
 #include "results/folder/result_folder.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "report/sections/comparison.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/reference.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "report/page/table.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <string>
 

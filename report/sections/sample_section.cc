@@ -4,7 +4,7 @@
 #include "report/pictures/rve_pictures.h"
 #include "report/pictures/sample_pictures.h"
 #include "report/sections/text.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 
 #include "base/append.h"
 #include "report/sections/text.h"
-#include "results/result_table.h"
-#include "results/test_groups.h"
+#include "results/runs/result_table.h"
+#include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 

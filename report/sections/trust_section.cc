@@ -5,7 +5,7 @@
 #include "report/sections/test_tables.h"
 #include "report/sections/text.h"
 #include "results/folder/result_folder.h"
-#include "results/trust.h"
+#include "results/runs/trust.h"
 
 #include <fmt/format.h>
 

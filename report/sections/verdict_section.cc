@@ -4,9 +4,9 @@
 #include "report/sections/comparison_table.h"
 #include "report/sections/text.h"
 #include "report/sections/verdict.h"
-#include "results/bodies.h"
 #include "results/folder/result_folder.h"
-#include "results/trust.h"
+#include "results/runs/bodies.h"
+#include "results/runs/trust.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "results/fits/residual_strength.h"
 
+#include "results/runs/test_groups.h"
 #include "results/statistics.h"
-#include "results/test_groups.h"
 
 #include <cmath>
 #include <numeric>

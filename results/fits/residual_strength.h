@@ -2,7 +2,7 @@
 
 #include "results/evaluation.h"
 #include "results/fits/fit.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/fits/strength_envelopes.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <map>
 #include <string>

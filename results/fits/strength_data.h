@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/fits/fit.h"
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 #include "results/folder/provenance_json.h"
 #include "results/folder/summary.h"
 #include "results/folder/tests_table.h"
-#include "results/result_table.h"
+#include "results/runs/result_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/fits/run_envelopes.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 
 #include <filesystem>
 #include <string>

@@ -4,9 +4,9 @@
 #include "results/evaluation.h"
 #include "results/fits/direct_shear.h"
 #include "results/folder/provenance_json.h"
-#include "results/result_table.h"
+#include "results/runs/result_table.h"
+#include "results/runs/trust.h"
 #include "results/statistics.h"
-#include "results/trust.h"
 
 #include <nlohmann/json.hpp>
 

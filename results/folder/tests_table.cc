@@ -1,7 +1,7 @@
 #include "results/folder/tests_table.h"
 
 #include "base/whole_file.h"
-#include "results/result_table.h"
+#include "results/runs/result_table.h"
 
 #include <fmt/format.h>
 

@@ -34,12 +34,14 @@ const std::vector<Room> rooms = {
   {"dem/storage", {"base", "dem/laws"}},
   {"dem/specimen", {"base", "dem/laws", "dem/storage"}},
   {"dem/flaws", {"base", "dem/laws", "dem/storage", "dem/specimen"}},
-  {"dem/dynamics", {"base", "dem/laws", "dem/storage", "dem/specimen"}},
+  {"dem/dynamics/sweeps", {"base", "dem/laws", "dem/storage", "dem/specimen"}, {"dem/dynamics/energies.h"}},
+  {"dem/dynamics", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics/sweeps"}},
   {"dem/genesis", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
   {"results", {"base"}, {"dem/dynamics/energies.h", "dem/specimen/specimen_report.h"}},
-  {"results/fits", {"base", "results"}},
-  {"results/folder", {"base", "results", "results/fits"}},
-  {"calibration", {"base", "results", "results/fits", "results/folder"}},
+  {"results/runs", {"base", "results"}, {"dem/specimen/specimen_report.h"}},
+  {"results/fits", {"base", "results", "results/runs"}},
+  {"results/folder", {"base", "results", "results/runs", "results/fits"}},
+  {"calibration", {"base", "results", "results/runs", "results/fits", "results/folder"}},
   {"dem/lab", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/dynamics", "results"}},
   {"dem/lab/protocols",
    {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/dynamics", "results", "dem/lab"}},
@@ -53,13 +55,20 @@ const std::vector<Room> rooms = {
   {"coupling/sample",
    {"coupling/sample/continua", "base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh",
     "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
-   {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stop_rule.h"}},
-  {"report/live", {"base", "results"}},
-  {"report/pictures", {"base", "results", "results/fits", "results/folder", "report/live"}},
-  {"report/page", {"base", "results", "results/folder", "report/pictures"}},
-  {"report/sections", {"base", "results", "results/fits", "results/folder", "report/pictures", "report/page"}},
+   {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stage_walk.h", "dem/lab/stop_rule.h"}},
+  {"report/live", {"base", "results", "results/runs"}},
+  {"report/pictures/maps",
+   {"base", "results", "results/runs", "report/live"},
+   {"report/pictures/gnuplot.h", "report/pictures/plot_style.h"}},
+  {"report/pictures",
+   {"base", "results", "results/runs", "results/fits", "results/folder", "report/live", "report/pictures/maps"}},
+  {"report/page", {"base", "results", "results/runs", "results/folder", "report/pictures"}},
+  {"report/sections",
+   {"base", "results", "results/runs", "results/fits", "results/folder", "report/pictures", "report/pictures/maps",
+    "report/page"}},
   {"report",
-   {"base", "results", "results/fits", "results/folder", "report/pictures", "report/page", "report/sections"}},
+   {"base", "results", "results/runs", "results/fits", "results/folder", "report/pictures", "report/page",
+    "report/sections"}},
 };
 
 /// The rooms of the command, which may include all libraries, from the ground up; each sees those before it.
@@ -232,7 +241,7 @@ TEST(IncludeRules, NamespacesAreThoseOfTheLibraries)
 // What a reader takes in at a glance.
 TEST(IncludeRules, NoRoomIsCrowded)
 {
-  constexpr std::size_t most_files = 30;
+  constexpr std::size_t most_files = 28;
   std::map<std::string, std::size_t> n_files;
   for (const fs::path& path : sources())
     ++n_files[path.parent_path().string()];

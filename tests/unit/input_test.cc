@@ -1167,6 +1167,33 @@ TEST(Input, ShapesThatAreWrongAreNamed)
     }
 }
 
+TEST(Input, ClumpsAreTestedByWhatSaysThatItTakesThem)
+{
+  const TemporaryFolder folder;
+  const auto file = [&](const std::string_view test) {
+    return folder.write("a.prm", "subsection Clumps\n  set Diameter = 6 mm\nend\nsubsection Tests\n  set List = " +
+                                   std::string(test) + "\nend\n");
+  };
+  std::size_t n_taken = 0;
+  for (const LaboratoryProtocol* protocol : laboratory_protocols())
+    if (protocol->takes_clumps)
+      {
+        EXPECT_NO_THROW(read_input(file(protocol->kind.name))) << protocol->kind.name;
+        ++n_taken;
+      }
+    else if (!protocol->kind.follows_stages) // which asks for its table first
+      try
+        {
+          read_input(file(protocol->kind.name));
+          ADD_FAILURE() << protocol->kind.name << " was taken";
+        }
+      catch (const InputError& error)
+        {
+          EXPECT_NE(std::string(error.what()).find("takes no clumps; take it out"), std::string::npos) << error.what();
+        }
+  EXPECT_EQ(n_taken, 3u);
+}
+
 TEST(Input, ATraceFileThatIsWrongIsNamedWithItsLine)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
 #include "benchmarks/plain_reference.h"
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>

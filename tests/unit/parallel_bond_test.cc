@@ -1,7 +1,7 @@
 // The parallel bond: pairs pulled, sheared, twisted and bent against closed forms, and a wandering one against a plain
 // program; each beyond breakage.
 
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/laws/parallel_bond.h"
 #include "tests/unit/parallel_bonds.h"
 

@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
-#include "dem/dynamics/smooth_sweep.h"
+#include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"

@@ -1,6 +1,6 @@
 // The flat joint in three dimensions: its disk of elements, and how its faces move.
 
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/laws/flat_joint.h"
 #include "tests/unit/small_specimen.h"
 

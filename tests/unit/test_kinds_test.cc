@@ -6,7 +6,7 @@
 #include "report/sections/comparison.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/result_folder.h"
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

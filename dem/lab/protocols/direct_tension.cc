@@ -57,6 +57,7 @@ constinit const LaboratoryProtocol direct_tension = complete({
   .strain_rate = &TestParameters::tension_strain_rate,
   .forecast = {PeakForecast::With::tension},
   .takes_cylinders = true,
+  .takes_clumps = true,
   .set_up_2d = set_up_direct_tension<2>,
   .set_up_3d = set_up_direct_tension<3>,
 });

@@ -122,6 +122,7 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
   .strain_rate = &TestParameters::compression_strain_rate,
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
+  .takes_clumps = true,
   .set_up_2d = set_up_triaxial_compression<2>,
   .set_up_3d = set_up_triaxial_compression<3>,
 });

@@ -35,6 +35,7 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
   .strain_rate = &TestParameters::compression_strain_rate,
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
+  .takes_clumps = true,
   .set_up_2d = set_up_uniaxial_compression<2>,
   .set_up_3d = set_up_uniaxial_compression<3>,
 });

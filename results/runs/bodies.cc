@@ -1,4 +1,4 @@
-#include "results/bodies.h"
+#include "results/runs/bodies.h"
 
 #include <fmt/format.h>
 

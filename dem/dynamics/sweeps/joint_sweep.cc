@@ -1,6 +1,6 @@
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 
-#include "dem/dynamics/joint_sweep_of_law.h"
+#include "dem/dynamics/sweeps/joint_sweep_of_law.h"
 
 #include <variant>
 

@@ -1,4 +1,4 @@
-#include "report/pictures/map_marks.h"
+#include "report/pictures/maps/map_marks.h"
 
 #include "report/pictures/plot_style.h"
 

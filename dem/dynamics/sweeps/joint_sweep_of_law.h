@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/simd_transpose.h"
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/laws/joint_law.h"
 
 #include <algorithm>

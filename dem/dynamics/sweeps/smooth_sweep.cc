@@ -1,4 +1,4 @@
-#include "dem/dynamics/smooth_sweep.h"
+#include "dem/dynamics/sweeps/smooth_sweep.h"
 
 #include "base/parallel.h"
 #include "dem/laws/contact_motion.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/energies.h"
-#include "dem/dynamics/joint_sweep.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
 
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/specimen/specimen_report.h"
-#include "results/series.h"
+#include "results/runs/series.h"
 #include "results/statistics.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "results/test_groups.h"
+#include "results/runs/test_groups.h"
 
 #include "results/statistics.h"
 

@@ -1,4 +1,4 @@
-#include "results/run.h"
+#include "results/runs/run.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "results/result_table.h"
+#include "results/runs/result_table.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "results/trust.h"
+#include "results/runs/trust.h"
 
 #include "results/statistics.h"
 
