@@ -51,6 +51,7 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::servo_error_largest,
                                                       &TestResults::fracture_toughness,
                                                       &TestResults::fracture_energy,
+                                                      &TestResults::normal_stress_at_peak,
                                                       &TestResults::dilation_angle};
 
 /// The rising branch of a curve, positive in the sense of the test.
@@ -249,6 +250,8 @@ void evaluate_trust(const TestRecord& record, const RisingBranch& branch, TestRe
   results.servo_error = results.servo_error_largest = unknown("the test has no servo");
   if (record.kind.follows_stages)
     results.servo_error = results.servo_error_largest = unknown("the confinement follows stages");
+  else if (record.normal_stiffness)
+    results.servo_error = results.servo_error_largest = unknown("the normal stress follows the opening");
   else if (record.has_servo)
     {
       double sum = 0.0;
@@ -296,29 +299,40 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
 /// Of a sheared plane that has its strength, and keeps it while it slides.
 constexpr double share_of_strength = 0.99;
 
+/// What a sheared plane bears; under a normal stress that grows as it opens, as a share of that stress.
+double mobilised(const TestRecord& record, const CurveSample& row)
+{
+  return record.kind.stress(row) / (record.normal_stiffness ? -row.lateral_stress : 1.0);
+}
+
 /// A plane that slides bears its strength to the end: any row may be the highest by a little, the last one too.
 bool slides_to_the_end(const TestRecord& record)
 {
   const auto& curve = record.curve;
   return record.kind.pressure_acts_across &&
-         record.kind.stress(curve[9 * (curve.size() - 1) / 10]) > share_of_strength * record.kind.stress(curve.back());
+         mobilised(record, curve[9 * (curve.size() - 1) / 10]) > share_of_strength * mobilised(record, curve.back());
 }
 
 /// The way of the platen that holds the normal stress is what the work of the walls is more than that of the shear stress:
 /// dW = A (τ du - σ_n dv).
-void evaluate_dilation(const TestRecord& record, const RisingBranch& branch, TestResults& results)
+void evaluate_shear(const TestRecord& record, const RisingBranch& branch, TestResults& results)
 {
   if (!record.kind.pressure_acts_across)
     {
-      results.dilation_angle = unknown("the test shears no plane");
+      results.normal_stress_at_peak = results.dilation_angle = unknown("the test shears no plane");
       return;
     }
+  const CurveSample& at_peak = branch.rows.back();
+  results.normal_stress_at_peak = known(record.normal_stiffness ? -at_peak.lateral_stress : record.confining_pressure);
   const double width = record.size[0];
   const double area = width * (record.dimension() == 2 ? 1.0 : record.size[1]); // in the plane of a slice of 1 m
   const auto& curve = record.curve;
   std::vector<double> shear{0.0};
   std::vector<double> opening{0.0};
-  for (std::size_t k = branch.row_at(share_of_strength) + 1; k < curve.size(); ++k)
+  std::size_t start = 0;
+  while (mobilised(record, curve[start]) < share_of_strength * mobilised(record, at_peak))
+    ++start;
+  for (std::size_t k = start + 1; k < curve.size(); ++k)
     {
       if (-curve[k].lateral_stress < 0.5 * record.confining_pressure)
         {
@@ -441,7 +455,7 @@ TestResults evaluate(const TestRecord& record)
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);
   evaluate_toughness(record, branch, results);
-  evaluate_dilation(record, branch, results);
+  evaluate_shear(record, branch, results);
   return results;
 }
 } // namespace feldspar

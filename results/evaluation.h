@@ -50,6 +50,7 @@ struct TestResults
   Figure servo_error_largest;    ///< largest of the same
   Figure fracture_toughness;     ///< K_IC at the peak [Pa √m]
   Figure fracture_energy;        ///< work of fracture over the ligament [J/m²]
+  Figure normal_stress_at_peak;  ///< on a plane that is sheared, compression positive [Pa]
   Figure dilation_angle;         ///< of a plane that is sheared, from the peak to the end [rad]
   Figure n_fragments;            ///< of two grains or more, at the end
   Figure largest_fragment_share; ///< of the grains' volume

@@ -70,6 +70,8 @@ struct TestRecord
   /// σ_2, compression positive, where it is held at another value than the confining pressure [Pa].
   std::optional<double> intermediate_stress = std::nullopt;
   bool has_servo = false; ///< which holds it; else it is applied as it is
+  /// By which it grows with the opening of the sheared plane, where it does [Pa/m].
+  std::optional<double> normal_stiffness = std::nullopt;
   std::uint64_t seed = 0;
   double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
   std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane

@@ -105,7 +105,7 @@ SampleSize checked_sample(const Input& input)
   return size;
 }
 
-/// Elements larger than the RVE would have to dissipate more than it holds; docs/theory.md §11.
+/// Elements larger than the RVE would have to dissipate more than it holds; docs/theory.md §10.
 std::vector<std::string> remarks_on_elements(const Input& input, const SampleSize& size)
 {
   if (!input.sample.has_grains() || !input.specimen.specimen_file.empty())

@@ -4,7 +4,7 @@
 #include "dem/laws/flat_joint_law.h"
 
 /// How a link with unbonded segments, or one of a law that is not linear while it holds, responds: the law of dem/, in small
-/// strains and from one event to the next; docs/theory.md §10.3.
+/// strains and from one event to the next; docs/theory.md §9.3.
 namespace feldspar
 {
 /// One segment at the last event.

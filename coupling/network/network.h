@@ -10,7 +10,7 @@
 #include <vector>
 
 /// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
-/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §10.
+/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §9.
 namespace feldspar
 {
 /// Normal and shear stress of a segment under unit strains, per Voigt component.

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-/// Which segments break, and when; docs/theory.md §10.3.
+/// Which segments break, and when; docs/theory.md §9.3.
 namespace feldspar
 {
 /// A segment beyond its strength.

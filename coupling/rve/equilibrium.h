@@ -18,7 +18,7 @@ struct BreakEvent
 };
 
 /// A network on its way from one equilibrium to the next: relaxes with bonds frozen, breaks what is overloaded, relaxes
-/// again. No rate enters; docs/theory.md §10.3.
+/// again. No rate enters; docs/theory.md §9.3.
 template <int dim>
 class Equilibrium
 {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-/// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §10.5.
+/// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
 /// Of every link at a state, in its own axes [N, N m]; a pull between its grains is positive.

@@ -3,7 +3,7 @@
 #include "coupling/rve/parameters.h"
 #include "coupling/rve/tangent.h"
 
-/// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §10.3.
+/// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §9.3.
 namespace feldspar
 {
 /// What is prescribed, per Voigt component: a strain, or a stress.

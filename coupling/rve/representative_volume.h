@@ -58,7 +58,7 @@ struct TrialOptions
   double share_of_tolerance = 1.0; ///< of the final one, up to which the forces may stay unbalanced
 };
 
-/// A periodic specimen that responds to a macroscopic strain with a stress; docs/theory.md §10. Copies share the reference
+/// A periodic specimen that responds to a macroscopic strain with a stress; docs/theory.md §9. Copies share the reference
 /// network and hold their own state only. Trying is not doing: history changes on accept().
 template <int dim>
 class RepresentativeVolume

@@ -3,7 +3,7 @@
 #include "coupling/network/network.h"
 
 /// What the boundary of a representative volume does to its elasticity: the same grains and joints under the weakest and
-/// the strictest hold on their boundary. The periodic one lies between them; docs/theory.md §10.5.
+/// the strictest hold on their boundary. The periodic one lies between them; docs/theory.md §9.5.
 namespace feldspar
 {
 template <int dim>

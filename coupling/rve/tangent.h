@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-/// The linear equations of a network with bonds and open, stick and slip states frozen; docs/theory.md §10.4.
+/// The linear equations of a network with bonds and open, stick and slip states frozen; docs/theory.md §9.4.
 namespace feldspar
 {
 /// Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.

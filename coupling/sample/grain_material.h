@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-/// The law made of grains: a representative volume at every point of a sample; docs/theory.md §11.
+/// The law made of grains: a representative volume at every point of a sample; docs/theory.md §10.
 namespace feldspar
 {
 /// The representative volume at a point, in its accepted state: the structure of GrainPoint.

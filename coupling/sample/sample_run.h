@@ -27,7 +27,7 @@ struct SampleStanding
 };
 
 /// A laboratory test on a sample of finite elements with a representative volume at every point; docs/theory.md
-/// §11. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
+/// §10. Leaves the same record as a test on a specimen of grains: a row of the curve a step, strains counted from
 /// seating.
 ///
 /// All ranks of mpirun make it together: every function is collective, throws on all ranks what it throws on any, and

@@ -13,7 +13,7 @@ namespace feldspar
 {
 /// An RVE of one size as the material of a piece of the sample of another: a band of pieces dissipates per area as the
 /// RVE does, whatever their size, as long as it breaks in steps. An avalanche does not: on three meshes of a granite
-/// the peaks agree within 1.5 %, the work after the peak does not; docs/theory.md §11.
+/// the peaks agree within 1.5 %, the work after the peak does not; docs/theory.md §10.
 ///
 /// Until the point localises the strain of the RVE is that of the piece. It localises where an event leaves it with
 /// dσ : dε < 0 since the last accepted step. From then on the strain beyond the elastic one is scaled,
@@ -45,7 +45,7 @@ public:
   /// a break in a small RVE may let the stress fall for a moment.
   std::vector<double> fields() const override;
   /// Of the piece: what the RVE lost after it localised counts 1/κ times. While events run the piece stands still and
-  /// nothing works on it, so what its energies would gain then is taken from what breaks released; docs/theory.md §11.
+  /// nothing works on it, so what its energies would gain then is taken from what breaks released; docs/theory.md §10.
   std::optional<fem::PointEnergies> energies() const override;
 
   bool has_localised() const { return at_work.localised; }

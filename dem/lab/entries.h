@@ -53,6 +53,11 @@ inline std::vector<Entry<TestParameters>> test_entries()
                     "of the shear displacement over the length of the plane; magnitude", of_grains),
     entry::number("Shear sampling strain", &P::shear_sampling_strain, sampling,
                   "shear displacement over the length of the plane between two rows of the curve", of_grains),
+    entry::optional_quantity("Shear normal stiffness", &P::shear_normal_stiffness, Measure::stiffness, "GPa/mm",
+                             ranges::above_zero,
+                             "of the rock around the plane of direct shear: the normal stress grows by this times the "
+                             "opening of the box since its seating; none: the normal stress is constant",
+                             of_grains),
     entry::file(
       "Loading table", &P::loading_table,
       "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "

@@ -34,6 +34,8 @@ struct TestParameters
   double notch_ratio = 0.4;       ///< depth of the notch of a bent beam over that of the beam
   double shear_strain_rate = 0.1; ///< of the shear displacement over the length of the plane [1/s]
   double shear_sampling_strain = 1e-5;
+  std::optional<double>
+    shear_normal_stiffness;                 ///< of the rock around a sheared plane [Pa/m]; none: constant normal stress
   std::string loading_table;                ///< CSV file of the stages of own loading; empty: none
   std::vector<LoadingStage> loading_stages; ///< read from it
   unsigned int n_snapshots = 32;            ///< states of the grains that are kept, at most

@@ -92,6 +92,7 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen,
   record.specimen = tested.report;
   record.bulk_density = tested.bulk_density;
   record.notch = set_up.loading.notch;
+  record.normal_stiffness = set_up.loading.normal_stiffness;
   stop_rule.needs_crack = record.notch.has_value(); // a slender body
   n_broken_segments.assign(tested.grains.size(), 0);
   jointed.assign(tested.grains.size(), false);
@@ -146,6 +147,8 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     set_up.loading.seat(dynamics, check);
   if (set_up.loading.shortening)
     shortening_at_start = set_up.loading.shortening(dynamics);
+  if (set_up.loading.opening)
+    opening_at_start = set_up.loading.opening(dynamics);
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
   if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
@@ -241,6 +244,8 @@ void LabTest<dim>::load_to_next_row(const std::function<void()>& check)
           check();
           if (loading.drive)
             loading.drive(dynamics);
+          if (loading.drive_against_opening)
+            loading.drive_against_opening(dynamics, loading.opening(dynamics) - opening_at_start);
           step();
         }
       while (std::abs(axial_strain()) < next_strain);
@@ -406,6 +411,8 @@ void LabTest<dim>::transfer(Archive& archive)
       archive.value("shortening_at_start", shortening_at_start);
       stage_walk.transfer(archive);
     }
+  if (set_up.loading.opening)
+    archive.value("opening_at_start", opening_at_start);
   std::uint32_t has_ended = ended;
   archive.value("ended", has_ended);
   ended = has_ended;

@@ -32,9 +32,13 @@ struct Loading
   double sampling_strain = 0.0;              ///< between two rows of the curve
   std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
   std::optional<NotchGeometry> notch;
+  std::optional<double> normal_stiffness; ///< that presses back the opening [Pa/m]
   /// Brings the specimen to where the strain is zero, and calls check() at every step; may be empty.
   std::function<void(Dynamics<dim>&, const std::function<void()>& check)> seat;
   std::function<void(Dynamics<dim>&)> drive; ///< before each step after that; may be empty
+  /// Instead of it where a stiffness presses back the opening since the strain was zero [m].
+  std::function<void(Dynamics<dim>&, double opening)> drive_against_opening;
+  std::function<double(const Dynamics<dim>&)> opening; ///< of the platens since the genesis [m]; with it alone
   /// Before each step, of a test that follows the stages of a loading table; else empty.
   std::function<void(Dynamics<dim>&, const StageDemand&)> drive_stage;
   std::function<double(const Dynamics<dim>&)> shortening; ///< of the specimen since its genesis, over its height
@@ -125,5 +129,6 @@ private:
   std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints
   std::uint64_t rows_between_snapshots = 1;
   double shortening_at_start = 0.0; ///< of a test that follows stages
+  double opening_at_start = 0.0;    ///< of a test whose normal stress follows the opening [m]
 };
 } // namespace feldspar

@@ -9,7 +9,7 @@
 ///
 /// One step is one backward Euler step from the old plastic strain, in principal stresses, where every yield surface is
 /// a plane: onto one plane, onto the edge of two, or to the apex. Each return is exact, and so is the tangent.
-/// Units SI, angles in radians. Source: docs/theory.md §9.4. Pure; no storage, no files.
+/// Units SI, angles in radians. Source: docs/theory.md §8.4. Pure; no storage, no files.
 namespace feldspar::fem
 {
 struct MohrCoulombParameters

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// The weak form of equilibrium and its derivative by the displacement; docs/theory.md §9.1.
+/// The weak form of equilibrium and its derivative by the displacement; docs/theory.md §8.1.
 namespace feldspar::fem
 {
 /// On every node [N].

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-/// The work done on a solid at its boundary; docs/theory.md §9.3.
+/// The work done on a solid at its boundary; docs/theory.md §8.3.
 ///
 /// The path from one accepted state to the next has a vertex where equilibrium is found and one where points have just
 /// changed their structure. Between two vertices forces and displacements are taken to go in proportion (trapezoidal rule).

@@ -10,7 +10,7 @@
 
 namespace feldspar::fem
 {
-/// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §9.3.
+/// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §8.3.
 ///
 /// Between two cascades the structure of every point is frozen. Its responses come from the points' accepted states, which
 /// the search leaves as they are; their structure at work it changes.

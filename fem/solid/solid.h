@@ -16,7 +16,7 @@
 
 namespace feldspar::fem
 {
-/// A body in quasi-static equilibrium, at small strain; docs/theory.md §9.
+/// A body in quasi-static equilibrium, at small strain; docs/theory.md §8.
 ///
 /// solve() looks for equilibrium under a load, from the accepted state; accept() makes it the accepted state. Every
 /// query is about the accepted state, and of the whole body unless it says that it is of this rank.

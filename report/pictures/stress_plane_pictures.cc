@@ -175,8 +175,10 @@ std::vector<Picture> mohr_picture(const Series& series, const std::size_t which,
     }
   ChartLine sheared{.kind = ChartLine::Kind::marks, .label = "direct shear tests", .colour = of_colour};
   for (const auto& test : series.tests)
-    if (test.record.kind.pressure_acts_across && test.results.peak_stress.value)
-      sheared.points.push_back({test.record.confining_pressure / mega, *test.results.peak_stress.value / mega});
+    if (test.record.kind.pressure_acts_across && test.results.peak_stress.value &&
+        test.results.normal_stress_at_peak.value)
+      sheared.points.push_back(
+        {*test.results.normal_stress_at_peak.value / mega, *test.results.peak_stress.value / mega});
   plotted.add(std::move(sheared), 1);
   const double reach = 1.03 * highest / mega;
   return {

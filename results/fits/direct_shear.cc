@@ -11,9 +11,10 @@ ShearLineResult fit_shear_line(const std::vector<const FinishedTest*>& tests)
   std::vector<double> normal;
   std::vector<double> shear;
   for (const FinishedTest* const test : tests)
-    if (test->record.kind.pressure_acts_across && test->was_made() && test->results.peak_stress.value)
+    if (test->record.kind.pressure_acts_across && test->was_made() && test->results.peak_stress.value &&
+        test->results.normal_stress_at_peak.value)
       {
-        normal.push_back(test->record.confining_pressure);
+        normal.push_back(*test->results.normal_stress_at_peak.value);
         shear.push_back(*test->results.peak_stress.value);
       }
   const PairedMoments of = paired_moments(normal, shear);

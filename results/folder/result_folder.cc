@@ -85,6 +85,8 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
         test.record.size[c] = (*size)[c].get<double>();
   if (const auto stress = json.find("intermediate_stress_Pa"); stress != json.end() && stress->is_number())
     test.record.intermediate_stress = stress->get<double>();
+  if (const auto stiffness = json.find("normal_stiffness_Pa_per_m"); stiffness != json.end() && stiffness->is_number())
+    test.record.normal_stiffness = stiffness->get<double>();
   test.appearance.flaws = flaws_of(json);
   for (const auto& entry : result_table())
     {
@@ -96,6 +98,8 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
         figure.reason = reason;
       entry.set(test, figure);
     }
+  if (kind.pressure_acts_across && !json.contains("normal_stress_at_peak_Pa")) // layouts from before it could change
+    test.results.normal_stress_at_peak = {test.record.confining_pressure, ""};
   test.group = text_of(json, "group");
   if (test.group.empty()) // a layout from before groups were written
     test.group = test.name.substr(0, test.name.rfind("_seed_"));

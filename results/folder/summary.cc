@@ -83,6 +83,8 @@ Json describe(const FinishedTest& test)
   json["seed"] = test.record.seed;
   if (test.record.intermediate_stress)
     json["intermediate_stress_Pa"] = json_number(*test.record.intermediate_stress);
+  if (test.record.normal_stiffness)
+    json["normal_stiffness_Pa_per_m"] = json_number(*test.record.normal_stiffness);
   if (!test.variant.empty())
     json["variant"] = test.variant;
   if (!test.settings.empty())

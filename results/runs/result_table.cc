@@ -106,6 +106,7 @@ const std::vector<ResultEntry>& result_table()
                    result("smooth_tension_share_at_peak", &TestResults::smooth_tension_share_at_peak),
                    result("fracture_toughness_Pa_sqrt_m", &TestResults::fracture_toughness),
                    result("fracture_energy_J_per_m2", &TestResults::fracture_energy),
+                   result("normal_stress_at_peak_Pa", &TestResults::normal_stress_at_peak),
                    result("dilation_angle_rad", &TestResults::dilation_angle),
                    result("n_fragments", &TestResults::n_fragments),
                    result("largest_fragment_share", &TestResults::largest_fragment_share),

@@ -101,7 +101,7 @@ TEST(Metropolis, DrawsFromANormalDistributionAndKeepsToItsBounds)
   EXPECT_NEAR(variance, 0.01, 0.0015);
 }
 
-/// Poisson's ratio of a plane network in affine strain, (κ - 1)/(3κ + 1) (docs/theory.md §10): what a table of cells is
+/// Poisson's ratio of a plane network in affine strain, (κ - 1)/(3κ + 1) (docs/theory.md §9): what a table of cells is
 /// about as curved as.
 double affine_poissons_ratio(const double ratio) { return (ratio - 1.0) / (3.0 * ratio + 1.0); }
 

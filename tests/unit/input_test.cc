@@ -104,6 +104,7 @@ subsection Tests
   set Snapshots = 20
   set Shear strain rate = 0.3 1/s
   set Shear sampling strain = 3e-5
+  set Shear normal stiffness = 4 GPa/mm
   set Platen friction = 0.1
   set Seating transits = 12
   set Steps between checkpoints = 500
@@ -338,6 +339,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_TRUE(input.tests.loading_table.ends_with("stages.csv"));
   EXPECT_EQ(input.tests.n_snapshots, 20u);
   EXPECT_EQ(input.tests.shear_strain_rate, 0.3);
+  EXPECT_DOUBLE_EQ(input.tests.shear_normal_stiffness.value(), 4e12);
   EXPECT_EQ(input.tests.shear_sampling_strain, 3e-5);
   EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
   EXPECT_EQ(input.tests.compression_strain_rate, 0.5);

@@ -53,8 +53,8 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   const HalfBox upper = add_half_box(test.dynamics, 0.5 * height + half_gap, endless);
 
   const double largest_servo_speed = 10.0 * speed;
-  const auto hold = [=](Dynamics<dim>& state, const double share) {
-    hold_pressure(state, platens.upper, area, share * normal_stress, largest_servo_speed);
+  const auto hold = [=](Dynamics<dim>& state, const double pressure) {
+    hold_pressure(state, platens.upper, area, pressure, largest_servo_speed);
   };
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
     const auto largest_deviation = [&] {
@@ -65,14 +65,25 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
     };
     raise_pressures<dim>(state,
                          {normal_stress, wanted.seating_transits * height / wave_speed(state.specimen()),
-                          [&](const double share) { hold(state, share); }, largest_deviation},
+                          [&](const double share) { hold(state, share * normal_stress); }, largest_deviation},
                          check);
     for (const std::size_t end : {upper.low, upper.high})
       state.wall(end).velocity = 0.5 * speed;
     for (const std::size_t end : {lower.low, lower.high})
       state.wall(end).velocity = -0.5 * speed;
   };
-  test.loading.drive = [=](Dynamics<dim>& state) { hold(state, 1.0); };
+  if (const auto stiffness = wanted.shear_normal_stiffness)
+    {
+      test.loading.normal_stiffness = stiffness;
+      test.loading.opening = [=](const Dynamics<dim>& state) {
+        return state.walls()[platens.upper].position - state.walls()[platens.lower].position - height;
+      };
+      test.loading.drive_against_opening = [=](Dynamics<dim>& state, const double opening) {
+        hold(state, std::max(0.0, normal_stress + *stiffness * opening)); // platens do not pull
+      };
+    }
+  else
+    test.loading.drive = [=](Dynamics<dim>& state) { hold(state, normal_stress); };
 
   test.loading.strain_rate = -wanted.shear_strain_rate;
   test.loading.sampling_strain = wanted.shear_sampling_strain;
