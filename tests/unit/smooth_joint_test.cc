@@ -459,7 +459,7 @@ TEST(SmoothPlane, InStiffRockTakenUpGoesOnToTheSameBits)
   LabTest<2> whole(sheared, specimen, wanted, {});
   for (int row = 0; row < 15; ++row)
     ASSERT_TRUE(whole.advance());
-  const TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   whole.write_checkpoint(folder.path() / "test.h5", "one");
   LabTest<2> taken_up(sheared, specimen, wanted, {});
   taken_up.read_checkpoint(folder.path() / "test.h5", "one");
