@@ -520,6 +520,39 @@ TEST(Example, TheDirectShearReadmeShowsTheCommittedResults)
   EXPECT_EQ(n, 18u);
 }
 
+TEST(Example, TheDirectShearReadmeShowsTheResultsAgainstANormalStiffness)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/direct-shear/README.md");
+  const auto results = results_of("direct-shear", "stiff-rock");
+  const std::pair<const char*, double> stiffnesses[] = {{"none", 0.0}, {"0.05", 5e10}, {"0.2", 2e11}, {"0.8", 8e11}};
+  for (int k = 0; k < 4; ++k)
+    {
+      const auto& [name, stiffness] = stiffnesses[k];
+      std::string row = fmt::format("| {} |", name);
+      for (const int stress : {2, 5})
+        {
+          const std::string group = fmt::format("direct_shear_{}_MPa_variant_{}", stress, k + 1);
+          row += fmt::format(" {} | {} |", mean_and_deviation(results, group, "normal_stress_at_peak_Pa", 1e6, 2),
+                             mean_and_deviation(results, group, "peak_stress_Pa", 1e6, 3));
+        }
+      const auto& dilation =
+        results["ensemble"][fmt::format("direct_shear_5_MPa_variant_{}", k + 1)]["dilation_angle_rad"];
+      row += fmt::format(" {} |", number(dilation["mean"], M_PI / 180.0, 2));
+      EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+
+      // The claims below the table; one compliance for all.
+      constexpr double compliance = 0.41e-12;
+      for (const auto& test : results["tests"])
+        if (test["variant"].get<std::string>().find(std::string("= ") + name) != std::string::npos)
+          {
+            const double normal = test["normal_stress_at_peak_Pa"].get<double>();
+            EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), 0.6 * normal, 0.005 * 0.6 * normal) << test["name"];
+            const double tangent = std::tan(8.0 * M_PI / 180.0) / (1.0 + stiffness * compliance);
+            EXPECT_NEAR(std::tan(test["dilation_angle_rad"].get<double>()), tangent, 0.005 * tangent) << test["name"];
+          }
+    }
+}
+
 TEST(Benchmark, TheReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
