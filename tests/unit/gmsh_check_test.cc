@@ -9,6 +9,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -199,7 +203,9 @@ std::string complaint_of_bytes(const std::string& content)
 template <typename Number>
 std::string with_number(std::string bytes, const std::size_t place, const Number value)
 {
-  return bytes.replace(place, sizeof(value), reinterpret_cast<const char*>(&value), sizeof(value));
+  const auto of_number = std::bit_cast<std::array<char, sizeof(Number)>>(value);
+  std::copy(of_number.begin(), of_number.end(), bytes.begin() + std::ptrdiff_t(place));
+  return bytes;
 }
 } // namespace
 
