@@ -7,6 +7,7 @@
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
+#include "tests/unit/staged_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,22 +22,6 @@ namespace feldspar::tests
 namespace
 {
 constexpr double unbreakable = 1e3; // times the strength of the bonds
-
-TestParameters following(const std::vector<LoadingStage>& stages)
-{
-  TestParameters wanted;
-  wanted.loading_stages = stages;
-  return wanted;
-}
-
-template <int dim>
-TestRecord run(const Specimen<dim>& specimen, const TestParameters& wanted)
-{
-  LabTest<dim> test({own_loading}, specimen, wanted, {});
-  while (test.advance())
-    ;
-  return test.finish(false).record;
-}
 
 std::string error_of(const std::string& table)
 {
@@ -57,8 +42,9 @@ std::string error_of(const std::string& table)
 
 TEST(OwnLoading, OfAnElasticSpecimenReturnsOnItsLine)
 {
-  const auto record = run<2>(small_specimen(1, unbreakable),
-                             following({{.axial_strain = 1e-3}, {.axial_strain = 2e-4}, {.axial_strain = 1e-3}}));
+  const auto record =
+    run_stages<2>(small_specimen(1, unbreakable),
+                  following({{.axial_strain = 1e-3}, {.axial_strain = 2e-4}, {.axial_strain = 1e-3}}));
   EXPECT_TRUE(record.cracks.empty());
   ASSERT_EQ(record.stages.size(), 3u);
   const auto stages = evaluate_stages(record);
@@ -79,10 +65,10 @@ TEST(OwnLoading, OfAnElasticSpecimenReturnsOnItsLine)
 TEST(OwnLoading, HoldsWhatTheTableSays)
 {
   // To an axial stress, then the confinement alone, then down to a lower stress.
-  const auto record = run<2>(small_specimen(1, unbreakable),
-                             following({{.axial_stress = 30e6, .confining_pressure = 5e6},
-                                        {.axial_stress = 30e6, .duration = 4e-4, .confining_pressure = 15e6},
-                                        {.axial_stress = 20e6, .confining_pressure = 15e6}}));
+  const auto record = run_stages<2>(small_specimen(1, unbreakable),
+                                    following({{.axial_stress = 30e6, .confining_pressure = 5e6},
+                                               {.axial_stress = 30e6, .duration = 4e-4, .confining_pressure = 15e6},
+                                               {.axial_stress = 20e6, .confining_pressure = 15e6}}));
   ASSERT_EQ(record.stages.size(), 3u);
   const auto stages = evaluate_stages(record);
   EXPECT_TRUE(std::all_of(record.stages.begin(), record.stages.end(), [](const auto& stage) { return stage.reached; }));
@@ -109,9 +95,9 @@ TEST(OwnLoading, LeavesAResidualStrainInABrokenSpecimen)
   // column left between bare platens does. An elastic specimen is back at 0 but for the wave of the platens that turn, of
   // 1e-5 at 2/s; a residual strain is ten times that and more.
   const auto residual = [](const double strength, const double strain) {
-    const auto record = run<2>(small_specimen(1, strength),
-                               following({{.axial_strain = strain, .confining_pressure = 5e6, .strain_rate = 2.0},
-                                          {.axial_stress = 5e6, .confining_pressure = 5e6, .strain_rate = 2.0}}));
+    const auto record = run_stages<2>(
+      small_specimen(1, strength), following({{.axial_strain = strain, .confining_pressure = 5e6, .strain_rate = 2.0},
+                                              {.axial_stress = 5e6, .confining_pressure = 5e6, .strain_rate = 2.0}}));
     EXPECT_TRUE(record.stages.at(1).reached);
     return evaluate_stages(record).at(1);
   };
@@ -125,7 +111,7 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
 {
   for (const double confinement : {0.0, 5e6})
     {
-      const auto record = run<2>(
+      const auto record = run_stages<2>(
         small_specimen(), following({{.axial_strain = 1e-3, .confining_pressure = confinement},
                                      {.axial_stress = 2e9, .confining_pressure = confinement, .strain_rate = 4.0},
                                      {.axial_strain = 0.0, .confining_pressure = confinement}}));
@@ -146,62 +132,12 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
     }
 }
 
-/// The first two thousandths axially, then by the gauge.
-TestParameters led_by_lateral_strain(const double to, const double confinement)
-{
-  return following({{.axial_strain = 2e-3, .confining_pressure = confinement},
-                    {.lateral_strain = -to, .confining_pressure = confinement, .strain_rate = 0.25}});
-}
-
-/// Both ways past the peak. Led by the gauge, to a lateral strain, the axial one goes back while the specimen goes on breaking.
-template <int dim>
-void compare_controls(const Specimen<dim>& specimen, const double lateral_strain)
-{
-  const auto by_platens = run(specimen, following({{.axial_strain = 8e-3, .confining_pressure = 5e6}}));
-  const auto by_gauge = run(specimen, led_by_lateral_strain(lateral_strain, 5e6));
-  EXPECT_EQ(by_gauge.ended_early, "");
-  const auto one = evaluate(by_platens);
-  const auto other = evaluate(by_gauge);
-  ASSERT_TRUE(one.peak_stress.value && other.peak_stress.value);
-  // Another order of cracks: the peaks of one packing at two rates differ by a few per cent too.
-  EXPECT_NEAR(*other.peak_stress.value, *one.peak_stress.value, 0.04 * *one.peak_stress.value);
-  EXPECT_NEAR(*other.strain_at_peak.value, *one.strain_at_peak.value, 0.04 * *one.strain_at_peak.value);
-  const auto stress_at = [](const TestRecord& record, const double strain) {
-    const auto row = std::find_if(record.curve.begin(), record.curve.end(),
-                                  [=](const auto& sample) { return -sample.axial_strain >= strain; });
-    return -row->axial_stress;
-  };
-  for (const double share : {0.4, 0.6})
-    {
-      const double strain = share * *one.strain_at_peak.value;
-      EXPECT_NEAR(stress_at(by_gauge, strain), stress_at(by_platens, strain), 0.01 * stress_at(by_platens, strain));
-    }
-
-  const auto& curve = by_gauge.curve;
-  const auto peak = std::min_element(curve.begin(), curve.end(),
-                                     [](const auto& a, const auto& b) { return a.axial_stress < b.axial_stress; });
-  const auto back =
-    std::max_element(peak, curve.end(), [](const auto& a, const auto& b) { return a.axial_strain < b.axial_strain; });
-  // Platens that turn round at their full speed, 0.5 · 0.3 c · 1e-4 each, send out waves of a strain of 3e-5.
-  const double gone_back = back->axial_strain - peak->axial_strain;
-  EXPECT_GT(gone_back, 3.0 * 3e-5);
-  // Unloaded only, it would go down along the slope of its rise, without cracks and narrowing.
-  const double slope = stress_at(by_platens, 2e-3) / 2e-3;
-  EXPECT_GT(back->axial_stress - peak->axial_stress, 1.2 * slope * gone_back);
-  EXPECT_GT(back->n_tension_cracks + back->n_shear_cracks, peak->n_tension_cracks + peak->n_shear_cracks);
-  EXPECT_GT(back->gauge_lateral_strain, peak->gauge_lateral_strain);
-}
-
-TEST(OwnLoading, LedByTheLateralStrainSnapsBackPastTheSamePeak) { compare_controls(small_specimen(), 8e-3); }
-
-TEST(OwnLoading, OfACylinderIsLedByTheLateralStrainToo) { compare_controls(small_cylinder(), 6e-3); }
-
 TEST(OwnLoading, KeepsTheRateOfTheLateralStrain)
 {
   // Of a specimen that does not break: what is missed is what moves the platens, which close at the rate over Poisson's ratio;
   // at 0.3 c/H = 8e4/s and 1/s to 2.5/s that is up to 3e-5. Waves of the start add to it.
   const auto record =
-    run<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -8e-4, .strain_rate = 0.25}}));
+    run_stages<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -8e-4, .strain_rate = 0.25}}));
   EXPECT_TRUE(record.cracks.empty());
   EXPECT_TRUE(record.stages.at(0).reached);
   for (const CurveSample& row : record.curve)
@@ -211,20 +147,21 @@ TEST(OwnLoading, KeepsTheRateOfTheLateralStrain)
 TEST(OwnLoading, EndsWhereTheLateralStrainCannotBeLed)
 {
   // Poisson's ratio of 0.1 and more has widened the specimen by 4e-4 at least.
-  const auto narrow = run<2>(small_specimen(1, unbreakable),
-                             following({{.axial_strain = 4e-3}, {.lateral_strain = -1e-4, .strain_rate = 0.25}}));
+  const auto narrow =
+    run_stages<2>(small_specimen(1, unbreakable),
+                  following({{.axial_strain = 4e-3}, {.lateral_strain = -1e-4, .strain_rate = 0.25}}));
   EXPECT_FALSE(narrow.stages.at(1).reached);
   const std::string reason =
     "stage 2 of 2, lateral strain -0.0001: the specimen was as wide before it, at a lateral strain of ";
   EXPECT_EQ(narrow.ended_early.substr(0, reason.size()), reason);
   // Platens that close at no more than 0.3 c/H · 1e-4 cannot keep 100/s.
   const auto fast =
-    run<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -2e-3, .strain_rate = 100.0}}));
+    run_stages<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -2e-3, .strain_rate = 100.0}}));
   EXPECT_FALSE(fast.stages.at(0).reached);
   EXPECT_TRUE(fast.ended_early.ends_with(" in 3 times as long as its rate takes")) << fast.ended_early;
   auto small = following({{.lateral_strain = -1e-2, .strain_rate = 0.25}});
   small.stop_strain = 1e-3;
-  EXPECT_EQ(run<2>(small_specimen(), small).ended_early,
+  EXPECT_EQ(run_stages<2>(small_specimen(), small).ended_early,
             "stage 1 of 1, lateral strain -0.01: not reached at an axial strain of 0.001, where the test stops");
 }
 
