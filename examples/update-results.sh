@@ -4,8 +4,9 @@
 #   examples/update-results.sh FELDSPAR [EXAMPLE/NAME ...]
 #
 # FELDSPAR is the built command; without names every study is run. Each EXAMPLE/results/NAME.json is the summary.json of
-# its run: figures, seeds, commit and machine. The READMEs take their figures from there, and a test checks that they
-# agree. A build of a changed work tree is refused: its results could not be made again.
+# its run: figures, seeds, commit and machine. Where a folder has a study.py, that writes the results that are not listed
+# here. The READMEs take their figures from there, and a test checks that they agree. A build of a changed work tree is
+# refused: its results could not be made again.
 set -euo pipefail
 feldspar=$(realpath "$1")
 shift
@@ -17,7 +18,7 @@ studies=("$@")
   beishan-cylinder/beishan-cylinder
   contact-models/{parallel-bond,grain-based}
   calibrate-beishan/calibrate
-  flawed-granite/flaw
+  flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,softening,softening-strength}
   direct-shear/{smooth-plane,intact,stiff-rock}
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}

@@ -449,26 +449,6 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
     }
 }
 
-TEST(Example, TheFlawedGraniteReadmeShowsTheCommittedResults)
-{
-  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/flawed-granite/";
-  const std::string readme = content(folder + "README.md");
-  const auto study = nlohmann::json::parse(content(folder + "results/flaw.json"));
-  const auto row = [&](const std::string& name, const int variant) {
-    std::string text = fmt::format("| {} |", name);
-    for (const char* const key : {"peak_stress_Pa", "crack_initiation_stress_Pa"})
-      for (const int seed : {1, 2})
-        text += fmt::format(
-          " {} |",
-          number(test_of(study, fmt::format("uniaxial_compression_variant_{}_seed_{}", variant, seed))[key], 1e6, 1));
-    EXPECT_NE(readme.find("\n" + text), std::string::npos) << "missing: " << text;
-  };
-  row("intact", 1);
-  for (int k = 0; k <= 6; ++k)
-    row(fmt::format("slot, {}°", 15 * k), 2 + k);
-  row("closed flaw, 45°", 9);
-}
-
 TEST(Example, TheDirectShearReadmeShowsTheCommittedResults)
 {
   const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/direct-shear/README.md");

@@ -1,9 +1,11 @@
 // Each study has a reduced piece that is run here, by the program as it is now, and must give what stands in the study's
 // committed results: a result that does not come out any more is older than the code that made it.
 
+#include "tests/app/committed_results.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +22,7 @@
 #include <ostream>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -95,11 +98,33 @@ const std::vector<Piece> pieces{
    "beishan-granite/rate-study.prm",
    {"beishan-granite/results/rate-study.json"},
    {{"Seeds", "Seeds", "3"}, {"Variants", "Values", "1 1/s"}, no_reference}},
-  {"SmallestGraniteWithAnInclinedSlot",
+  {"GraniteWithAnInclinedSlot",
    "lab",
    "flawed-granite/flaw.prm",
    {"flawed-granite/results/flaw.json"},
-   {first_seed, {"Variants", "Values", "slot centre 12.5, 25 mm length 10 mm angle 45 deg width 2 mm"}}},
+   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "slot centre 25, 50 mm length 16 mm angle 15 deg width 2 mm"}}},
+  {"GraniteWithASmoothFlaw",
+   "lab",
+   "flawed-granite/closed-flaw.prm",
+   {"flawed-granite/results/closed-flaw.json"},
+   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "closed flaw centre 25, 50 mm length 16 mm angle 30 deg smooth"}}},
+  {"GraniteWithTwoFlaws",
+   "lab",
+   "flawed-granite/two-flaws.prm",
+   {"flawed-granite/results/two-flaws.json"},
+   {{"Seeds", "Seeds", "3"},
+    {"Variants", "Values",
+     "slot from 18.926, 41.856 mm to 27.412, 50.341 mm width 2 mm | slot from 32.588, 69.659 mm to 41.074, 78.144 mm width 2 mm"}}},
+  {"GraniteWithAHoleInTension",
+   "lab",
+   "flawed-granite/hole.prm",
+   {"flawed-granite/results/hole.json"},
+   {first_seed, {"Tests", "List", "direct_tension"}, {"Variants", "Values", "hole centre 25, 50 mm radius 8 mm"}}},
+  {"GraniteWithTheLongestFlawInTension",
+   "lab",
+   "flawed-granite/flaw-length.prm",
+   {"flawed-granite/results/flaw-length.json"},
+   {first_seed, {"Variants", "Values", "closed flaw centre 75, 75 mm length 49 mm angle 0 deg"}}},
   {"GrainBasedModelInTension",
    "lab",
    "contact-models/grain-based.prm",
@@ -464,18 +489,22 @@ TEST_P(ReducedStudy, GivesTheCommittedFigures)
     }
 }
 
-std::string output_of_python(const std::string& script, const std::string& arguments)
+std::string output_of(const std::string& command)
 {
-  const std::string command = "python3 '" + (root / script).string() + "' " + arguments + " 2>&1";
-  FILE* const pipe = popen(command.c_str(), "r");
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
   if (!pipe)
-    throw std::runtime_error("python3 cannot be started");
+    throw std::runtime_error("no shell for " + command);
   std::string output;
   std::array<char, 4096> buffer;
   while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
     output.append(buffer.data(), n);
   EXPECT_EQ(pclose(pipe), 0) << output;
   return output;
+}
+
+std::string output_of_python(const std::string& script, const std::string& arguments)
+{
+  return output_of("python3 '" + (root / script).string() + "' " + arguments);
 }
 
 // Other programs are in no package that the tests ask for: the table of the committed figures is all that can be held.
@@ -496,6 +525,77 @@ TEST(Peers, StandInTheReadmeWithTheCommittedFigures)
         fastest = std::min(fastest, taken[other]["1"].get<double>());
       EXPECT_NEAR(fastest / taken["flat-joint"]["1"].get<double>(), times_as_fast, 0.5) << body;
     }
+}
+
+// Its script prints the tables from the committed results; it runs nothing without names.
+TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
+{
+  std::istringstream tables(output_of_python("examples/flawed-granite/study.py", ""));
+  const std::string readme = text_of(root / "examples/flawed-granite/README.md");
+  std::size_t n_rows = 0;
+  for (std::string row; std::getline(tables, row);)
+    if (row.starts_with("| "))
+      {
+        EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+        ++n_rows;
+      }
+  EXPECT_EQ(n_rows, 29u);
+  const auto two_flaws = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/two-flaws.json"));
+  const auto picture = root / "examples/flawed-granite/results/two-flaws.png";
+  const std::string checksum = two_flaws["picture_sha256"];
+  EXPECT_TRUE(output_of("sha256sum '" + picture.string() + "'").starts_with(checksum + " "));
+}
+
+TEST(FlawedGranite, HasOneToughnessFromALengthOfTenRadiiOn)
+{
+  // σ √(π a sec(π a/W)) of the four longest flaws within 10 % of its mean.
+  const auto study = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/flaw-length.json"));
+  std::vector<double> toughnesses;
+  for (const auto& [variant, a] : {std::pair(4, 8.25e-3), {5, 12.5e-3}, {6, 16.5e-3}, {7, 24.5e-3}})
+    {
+      const auto& group = study["ensemble"][fmt::format("direct_tension_variant_{}", variant)];
+      const double strength = group["peak_stress_Pa"]["mean"];
+      toughnesses.push_back(strength * std::sqrt(M_PI * a / std::cos(M_PI * a / 0.150)));
+    }
+  for (const double toughness : toughnesses)
+    EXPECT_NEAR(toughness, mean(toughnesses), 0.10 * mean(toughnesses));
+}
+
+TEST(FlawedGranite, IsWeakestWithASmoothFlawAt30To60DegreesFromTheLoad)
+{
+  const auto study = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/closed-flaw.json"));
+  std::map<double, int> angles; // from the load, by strength
+  for (int k = 0; k < 7; ++k)
+    angles[mean_of(study, fmt::format("uniaxial_compression_variant_{}", k + 1))] = 90 - 15 * k;
+  EXPECT_GE(angles.begin()->second, 30);
+  EXPECT_LE(angles.begin()->second, 60);
+}
+
+// Grains on a square lattice of 7 x 5, of which two are taken out: the flaws. Between these lie two pores, and three joints
+// are in the way. Nor are the flaws joined by cracks that lead out of the specimen on both sides.
+TEST(FlawedGranite, HasItsFlawsJoinedWhenTheLastJointInTheWayCracks)
+{
+  const TemporaryFolder folder;
+  folder.write("way.py", R"(
+import sys
+sys.dont_write_bytecode = True
+sys.path.insert(0, sys.argv[1])
+import study
+
+places = [(i, j) for j in range(5) for i in range(7) if (i, j) not in ((1, 2), (5, 2))]
+grains = [(2.0 * i, 2.0 * j, 1.0) for i, j in places]
+joints = study.joints_of(grains, 50)
+between = lambda one, other: joints.index((places.index(one), places.index(other)))
+in_the_way = [between((i, 2), (i, 3)) for i in (2, 3, 4)]
+outwards = [between((i, 1), (i, 2)) for i in (0, 6)]
+flaws = [(2.0, 4.0), (10.0, 4.0)]
+print(study.way(grains, joints, dict(zip(in_the_way, (10, 40, 20))), flaws) == in_the_way)
+print(study.way(grains, joints, dict(zip(in_the_way[::2], (10, 20))), flaws))
+print(study.way(grains, joints, dict(zip(outwards, (10, 20))), flaws))
+)");
+  const auto command =
+    "python3 '" + (folder.path() / "way.py").string() + "' '" + (root / "examples/flawed-granite").string() + "'";
+  EXPECT_EQ(output_of(command), "True\nNone\nNone\n");
 }
 
 // The replay of measured costs has no program: its piece is one sample on one number of cores.
