@@ -12,8 +12,9 @@ namespace feldspar
 template <typename P>
 std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock)
 {
+  // Over a gap of a mean radius lie other grains.
   for (const Entry<P>& entry :
-       {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::from_zero,
+       {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::fraction,
                                   "largest gap that gets a joint, over the mean radius; instead of Coordination number",
                                   of_rock),
         entry::optional_number<P>(

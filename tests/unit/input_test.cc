@@ -710,6 +710,10 @@ end
 
 TEST(Input, RefusesWhatNoProgrammeCanBe)
 {
+  EXPECT_EQ(error_of_entry("Flat joint", "Modulus = 1e300 GPa"),
+            "a.prm:2: Flat joint/Modulus = 1e300 GPa: is larger than any number this program can hold");
+  EXPECT_EQ(error_of_entry("Flat joint", "Installation gap ratio = 1.5"),
+            "a.prm:2: Flat joint/Installation gap ratio = 1.5: must lie in [0, 1], or be none");
   EXPECT_EQ(error_of_entry("Tests", "Confinements = 5, -10 MPa"),
             "a.prm:2: Tests/Confinements = 5, -10 MPa: must be > 0 MPa each; without confinement it is "
             "uniaxial_compression");
