@@ -1,7 +1,7 @@
 #include "dem/lab/bending.h"
 
 #include "base/input_error.h"
-#include "dem/flaws/apply.h"
+#include "dem/lab/notch.h"
 
 #include <fmt/format.h>
 
@@ -60,15 +60,7 @@ SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParame
                     const DynamicsParameters& dynamics)
 {
   const double middle = 0.5 * body.size[0];
-  try
-    {
-      put_in_flaws<dim>(body, {Slot{{middle, 0.0}, {middle, bending.notch_depth}, 0.0}});
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(
-        fmt::format("Tests/Notch ratio = {}: the notch cannot be cut: {}", wanted.notch_ratio, error.what()));
-    }
+  cut_notch(body, {middle, 0.0}, {middle, bending.notch_depth}, wanted);
 
   Wall upper = roller(body, middle, -1.0);
   upper.velocity = -wanted.bending_strain_rate * bending.depth;

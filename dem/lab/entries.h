@@ -47,7 +47,8 @@ inline std::vector<Entry<TestParameters>> test_entries()
     entry::number("Bending sampling strain", &P::bending_sampling_strain, sampling,
                   "deflection over depth between two rows of the curve", of_grains),
     entry::number("Notch ratio", &P::notch_ratio, {'[', 0.05, 0.8, ']'},
-                  "depth of the notch of a bent body over that of the body (over the radius of a half disc)",
+                  "depth of the notch of a bent body over that of the body (over the radius of a half disc); of a "
+                  "centre-cracked plate the whole length of its crack over its width",
                   of_grains),
     entry::quantity("Shear strain rate", &P::shear_strain_rate, Measure::rate, "1/s", ranges::above_zero,
                     "of the shear displacement over the length of the plane; magnitude", of_grains),

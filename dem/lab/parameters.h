@@ -31,7 +31,7 @@ struct TestParameters
   double brazilian_sampling_strain = 2e-6;
   double bending_strain_rate = 0.1; ///< of the deflection over the depth of the beam [1/s]
   double bending_sampling_strain = 2e-6;
-  double notch_ratio = 0.4;       ///< depth of the notch of a bent beam over that of the beam
+  double notch_ratio = 0.4;       ///< depth of the notch over that of the beam; 2 a / W of a cracked plate
   double shear_strain_rate = 0.1; ///< of the shear displacement over the length of the plane [1/s]
   double shear_sampling_strain = 1e-5;
   std::optional<double>

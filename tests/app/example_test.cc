@@ -16,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -397,16 +398,48 @@ TEST(Example, TheBenchmarksReadmeShowsTheStepsOfTheLargeCylinder)
   shown("\n| triaxial compression, seating at 10 MPa | " + number(tests[2]["step_s"], 1e-3, 0) + " |");
 }
 
-/// Toughness in MPa √m and work of fracture in J/m² of a variant, by the beam and by the half disc, as cells of a table.
-std::string cells_of_bending(const nlohmann::json& study, const int variant)
+/// Toughness in MPa √m, then work of fracture in J/m² of a variant, each by these tests, as cells of a table.
+std::string cells_of_toughness(const nlohmann::json& study, const int variant, const std::vector<std::string>& kinds)
 {
-  const auto cell = [&](const char* kind, const char* key, const double scale, const int decimals) {
-    return mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals);
-  };
-  return fmt::format(" {} | {} | {} | {} |", cell("three_point_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
-                     cell("semicircular_bending", "fracture_toughness_Pa_sqrt_m", 1e6, 2),
-                     cell("three_point_bending", "fracture_energy_J_per_m2", 1.0, 1),
-                     cell("semicircular_bending", "fracture_energy_J_per_m2", 1.0, 1));
+  std::string cells;
+  for (const auto& [key, scale, decimals] :
+       {std::tuple("fracture_toughness_Pa_sqrt_m", 1e6, 2), std::tuple("fracture_energy_J_per_m2", 1.0, 1)})
+    for (const std::string& kind : kinds)
+      cells += fmt::format(
+        " {} |", mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals));
+  return cells;
+}
+
+/// K over the measured stress and the root of the depth, or half the width, of a body with such a notch; docs/theory.md §4.8.
+double intensity(const std::string& kind, const double a)
+{
+  if (kind == "three_point_bending")
+    return std::sqrt(a) * (1.99 - a * (1.0 - a) * (2.15 - 3.93 * a + 2.7 * a * a)) /
+           ((1.0 + 2.0 * a) * std::pow(1.0 - a, 1.5));
+  if (kind == "semicircular_bending") // span 0.6
+    return std::sqrt(std::numbers::pi * a) * (4.4126 - 10.3442 * a + 21.7116 * a * a);
+  return std::sqrt(std::numbers::pi * a / std::cos(0.5 * std::numbers::pi * a)) *
+         (1.0 - 0.025 * a * a + 0.06 * a * a * a * a);
+}
+
+/// Mean K_IC of a group in MPa √m, were its notches longer by the mean radius of the grains.
+double with_longer_notches(const nlohmann::json& study, const std::string& kind, const int variant)
+{
+  double sum = 0.0;
+  double n = 0.0;
+  for (const auto& test : study["tests"])
+    if (test["group"] == fmt::format("{}_variant_{}", kind, variant))
+      {
+        const double width = test["size_m"][0];
+        const double depth = kind == "centre_cracked_plate" ? 0.5 * width : double(test["size_m"][1]);
+        const double at_notch = intensity(kind, 0.5) * std::sqrt(depth);
+        EXPECT_NEAR(double(test["notch"]["intensity_over_stress_sqrt_m"]), at_notch, 1e-6 * at_notch);
+        const double mean_radius = width / (2.0 * double(test["resolution"]));
+        sum += double(test["fracture_toughness_Pa_sqrt_m"]) / 1e6 * intensity(kind, 0.5 + mean_radius / depth) /
+               intensity(kind, 0.5);
+        ++n;
+      }
+  return sum / n;
 }
 
 TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
@@ -416,8 +449,52 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
     EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
   };
   const auto of_radii = results_of("toughness", "toughness");
-  for (const auto& [radius, variant] : {std::pair("0.62", 1), {"0.88", 2}, {"1.24", 3}})
-    shown(fmt::format("| {} |{}", radius, cells_of_bending(of_radii, variant)));
+  const auto of_large_plates = results_of("toughness", "large-plate");
+  struct Body
+  {
+    std::string title;
+    const nlohmann::json& study;
+    std::string kind;
+  };
+  const std::vector<Body> bodies{{"beam", of_radii, "three_point_bending"},
+                                 {"half disc", of_radii, "semicircular_bending"},
+                                 {"plate", of_radii, "centre_cracked_plate"},
+                                 {"plate of twice the size", of_large_plates, "centre_cracked_plate"}};
+  // A row for each body: K_IC over the root of the minimum radius in mm, then K_IC of longer notches.
+  std::vector<std::string> over_root, longer;
+  for (const Body& body : bodies)
+    {
+      over_root.push_back(fmt::format("| {} |", body.title));
+      longer.push_back("");
+    }
+  for (const auto& [radius, number] : {std::pair("0.62", 1), {"0.88", 2}, {"1.24", 3}})
+    {
+      shown(fmt::format("| {} |{}", radius,
+                        cells_of_toughness(of_radii, number, {bodies[0].kind, bodies[1].kind, bodies[2].kind})));
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+        {
+          const Body& body = bodies[k];
+          const bool is_large = &body.study == &of_large_plates;
+          const int variant = number - (is_large ? 1 : 0); // which are not there with the finest grains
+          if (variant == 0)
+            {
+              over_root[k] += " – |";
+              longer[k] += " – |";
+              continue;
+            }
+          if (is_large)
+            shown(fmt::format("| {} | {} |{}", radius,
+                              mean_and_deviation(body.study, fmt::format("direct_tension_variant_{}", variant),
+                                                 "peak_stress_Pa", 1e6, 1),
+                              cells_of_toughness(body.study, variant, {body.kind})));
+          const double toughness =
+            mean_of(body.study, fmt::format("{}_variant_{}", body.kind, variant), "fracture_toughness_Pa_sqrt_m");
+          over_root[k] += fmt::format(" {:.2f} |", toughness / 1e6 / std::sqrt(std::stod(radius)));
+          longer[k] += fmt::format(" {:.2f} |", with_longer_notches(body.study, body.kind, variant));
+        }
+    }
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    shown(over_root[k] + longer[k]);
 
   const auto bent = results_of("toughness", "softening");
   const auto pressed = results_of("toughness", "softening-strength");
@@ -430,7 +507,8 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
       };
       shown(fmt::format("| {:.0f} | {:.0f} | {} | {} |{}", 1e6 * opening,
                         0.5 * strength * (opening + strength / stiffness), peak("direct_tension"),
-                        peak("uniaxial_compression"), cells_of_bending(bent, variant)));
+                        peak("uniaxial_compression"),
+                        cells_of_toughness(bent, variant, {"three_point_bending", "semicircular_bending"})));
 
       // The same row with strengths and opening scaled by one factor to the tensile strength of the granite.
       const auto mean = [&](const nlohmann::json& study, const char* kind, const char* key) {

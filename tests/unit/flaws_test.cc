@@ -367,6 +367,104 @@ TEST(NotchedBodies, HaveTheShapeFactorsOfTheirSources)
   EXPECT_TRUE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
 }
 
+TEST(NotchedBodies, OfACentreCrackHaveTheIntensitiesOfIsida)
+{
+  // K / (σ √(πa)) by Isida's series, as the handbook of Tada, Paris and Irwin has them; without the correction for the
+  // width it would be 1. Half the length of the crack is ratio W / 2.
+  const Specimen<2> specimen = small_specimen();
+  const double width = 0.012;
+  TestParameters wanted;
+  for (const auto& [ratio, factor] :
+       {std::pair(0.2, 1.0246), std::pair(0.3, 1.0577), std::pair(0.5, 1.1867), std::pair(0.7, 1.4884)})
+    {
+      wanted.notch_ratio = ratio;
+      const auto notch = (*centre_cracked_plate.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch;
+      ASSERT_TRUE(notch);
+      EXPECT_NEAR(notch->intensity_over_stress / std::sqrt(std::numbers::pi * 0.5 * ratio * width), factor,
+                  1e-3 * factor);
+      EXPECT_NEAR(notch->ligament_area, width * (1.0 - ratio), 1e-12);
+      EXPECT_TRUE(notch->is_valid);
+    }
+  // Between grips that leave less than 1.2 widths there is a curve and no toughness.
+  wanted.grip_ratio = 0.5 * (1.0 - 1.1 * 0.012 / 0.020);
+  EXPECT_FALSE((*centre_cracked_plate.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
+}
+
+TEST(NotchedBodies, OfACentreCrackStandOnTheirShorterSide)
+{
+  // A specimen that lies is turned, so that its crack is across its longer side: the same crack in the same width.
+  const auto lying = (*centre_cracked_plate.set_up_2d)(quarter_turned(rock()), 0.0, {}, {});
+  const auto standing = (*centre_cracked_plate.set_up_2d)(rock(), 0.0, {}, {});
+  EXPECT_DOUBLE_EQ(lying.loading.notch->intensity_over_stress, standing.loading.notch->intensity_over_stress);
+  EXPECT_DOUBLE_EQ(lying.loading.notch->work_over_stress, standing.loading.notch->work_over_stress);
+  const Specimen<2>& plate = lying.dynamics.specimen();
+  EXPECT_DOUBLE_EQ(plate.size[0], 0.012);
+  for (std::size_t j = 0; j < plate.joints.size(); ++j)
+    {
+      const auto [a, b] = ends(plate, j);
+      EXPECT_FALSE(cross(a, b, {0.006 - 0.0024, 0.010}, {0.006 + 0.0024, 0.010}));
+    }
+  EXPECT_LT(plate.joints.size(), rock().joints.size());
+}
+
+template <int dim>
+TestOutcome pull_cracked(const Specimen<dim>& specimen)
+{
+  TestParameters wanted;
+  wanted.tension_strain_rate = 0.5;
+  wanted.tension_sampling_strain = 1e-6;
+  wanted.stop_stress_over_peak = 0.09;
+  LabTest<dim> test({centre_cracked_plate}, specimen, wanted, {});
+  while (test.advance())
+    ;
+  return test.finish(false);
+}
+
+template <int dim>
+void expect_breaks_from_its_crack(const TestOutcome& outcome, const Vector<dim>& size, const double mean_radius,
+                                  const double end_area)
+{
+  const auto& record = outcome.record;
+  EXPECT_EQ(record.failure, "");
+  const TestResults results = evaluate(record);
+  ASSERT_TRUE(results.fracture_toughness.value) << results.fracture_toughness.reason;
+  ASSERT_TRUE(results.fracture_energy.value) << results.fracture_energy.reason;
+  // What the grips do is ∫ σ dε times the section times the length between them. The dynamics add force times way up step
+  // by step; the rows of the curve take a hundredth of the strain at the peak each.
+  double work = 0.0;
+  for (std::size_t k = 1; k < record.curve.size(); ++k)
+    work += 0.5 * (record.curve[k].axial_stress + record.curve[k - 1].axial_stress) *
+            (record.curve[k].axial_strain - record.curve[k - 1].axial_strain);
+  const double expected = record.curve.back().energies.boundary_work - record.curve.front().energies.boundary_work;
+  EXPECT_GT(expected, 0.0);
+  EXPECT_NEAR(work * record.notch->work_over_stress, expected, 0.02 * expected);
+  EXPECT_NEAR(record.notch->ligament_area, 0.6 * end_area, 1e-9 * end_area);
+  // The first crack opens within two mean diameters of a tip of the crack.
+  ASSERT_FALSE(record.cracks.empty());
+  const Crack& first = record.cracks.front();
+  EXPECT_EQ(first.kind, CrackKind::tension);
+  const double from_tip = std::abs(std::abs(first.centroid[0] - 0.5 * size[0]) - 0.2 * size[0]);
+  EXPECT_LT(std::hypot(from_tip, first.centroid[dim - 1] - 0.5 * size[dim - 1]), 4.0 * mean_radius);
+}
+
+TEST(NotchedBodies, OfACentreCrackBreakFromItsTips)
+{
+  SpecimenParameters wanted;
+  wanted.width = 0.030;
+  wanted.height = 0.060;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  const auto plate = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  expect_breaks_from_its_crack<2>(pull_cracked(plate), plate.size, plate.report.mean_radius, 0.030);
+}
+
+TEST(NotchedBodies, OfACentreCrackBreakFromItsFrontsInSpace)
+{
+  // The crack runs through the depth of a box of 8 × 8 × 12 mm.
+  const auto block = small_cylinder(1, 1.0, "box");
+  expect_breaks_from_its_crack<3>(pull_cracked(block), block.size, block.report.mean_radius, 0.008 * 0.008);
+}
+
 TEST(NotchedBodies, BreakFromTheNotchInTension)
 {
   SpecimenParameters wanted;

@@ -22,9 +22,9 @@ std::string names_of(const std::function<bool(const LaboratoryProtocol&)>& is_wa
 
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols()
 {
-  static const std::vector<const LaboratoryProtocol*> all{&direct_tension, &uniaxial_compression, &triaxial_compression,
-                                                          &brazilian,      &three_point_bending,  &semicircular_bending,
-                                                          &direct_shear,   &own_loading};
+  static const std::vector<const LaboratoryProtocol*> all{
+    &direct_tension,       &uniaxial_compression, &triaxial_compression, &brazilian,  &three_point_bending,
+    &semicircular_bending, &centre_cracked_plate, &direct_shear,         &own_loading};
   return all;
 }
 

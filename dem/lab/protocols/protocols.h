@@ -24,6 +24,8 @@ extern const LaboratoryProtocol brazilian;
 extern const LaboratoryProtocol three_point_bending;
 /// A half disc with a notch, bent in the same way: K_IC by the suggested method of the ISRM. docs/theory.md §4.8.
 extern const LaboratoryProtocol semicircular_bending;
+/// A plate with a crack in its middle, pulled by grips: K_IC by the formula of Feddersen and Tada. docs/theory.md §4.8.
+extern const LaboratoryProtocol centre_cracked_plate;
 /// Two halves of a box that move past each other under a constant normal stress. docs/theory.md §4.9.
 extern const LaboratoryProtocol direct_shear;
 /// Platens and side walls that follow a table of stages. docs/theory.md §4.11.

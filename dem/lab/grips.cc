@@ -1,0 +1,49 @@
+#include "dem/lab/grips.h"
+
+#include "base/input_error.h"
+#include "dem/lab/platens.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+template <int dim>
+SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  const double height = body.size[axis];
+  const double grip_height = wanted.grip_ratio * height;
+  const double grip_speed = 0.5 * wanted.tension_strain_rate * free_length(body, wanted);
+
+  std::vector<std::uint32_t> lower_grains, upper_grains;
+  for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+    if (body.grains.position[axis][i] < grip_height)
+      lower_grains.push_back(i);
+    else if (body.grains.position[axis][i] > height - grip_height)
+      upper_grains.push_back(i);
+  if (lower_grains.empty() || upper_grains.empty())
+    throw InputError(fmt::format("Tests/Grip ratio = {}: no grain lies in a grip of {:.3g} m; make it larger",
+                                 wanted.grip_ratio, grip_height));
+
+  SetUpTest<dim> test{Dynamics<dim>(body, dynamics, ZeroForce::as_placed), {}};
+  start_steadily(test.dynamics, wanted.tension_strain_rate);
+  const Vector<dim> upwards = grip_speed * Vector<dim>::Unit(axis);
+  const auto lower = test.dynamics.add_grip(std::move(lower_grains), -upwards);
+  const auto upper = test.dynamics.add_grip(std::move(upper_grains), upwards);
+
+  test.loading.strain_rate = wanted.tension_strain_rate;
+  test.loading.sampling_strain = wanted.tension_sampling_strain;
+  const double area = body.volume() / height;
+  test.loading.end_stress = [=](const Dynamics<dim>& state) {
+    return EndStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area};
+  };
+  return test;
+}
+
+template SetUpTest<2> pull<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
+template SetUpTest<3> pull<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
+} // namespace feldspar

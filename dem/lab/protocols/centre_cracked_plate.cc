@@ -1,0 +1,60 @@
+#include "dem/lab/grips.h"
+#include "dem/lab/notch.h"
+#include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/specimen_part.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace feldspar
+{
+namespace
+{
+/// Between the grips: they hold the width of the plate, which changes K by 1.5 % at most from this length on, in the solid
+/// of tests/verification/cracked_plate_test.cc.
+constexpr double least_length_over_width = 1.2;
+
+/// K_I / (σ √(πa)) of a crack of the length 2 a in the middle of a plate of the width W, by 2 a / W: Feddersen's root of the
+/// secant as Tada (1973) corrected it, within 0.1 % for every length (Tada, Paris, Irwin).
+double shape_factor_of_plate(const double ratio)
+{
+  const double square = ratio * ratio;
+  return (1.0 - 0.025 * square + 0.06 * square * square) / std::sqrt(std::cos(0.5 * std::numbers::pi * ratio));
+}
+
+template <int dim>
+SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double /*confining_pressure*/,
+                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
+{
+  constexpr int axis = dim - 1;
+  // Its longer side is the plate's length.
+  Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : specimen;
+  const double width = plate.size[0];
+  const double a = 0.5 * wanted.notch_ratio * width;
+  const Vector<2> middle(0.5 * width, 0.5 * plate.size[axis]);
+  cut_notch(plate, {middle[0] - a, middle[1]}, {middle[0] + a, middle[1]}, wanted);
+
+  const double area = plate.volume() / plate.size[axis];
+  const double length = free_length(plate, wanted);
+  SetUpTest<dim> test = pull(plate, wanted, dynamics);
+  test.loading.notch = {.intensity_over_stress =
+                          shape_factor_of_plate(wanted.notch_ratio) * std::sqrt(std::numbers::pi * a),
+                        .work_over_stress = area * length,
+                        .ligament_area = area * (1.0 - wanted.notch_ratio),
+                        .is_valid = length >= least_length_over_width * width};
+  return test;
+}
+} // namespace
+
+constinit const LaboratoryProtocol centre_cracked_plate = complete({
+  .kind = {.name = "centre_cracked_plate",
+           .title = "Tension of a centre-cracked plate",
+           .strength = "tensile strength, cracked",
+           .sign = 1.0,
+           .strength_decimals = 2},
+  .strain_rate = &TestParameters::tension_strain_rate,
+  .forecast = {PeakForecast::With::tension, 0.6},
+  .set_up_2d = set_up_centre_cracked_plate<2>,
+  .set_up_3d = set_up_centre_cracked_plate<3>,
+});
+} // namespace feldspar
