@@ -257,9 +257,9 @@ TEST(OwnLoading, KeepsAsManyStatesAsAreWantedAndTheEnd)
 
 TEST(OwnLoading, OfACylinderFollowsItsTableToo)
 {
-  const auto record = run<3>(small_cylinder(1, unbreakable),
-                             following({{.axial_strain = 4e-4, .confining_pressure = 5e6, .strain_rate = 4.0},
-                                        {.axial_stress = 8e6, .confining_pressure = 5e6, .strain_rate = 4.0}}));
+  const auto record = run_stages<3>(small_cylinder(1, unbreakable),
+                                    following({{.axial_strain = 4e-4, .confining_pressure = 5e6, .strain_rate = 4.0},
+                                               {.axial_stress = 8e6, .confining_pressure = 5e6, .strain_rate = 4.0}}));
   const auto stages = evaluate_stages(record);
   ASSERT_EQ(stages.size(), 2u);
   EXPECT_NEAR(*stages[1].lateral_stress_at_end.value, 5e6, 0.05 * 5e6);
