@@ -349,7 +349,7 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
            varies},
           entry::number("Size", &P::size, {'(', 0.0, largest_strain, ']'}, "of the strain at the end, over Direction",
                         varies),
-          entry::quantity("Confining pressure", &P::confining_pressure, Measure::stress, "MPa", ranges::from_zero,
+          entry::quantity("Confining pressure", &P::confining_pressure, Measure::stress, "MPa", {'[', 0.0, 1e5, ']'},
                           "compression positive, on all sides before the strain begins; strains of Direction count "
                           "from there",
                           varies),
