@@ -16,7 +16,7 @@ studies=("$@")
 ((${#studies[@]})) || studies=(
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
-  contact-models/{parallel-bond,grain-based}
+  contact-models/{flat-joint,parallel-bond,grain-based,clumped,clump-size}
   calibrate-beishan/calibrate
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,softening,softening-strength}

@@ -125,6 +125,14 @@ std::vector<Shape> read_drawing(const std::filesystem::path& file)
   stream.read(mark.data(), std::streamsize(mark.size()));
   if (mark.starts_with("AutoCAD Binary DXF"))
     throw InputError(fmt::format("{}: is a binary DXF; save it as text (ASCII)", file.string()));
+  // It takes a half drawing too, without the traces behind the cut.
+  std::string last_word;
+  stream.clear();
+  stream.seekg(0);
+  for (std::string word; stream >> word;)
+    last_word = word;
+  if (last_word != "EOF")
+    throw InputError(fmt::format("{}: does not end with EOF, as a complete DXF does", file.string()));
 
   Drawing drawing;
   if (DL_Dxf reader; !reader.in(file.string(), &drawing))

@@ -58,7 +58,7 @@ std::vector<std::string> report_on(const ReportOrder& order)
       }
   else
     input.reference_problem =
-      "there is no reference file to compare with: name one by Report/Reference file, or by feldspar report --reference";
+      "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
   auto missing = write_report(input, order.output, order.is_over);
   if (!calibration_problem.empty())
     missing.push_back(calibration_problem);

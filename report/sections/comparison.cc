@@ -238,7 +238,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   return rows;
 }
 
-std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value)
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value, const std::string& unit)
 {
   const auto number = [&](const double x) { return fmt::format("{:.{}f}", x, row.decimals); };
   if (!value)
@@ -246,13 +246,15 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
   const std::string range =
     value->low && value->high ? fmt::format("{} to {}", number(*value->low), number(*value->high)) : "";
   if (!value->mean)
-    return range;
+    return range + unit;
   std::string text = number(*value->mean);
   if (value->standard_deviation)
     text += fmt::format(" ± {}", number(*value->standard_deviation));
   if (value->n)
-    text += fmt::format(", n = {}", *value->n);
-  return range.empty() ? text : fmt::format("{} ({})", text, range);
+    text += fmt::format("{}, n = {}", unit, *value->n);
+  if (!range.empty())
+    text += fmt::format(" ({})", range);
+  return value->n ? text : text + unit;
 }
 
 namespace
@@ -293,8 +295,9 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
       std::string ours = row.ours ? value(row.ours->mean) : "-";
       if (row.ours && row.ours->standard_deviation)
         ours += fmt::format(" ± {}", value(*row.ours->standard_deviation));
-      cells.push_back({row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit), ours,
-                       as_text(row, row.model), as_text(row, row.experiment)});
+      if (row.ours || row.model || row.experiment)
+        cells.push_back({row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit), ours,
+                         as_text(row, row.model), as_text(row, row.experiment)});
     }
 
   // A column that says nothing is left out; headings give way, so that a line fits on a terminal.

@@ -31,8 +31,9 @@ struct ComparisonRow
 /// Sets the results of one rock beside a reference; without one its columns stay empty.
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference);
 
-/// A figure of a reference as the row writes numbers: mean (low to high), or a dash.
-std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value);
+/// A figure of a reference as the row writes numbers: mean (low to high), or a dash; with the unit behind, before a number
+/// of tests.
+std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value, const std::string& unit = "");
 
 /// For a terminal.
 std::string as_text(const std::vector<ComparisonRow>& rows);

@@ -14,6 +14,7 @@ namespace feldspar
 PageSection curve_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"curves", "Curves", "Curves", {}};
+  bool is_all_shown = true;
   for (auto& group : curve_pictures(findings.pictured))
     if (group.on_page)
       {
@@ -23,13 +24,16 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
         section.blocks.push_back(block);
       }
     else
-      book.keep_as_files(std::move(group.pictures));
+      {
+        is_all_shown = false;
+        book.keep_as_files(std::move(group.pictures));
+      }
   PageBlock remark_below;
-  remark_below.paragraphs.push_back(
-    section.blocks.empty()
-      ? std::string("No test of these series has a curve.")
-      : fmt::format("Of the confinements the lowest and the highest are shown; the others are in {}/.",
-                    result_file::figures));
+  if (section.blocks.empty())
+    remark_below.paragraphs.push_back("No test of these series has a curve.");
+  else if (!is_all_shown)
+    remark_below.paragraphs.push_back(fmt::format(
+      "Of the confinements the lowest and the highest are shown; the others are in {}/.", result_file::figures));
   section.blocks.push_back(remark_below);
   append(section.blocks,
          findings.remark_on_pictures(fmt::format("The curves of all are in {}/.", result_file::curves)));

@@ -12,14 +12,18 @@ namespace
 std::string beside_experiment(const ComparisonRow& row)
 {
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-  std::string sentence = fmt::format("{} {:.{}f}{}; experiment {}{}", row.property, row.ours->mean, row.decimals, unit,
-                                     as_text(row, row.experiment), unit);
+  std::string sentence = fmt::format("{} {:.{}f}{}; experiment {}", row.property, row.ours->mean, row.decimals, unit,
+                                     as_text(row, row.experiment, unit));
   if (const auto deviation = row.deviation())
     sentence += "; " + text::signed_percent(*deviation);
-  if (row.in_range() == true && row.surely_in_range() == false)
-    sentence += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches out of the range",
-                            row.ours->mean - *row.ours->confidence_95, row.decimals,
-                            row.ours->mean + *row.ours->confidence_95, row.decimals);
+  if (!row.in_range() || !row.ours->confidence_95)
+    return sentence;
+  const double low = row.ours->mean - *row.ours->confidence_95;
+  const double high = row.ours->mean + *row.ours->confidence_95;
+  const bool is_in = *row.in_range();
+  if (is_in ? row.surely_in_range() == false : high >= *row.experiment->low && low <= *row.experiment->high)
+    sentence += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches {} the range", low,
+                            row.decimals, high, row.decimals, is_in ? "out of" : "into");
   return sentence;
 }
 } // namespace

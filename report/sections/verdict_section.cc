@@ -98,6 +98,10 @@ PageSection verdict_section(const Findings& findings)
   PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
   if (findings.has_many())
     section.blocks.push_back(verdict_of_many(findings));
+  // What keeps all models from being compared is said once: of one model in its headline, of several below them.
+  const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
+                                      [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
+  const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       if (findings.has_many() && findings.all[n].kind != SeriesKind::laboratory_curve)
@@ -118,7 +122,8 @@ PageSection verdict_section(const Findings& findings)
             block.paragraphs.push_back(
               fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",
                           material_at_points(findings.all[n].made_by)));
-          block.headline = found.headline;
+          if (!is_problem_below)
+            block.headline = found.headline;
           block.points = found.points;
           if (block.warnings.empty())
             block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
@@ -126,7 +131,7 @@ PageSection verdict_section(const Findings& findings)
       section.blocks.push_back(block);
     }
   PageBlock table;
-  if (!findings.reference_problem.empty() && !findings.has_many())
+  if (is_problem_below && !findings.has_many())
     table.warnings.push_back(findings.reference_problem + ".");
   for (const std::string& remark : gap_remarks(findings.all))
     table.warnings.push_back(remark + ".");

@@ -330,9 +330,15 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(granite(120.0, 130.0), ""),
         {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 MPa", "+0.8 %",
          "reaches out of the range", "No range given: Young's modulus"});
-  holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range"});
-  // All of the interval inside: no such remark.
-  EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches out"), std::string::npos);
+  holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range",
+                                          "experiment 125.0 (127.0 to 130.0) MPa", "reaches into the range"});
+  // All of the interval inside, or all of it outside: no such remark.
+  EXPECT_EQ(said(granite(1.0, 500.0), "").find("reaches"), std::string::npos);
+  EXPECT_EQ(said(granite(300.0, 500.0), "").find("reaches"), std::string::npos);
+  // The unit belongs to the mean, not to the number of tests.
+  Reference of_tests = granite(120.0, 130.0);
+  of_tests.experiment.values["uniaxial_compressive_strength_MPa"].n = 6;
+  holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0); +0.8 %"});
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
 }
 

@@ -71,7 +71,9 @@ TEST(Traces, OfADrawingThatCannotBeReadAsSuchAreRefused)
           "has an entity POLYLINE with arcs");
   refused(drawing(""), "has no LINE, LWPOLYLINE or POLYLINE");
   refused("AutoCAD Binary DXF\r\n\x1a", "is a binary DXF; save it as text");
-  refused("no drawing at all", "has no LINE");
+  refused("no drawing at all", "does not end with EOF");
+  const std::string two_lines = drawing(line_10_20_to_30_40 + line_10_20_to_30_40);
+  refused(two_lines.substr(0, two_lines.rfind("LINE")), "does not end with EOF");
   refused(drawing("0\nLINE\n8\n0\n10\n1\n20\n1\n11\n1\n21\n1\n"), "trace 1 ends where it begins");
 }
 } // namespace
