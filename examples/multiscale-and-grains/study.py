@@ -26,6 +26,7 @@ COMMANDS = {
     "laboratory": "lab",
     "sample": "multiscale",
     "cored": "lab",
+    "rate": "lab",
     "same-cells-grains": "lab",
     "same-cells-sample": "multiscale",
     "angles-tension": "rve",
@@ -152,6 +153,25 @@ BODIES = (
 )
 
 
+RATES = ("1", "0.5", "0.25")
+
+
+def crushed_at(rate):
+    """By seed, UCS at a rate [MPa]."""
+    tests = tests_of("rate", "uniaxial_compression", f"= {rate} 1/s")
+    return {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests}
+
+
+def print_rates():
+    print("| rate [1/s] | UCS [MPa] | over that at 1/s, seed by seed |\n|---|---|---|")
+    fast = crushed_at("1")
+    for rate in RATES:
+        strengths = crushed_at(rate)
+        shares = [strengths[seed] / fast[seed] for seed in strengths]
+        print(f"| {rate} | {shown(list(strengths.values()), 1)} | {shown(shares, 3)} |")
+    print()
+
+
 def print_bodies():
     print("| body | seeds | gap | z in the bulk | porosity | σ_t [MPa] | UCS [MPa] | E_0 [GPa] | σ_ci [MPa] |")
     print("|---|---|---|---|---|---|---|---|---|")
@@ -211,11 +231,9 @@ def draw():
         "set bmargin 5",
     ]
     short = ("walled\\n0.0237", "walled\\n0.0457", "cut all\\nround", "cut at\\nsides", "sample\\n0.0457")
-    bars = []
-    for label, (_, name, variant) in zip(short, BODIES):
-        values = peaks(name, "uniaxial_compression", variant)
-        if len(values) > 1:
-            bars.append((label, values))
+    bars = [(label, peaks(name, "uniaxial_compression", variant)) for label, (_, name, variant) in zip(short, BODIES)]
+    bars.insert(-1, ("the same,\\n0.25/s", list(crushed_at("0.25").values())))
+    bars = [(label, values) for label, values in bars if len(values) > 1]
     tics = ", ".join(f'"{label}" {k}' for k, (label, _) in enumerate(bars))
     script += ['set title "Bodies: mean and single seeds"', 'set ylabel "UCS [MPa]"', "set yrange [80:230]"]
     script += [f"set xtics ({tics}) font \"sans,9\"", f"set xrange [-0.6:{len(bars) - 0.4}]"]
@@ -260,12 +278,17 @@ def main():
     for name in names:
         run(feldspar, name)
     print_bodies()
+    print_rates()
     bodies = {label: (name, variant) for label, name, variant in BODIES if label.endswith("gap 0.0457")}
     for (one, of_one), (other, of_other) in itertools.combinations(bodies.items(), 2):
         for kind in ("direct_tension", "uniaxial_compression"):
             values = [peaks(name, kind, variant) for name, variant in (of_other, of_one)]
             if all(len(v) > 1 for v in values):
                 print(f"{other} from {one}, {kind}: {difference(*values)}")
+    slow = list(crushed_at("0.25").values())
+    of_sample = peaks("sample", "uniaxial_compression")
+    if slow and of_sample:
+        print(f"sample from cored at the sides only at 0.25/s, uniaxial_compression: {difference(of_sample, slow)}")
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")

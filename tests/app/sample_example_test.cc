@@ -117,6 +117,31 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
                         scaled("youngs_modulus_initial_Pa", 1e9), scaled("crack_initiation_stress_Pa", 1e6)));
     }
 
+  // The rates, seed by seed; the highest is that of the bodies above, on the same specimens.
+  const auto by_rate = committed("rate");
+  const auto crushed_at = [&](const std::string& rate) {
+    std::map<unsigned, double> strengths;
+    for (const auto& test : by_rate["tests"])
+      if (test["variant"].get<std::string>().ends_with("= " + rate + " 1/s"))
+        strengths[test["seed"]] = test["peak_stress_Pa"].get<double>() / 1e6;
+    return strengths;
+  };
+  const auto fast = crushed_at("1");
+  EXPECT_EQ(fast.size(), 10u);
+  for (const auto& test : committed("cored")["tests"])
+    if (test["kind"] == "uniaxial_compression" && test["variant"] == "Specimen/Coring = sides only")
+      EXPECT_EQ(fast.at(test["seed"]), test["peak_stress_Pa"].get<double>() / 1e6) << test["seed"];
+  for (const char* const rate : {"1", "0.5", "0.25"})
+    {
+      std::vector<double> strengths, shares;
+      for (const auto& [seed, strength] : crushed_at(rate))
+        {
+          strengths.push_back(strength);
+          shares.push_back(strength / fast.at(seed));
+        }
+      shown(fmt::format("| {} | {} | {} |", rate, mean_and_deviation(strengths, 1), mean_and_deviation(shares, 3)));
+    }
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {
