@@ -176,6 +176,7 @@ void Dynamics<dim>::start()
   const Energies initial = energies();
   ledger.kinetic_at_start = initial.kinetic;
   ledger.strain_at_start += initial.strain;
+  check_motion(); // from the outside; a first step too long would take grains where no contact is looked for
 }
 
 /// After joints have gone.
@@ -282,7 +283,9 @@ Circumstances Dynamics<dim>::circumstances() const
     fastest = std::max(fastest, std::abs(wall.velocity));
   for (std::size_t g = 0; g < grips.size(); ++g)
     fastest = std::max(fastest, grips.velocity(g).norm());
-  const double largest = largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set);
+  // At the start the contacts have not been looked for.
+  const double largest =
+    started ? largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set) : 0.0;
   return {steps, dt, dt * std::sqrt(largest), fastest,
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }

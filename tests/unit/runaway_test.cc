@@ -131,6 +131,7 @@ TEST(Runaway, EndsATestThatIsStrainedPastBreakageInOneStep)
   const TestRecord record = pulled_at(1e6);
   EXPECT_NE(record.failure.find("a lower strain rate is needed"), std::string::npos) << record.failure;
   EXPECT_EQ(record.curve.size(), 1u);
+  EXPECT_NE(pulled_at(1e300).failure.find("a lower rate"), std::string::npos) << pulled_at(1e300).failure;
 }
 
 TEST(Runaway, SeesEnergyThatGrowsWithoutWork)
