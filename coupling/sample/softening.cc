@@ -206,7 +206,7 @@ struct SofteningPoint<dim>::Stored
     archive.value("elastic_energy", state.elastic_energy);
     archive.value("elastic_strain", state.elastic_strain);
     archive.value("gained_while_held", state.gained_while_held);
-    archive.text("volume", stored.rve);
+    archive.text("rve", stored.rve);
   }
 };
 
