@@ -20,7 +20,7 @@ namespace feldspar
 {
 namespace
 {
-/// What an entry that is not given means in three dimensions.
+/// The defaults of three dimensions, for entries that are not given.
 void settle_dimension(Input& input, const GivenEntries& values)
 {
   if (input.specimen.dimension == 2)

@@ -22,7 +22,7 @@ nlohmann::ordered_json as_json(const Provenance& provenance);
 /// Whole numbers are written as such.
 nlohmann::ordered_json json_number(double value);
 
-/// What a variant says of its entries, by entry: a number with the unit it was written in, or the words.
+/// The values of a variant, by entry: a number with the unit it was written in, or the words.
 nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 
 /// As far as it is there.

@@ -46,7 +46,7 @@ Json as_json(const Statistics& over_seeds)
   return json;
 }
 
-/// What each stage of a loading table came to; compression positive.
+/// The figures at the end of each stage of a loading table; compression positive.
 Json stages(const TestRecord& record)
 {
   Json json = Json::array();

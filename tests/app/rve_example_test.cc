@@ -152,7 +152,7 @@ TEST(Example, TheRvesReadmeShowsTheCommittedResults)
               over_rves(rve_results("triaxial-60"), "", compressive_peak), {});
 }
 
-// Hill and Mandel within ten times the final tolerance and energy within 0.1 % along every path from break to break.
+// Hill and Mandel within ten times the final tolerance and energy within 0.1 % along every path event by event.
 TEST(Example, PathsFromBreakToBreakBalance)
 {
   for (const char* const study :

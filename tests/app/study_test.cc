@@ -415,7 +415,7 @@ std::string identity(const nlohmann::json& record)
   return result;
 }
 
-/// The tolerance of an equilibrium from break to break: what another order of summation changes is far below it.
+/// The tolerance of an equilibrium event by event; another order of summation changes far less.
 constexpr double tolerance = 1e-6;
 
 /// A side held free of stress has only what the tolerance leaves; where along the path that is largest says nothing.

@@ -6,7 +6,7 @@
 #include "dem/flaws/clumps.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen_file.h"

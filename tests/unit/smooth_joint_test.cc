@@ -7,7 +7,7 @@
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"
 #include "dem/specimen/specimen_part.h"
