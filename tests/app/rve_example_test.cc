@@ -153,7 +153,7 @@ TEST(Example, TheRvesReadmeShowsTheCommittedResults)
 }
 
 // Hill and Mandel within ten times the final tolerance and energy within 0.1 % along every path event by event.
-TEST(Example, PathsFromBreakToBreakBalance)
+TEST(Example, PathsEventByEventBalance)
 {
   for (const char* const study :
        {"tension", "uniaxial", "triaxial-20", "triaxial-60", "tension-3d", "uniaxial-3d", "triaxial-20-3d",
