@@ -31,7 +31,7 @@ std::string bytes_of(const std::vector<T>& values)
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// What bytes_of() was given.
+/// The values that bytes_of() was given.
 template <typename T>
 std::vector<T> values_of(const std::string& bytes)
 {

@@ -30,7 +30,7 @@ public:
   /// Reads the next row; false after the last. Throws InputError unless it has as many cells as there are columns.
   bool next();
 
-  /// Of the row in the file; 1 is the header.
+  /// The number of the row's line in the file; 1 is the header.
   std::size_t line_of_row() const { return line_number; }
 
   /// A cell of the row, trimmed.

@@ -52,7 +52,7 @@ inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
 inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
 } // namespace ranges
 
-/// What else is to be known of an entry.
+/// Further properties of an entry.
 struct EntryFlags
 {
   bool varies = false;           ///< may take one value after the other (section Variants)

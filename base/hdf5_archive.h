@@ -94,7 +94,7 @@ class Hdf5Reader
 public:
   static constexpr bool reads = true;
 
-  /// Of a file of so many bytes: no array in it is longer.
+  /// Reads a file of so many bytes: no array in it is longer.
   Hdf5Reader(const H5::Group& where, const std::uint64_t size_of_file)
     : group(where)
     , file_size(size_of_file)

@@ -9,7 +9,7 @@
 
 namespace feldspar
 {
-/// What a stream of random numbers is for; each has its own, so that changing one leaves the others as they were.
+/// The purpose of a stream of random numbers; each has its own, so that changing one leaves the others as they were.
 enum class RandomStream : std::uint32_t
 {
   radii = 1,

@@ -22,7 +22,7 @@ using Rotation = Eigen::Matrix<double, n_rotations<dim>, 1>;
 template <int dim>
 using Tensor = Eigen::Matrix<double, dim, dim>;
 
-/// Of a plane vector the last entry is 0.
+/// The last entry of a plane vector is 0.
 template <int dim>
 std::array<double, 3> in_space(const Vector<dim>& vector)
 {

@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-/// What was computed cannot be kept: the disk is full, a quota is reached, the folder is gone. One line.
+/// A result cannot be kept: the disk is full, a quota is reached, the folder is gone. One line.
 struct OutputError : std::runtime_error
 {
   using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// A representative volume of some 400 discs pulled apart at uniaxial strain, from break to break and by explicit dynamics
+// A representative volume of some 400 discs pulled apart at uniaxial strain, event by event and by explicit dynamics
 // at falling rates: what equal accuracy costs. One thread. The counters are what came out: peak stress [MPa], cracks,
 // boundary work and dissipated energy [J].
 

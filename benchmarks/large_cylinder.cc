@@ -2,7 +2,7 @@
 #include "dem/genesis/coring.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>

@@ -33,7 +33,7 @@ std::shared_ptr<const Network<2>> network(const std::uint64_t seed)
   return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {}));
 }
 
-/// What calls of one kind took in a step.
+/// The time of the calls of one kind in a step.
 struct Calls
 {
   double seconds = 0.0;

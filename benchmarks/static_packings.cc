@@ -1,7 +1,7 @@
 #include "benchmarks/committed_version.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 
 #include <fmt/format.h>

@@ -54,7 +54,7 @@ struct Posterior
   std::vector<PredictedResponse> predictions; ///< of the rock's mean; all responses the model knows
 };
 
-/// Of the micro-parameters, given the targets with the deviation of the rock's mean, the scatter of packings and the error
+/// The posterior of micro-parameters. Targets have the deviation of the rock's mean, the scatter of packings, the error
 /// of the surrogates; evenly spread between the bounds before. `freedom`: which scales are unknown.
 Posterior posterior(const ResponseModel& model, const std::vector<Target>& targets, const FitFreedom& freedom,
                     const Place& best, std::size_t n_samples, std::uint64_t seed);

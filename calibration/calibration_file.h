@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a calibration leaves in its folder beside the tests of its answer.
+/// The files of a calibration in its folder, beside the tests of its answer.
 namespace feldspar::calibration
 {
 /// Files of a calibration that more than one place names.

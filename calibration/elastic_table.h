@@ -24,7 +24,7 @@ public:
   /// Beyond the table's ends, those at its ends.
   Constants at(double stiffness_ratio, double gap) const;
 
-  /// Of all entries.
+  /// The least constants of all entries.
   Constants least() const;
   Constants largest() const;
 

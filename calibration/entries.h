@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// Of section Calibration, but for the bounds and the targets, which are lists (app/input/input_entries.h).
+/// The entries of section Calibration, but for the bounds and the targets, which are lists (app/input/input_entries.h).
 inline std::vector<Entry<CalibrationParameters>> calibration_entries()
 {
   using P = CalibrationParameters;

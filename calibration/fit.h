@@ -6,7 +6,7 @@
 
 namespace feldspar::calibration
 {
-/// What a fit may change.
+/// The parameters that a fit may change.
 struct FitFreedom
 {
   bool modulus;      ///< the scale of stiffness

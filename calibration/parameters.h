@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What a calibration seeks and how far it goes, in SI units and radians. Default-constructed values are the defaults of
+/// Unknowns, targets and effort of a calibration, SI and radians. Default-constructed values are the defaults of
 /// the input.
 namespace feldspar
 {
@@ -17,7 +17,7 @@ enum class ElasticFigure
   secant   ///< to 50 % of the peak
 };
 
-/// Of an unknown.
+/// The bounds of an unknown.
 struct Bounds
 {
   double lower;

@@ -12,7 +12,7 @@
 
 namespace feldspar::calibration
 {
-/// What came out of the tests of one set of parameters on one packing.
+/// The responses of one set of parameters on one packing, from its tests.
 struct TestedPoint
 {
   std::string stage; ///< design, scale, step 1, ...
@@ -54,13 +54,13 @@ public:
   bool knows(const std::size_t j) const { return surrogates[j].has_value(); }
 
   MicroParameters parameters(const Place& place) const;
-  /// Of a response, in the model's measure.
+  /// The predicted response, in the model's measure.
   double predict(std::size_t j, const Place& place) const;
   /// Standard deviation of the prediction, by the surrogate and by the packings of the corrections.
   double deviation(std::size_t j, const UnitPoint& point) const;
   /// The part that the surrogate has learnt, for sensitivities.
   double learnt(std::size_t j, const UnitPoint& point) const;
-  /// Of a single specimen about the mean of packings; none without two corrected packings.
+  /// The scatter of a single specimen about the mean of packings; none without two corrected packings.
   std::optional<double> scatter(const std::size_t j) const { return scatters[j]; }
   /// Standard deviation of a value of the design about the function, without what packings add to all points.
   double noise(const std::size_t j) const { return noises[j]; }

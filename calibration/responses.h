@@ -46,7 +46,7 @@ struct Response
 /// All that a programme gives, in its order.
 std::vector<Response> responses(const std::vector<TestCase>& programme, const CalibrationParameters& wanted);
 
-/// Of the tests of one specimen; none where it could not be had.
+/// The responses of one specimen from its tests; none where one could not be had.
 std::vector<std::optional<double>> values_of(const std::vector<Response>& responses,
                                              const std::vector<FinishedTest>& of_specimen);
 

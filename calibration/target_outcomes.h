@@ -22,11 +22,11 @@ struct TargetOutcome
   double deviation() const { return value() / target.value - 1.0; }
 };
 
-/// Of tests of that place.
+/// The outcomes by tests of that place.
 std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, const std::vector<Target>& targets,
                                        const ResponseModel& model, const Place& place);
 
-/// Of a fit that no specimen has tested.
+/// The outcomes of a fit that no specimen has tested.
 std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit);
 
 /// Within the tolerance, or no further off than two standard errors. A target that no specimen gave is not met.

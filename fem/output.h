@@ -29,7 +29,7 @@ public:
   void write(const Solid<dim, material_dim>& solid, double time);
 
   std::size_t n_written() const { return entries.size(); }
-  /// What was written so far, for another FieldOutput of the same folder and name that goes on after it.
+  /// The record of all times written so far, for another FieldOutput of the same folder and name that continues it.
   std::string stored() const;
   void restore(const std::string& stored);
 

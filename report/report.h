@@ -13,7 +13,7 @@
 
 namespace feldspar
 {
-/// What a report is made of.
+/// The contents of a report.
 struct ReportInput
 {
   std::vector<Series> all;                  ///< the first is the one that is compared in words

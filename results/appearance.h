@@ -58,7 +58,7 @@ struct FlawPicture
   std::vector<std::array<double, 3>> outline; ///< a line, of a hole closed [m]
 };
 
-/// Of a specimen its grains; of a sample of finite elements its fields and the grains of a few points.
+/// The grains of a specimen, or the fields of a sample of finite elements and the grains of a few points.
 struct TestAppearance
 {
   std::vector<GrainPicture> grains_at_end;

@@ -24,7 +24,7 @@ Figure known(const double value)
 
 Figure unknown(std::string reason) { return {std::nullopt, std::move(reason)}; }
 
-/// What only a test that went past its peak can tell.
+/// Figures of tests that went past their peak.
 constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::strain_at_peak,
                                                       &TestResults::youngs_modulus_initial,
@@ -299,7 +299,7 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
 /// Of a sheared plane that has its strength, and keeps it while it slides.
 constexpr double share_of_strength = 0.99;
 
-/// What a sheared plane bears; under a normal stress that grows as it opens, as a share of that stress.
+/// The strength of a sheared plane; under a normal stress that grows as it opens, as a share of that stress.
 double mobilised(const TestRecord& record, const CurveSample& row)
 {
   return record.kind.stress(row) / (record.normal_stiffness ? -row.lateral_stress : 1.0);

@@ -35,7 +35,7 @@ enum class EnvelopeRole
   none
 };
 
-/// All that tells one kind of laboratory test from another, but for how it is set up on grains; each kind is one
+/// The properties of a kind of laboratory test, except its set-up on grains; each kind is one
 /// constant in dem/lab/protocols/. A property that a kind does not name is one that it does not have.
 struct TestKind
 {
@@ -68,10 +68,10 @@ struct TestKind
 /// The order of reports: by what kinds are to the envelope, unconfined before confined, then by name.
 bool comes_before(const TestKind& a, const TestKind& b);
 
-/// That of the kind where σ_2 = σ_3; none where another intermediate stress was held, which no envelope here knows.
+/// The role of the kind where σ_2 = σ_3; none where another intermediate stress was held, which no envelope here knows.
 EnvelopeRole envelope_role(const TestKind& kind, const std::optional<double>& intermediate_stress);
 
-/// What a test is made on.
+/// The body of a test.
 enum class TestBody
 {
   grains,         ///< a specimen that moves in time

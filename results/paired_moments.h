@@ -17,6 +17,6 @@ struct PairedMoments
   double slope() const { return xy / xx; } ///< of y over x by least squares
 };
 
-/// Of as many values each.
+/// `x` and `y` have as many values.
 PairedMoments paired_moments(const std::vector<double>& x, const std::vector<double>& y);
 } // namespace feldspar

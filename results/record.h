@@ -81,7 +81,7 @@ struct TestRecord
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
   std::vector<StageRecord> stages;    ///< that were begun, of a test that follows a table
-  /// Of a test with a notch; none without.
+  /// The notch of a bending test; none without.
   std::optional<NotchGeometry> notch;
   bool interrupted = false;
   std::string failure;     ///< why the test could not be made; empty if it could

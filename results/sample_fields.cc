@@ -38,7 +38,7 @@ Place place_of(const Xml& parent)
   return {text.substr(0, colon), text.substr(colon + 2)};
 }
 
-/// What the index says of the last time.
+/// The last time of the index.
 struct LastTime
 {
   double time;

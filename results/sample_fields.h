@@ -10,7 +10,7 @@
 
 namespace feldspar
 {
-/// The last of the fields that a test on finite elements left for ParaView; docs/theory.md §8. No nodes: there are none.
+/// The last of the fields that a test on finite elements left for ParaView (fem/output.h). No nodes: there are none.
 struct SampleFields
 {
   unsigned int dimension = 0;                              ///< of the mesh

@@ -5,7 +5,7 @@
 
 namespace feldspar
 {
-/// What a variant of an input says of one entry.
+/// The value of one entry in a variant of an input.
 struct VariantSetting
 {
   std::string entry; ///< Section/Entry

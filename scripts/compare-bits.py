@@ -10,7 +10,7 @@ summary.json, curves/*.csv, cracks.csv and grains/*.csv. Numbers are written so 
 so equal text is equal bits.
 
 What NEW has beyond OLD, a column, a key or an entry, is named and allowed; anything that is gone or different is a
-difference, but for versions, machines and times (MAY_DIFFER).
+difference, but for versions, machines and times (MAY_DIFFER). Renamed keys and columns (RENAMED) are compared as one.
 
 --keep FOLDER    leaves the results in FOLDER/old and FOLDER/new, which can stand for the builds the next time
 --expect KEY     a key or column that is to be different, for a reason that the caller knows; it is counted apart
@@ -43,7 +43,11 @@ MAY_DIFFER = {
     "mean_s",
     "longest_s",
     "longest_unmoved_s",
+    "schema_version",
 }
+
+# Keys and columns of layout 1 of summary.json, by their names of today.
+RENAMED = {"volumes": "rves", "volume": "rve"}
 
 
 def run(feldspar, name, folder):
@@ -88,7 +92,7 @@ def entries(value, path=()):
     if isinstance(value, dict):
         for key, part in value.items():
             if key not in MAY_DIFFER:
-                yield from entries(part, path + (key,))
+                yield from entries(part, path + (RENAMED.get(key, key),))
     elif isinstance(value, list):
         for k, part in enumerate(value):
             name = part.get("name", k) if isinstance(part, dict) else k
@@ -103,7 +107,7 @@ def values_of(file):
         if file.endswith(".json"):
             return dict(entries(json.load(text)))
         rows = csv.reader(text)
-        names = next(rows)
+        names = [RENAMED.get(name, name) for name in next(rows)]
         return {(row, name): cell for row, cells in enumerate(rows) for name, cell in zip(names, cells)}
 
 

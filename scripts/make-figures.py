@@ -39,9 +39,9 @@ FIGURES_OF_RUNS = {
         "direct_tension_seed_1_sample.svg",
         "examples/multiscale-beishan-cylinder/results/tension.json",
     ),
-    "multiscale-cylinder-volumes.png": (
+    "multiscale-cylinder-rves.png": (
         ["multiscale", "examples/multiscale-beishan-cylinder/tension.prm"],
-        "direct_tension_seed_1_volumes.png",
+        "direct_tension_seed_1_rves.png",
         "examples/multiscale-beishan-cylinder/results/tension.json",
     ),
 }

@@ -7,7 +7,7 @@
 
 namespace feldspar::calibration
 {
-/// Those of the input's flat joint.
+/// The micro-parameters of the input's flat joint.
 MicroParameters micro_parameters(const Input& input);
 
 /// The input with other micro-parameters. What belongs to them follows: the coefficients of variation of both strengths

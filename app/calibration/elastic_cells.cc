@@ -34,7 +34,7 @@ Specimen<dim> make(const Input& input, const std::uint64_t seed)
 /// The same rock as a periodic cell.
 Input cell_of(const Input& input)
 {
-  constexpr double n_grains = 900.0; // the constants of a cell then scatter by a per cent (docs/theory.md §3)
+  constexpr double n_grains = 900.0; // the constants of a cell then scatter by about a per cent
   Input cell = input;
   cell.specimen.shape = "periodic";
   cell.specimen.coring = Coring::none; // a core is cut from such a cell

@@ -29,7 +29,7 @@ namespace
 {
 using Values = std::vector<std::optional<double>>;
 
-/// What stands in the file of a point, if it is of this point, program and input.
+/// The contents of a point's file, if it belongs to this point, program and input.
 std::optional<Values> read_values(const std::filesystem::path& file, const std::string& identity, const std::size_t n)
 {
   std::ifstream in(file, std::ios::binary);

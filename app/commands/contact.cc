@@ -52,7 +52,7 @@ double normal_stress(const ParallelBond<dim>&, const Face<double>& face, const F
   return update.state.bonded ? face.normal_stiffness * motion.opening : 0.0;
 }
 
-/// What the update of a law leaves of an element.
+/// The state of an element after the update by its law.
 template <typename Update>
 struct Segments
 {

@@ -35,7 +35,7 @@ std::optional<Reference> reference_of(const Input& input)
   return read_reference(input.reference_file, test_kinds());
 }
 
-/// What the screen and log.txt show: specimens, the comparison of each variant, and what is missing and why.
+/// The text of the screen and log.txt: specimens, the comparison of each variant, missing results with their reasons.
 template <int dim>
 std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<dim>>& specimens,
                          const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,

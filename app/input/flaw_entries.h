@@ -9,7 +9,7 @@
 /// Shapes as the user writes them: `hole centre 25, 50 mm radius 5 mm | slot from 25, 0 mm to 25, 12 mm width 1 mm`.
 namespace feldspar
 {
-/// Of section Flaws.
+/// The entries of section Flaws.
 std::vector<Entry<Input>> flaw_entries();
 
 /// Shapes between upright bars. Throws InputError, which names the shape and its word.

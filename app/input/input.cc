@@ -20,7 +20,7 @@ namespace feldspar
 {
 namespace
 {
-/// What an entry that is not given means in three dimensions.
+/// The defaults of three dimensions, for entries that are not given.
 void settle_dimension(Input& input, const GivenEntries& values)
 {
   if (input.specimen.dimension == 2)
@@ -245,19 +245,19 @@ std::vector<std::string> settled_by_file(const Input& input, const GivenEntries&
 /// Reads the loading table, where a test follows it.
 void complete_loading(Input& input, const GivenEntries& values)
 {
-  const bool follows = std::any_of(input.test_list.begin(), input.test_list.end(),
-                                   [](const TestKind& kind) { return kind.follows_stages; });
-  if (!follows)
+  const auto follower = std::find_if(input.test_list.begin(), input.test_list.end(),
+                                     [](const TestKind& kind) { return kind.follows_stages; });
+  if (follower == input.test_list.end())
     return;
   const auto refuse = [&](const char* entry, const std::string& why) {
-    throw values.error("Tests", values.has("Tests", entry) ? entry : "List", why);
+    throw values.error("Tests", values.has("Tests", entry) ? entry : "List", fmt::format("{} {}", follower->name, why));
   };
   if (input.tests.loading_table.empty())
-    refuse("Loading table", "own_loading follows a table; name its CSV file by Tests/Loading table");
+    refuse("Loading table", "follows a table; name its CSV file by Tests/Loading table");
   if (input.tests.lateral_boundary != LateralBoundary::wall)
-    refuse("Lateral boundary", "own_loading presses by walls; set Lateral boundary = wall");
+    refuse("Lateral boundary", "presses by walls; set Lateral boundary = wall");
   if (input.tests.intermediate_stress)
-    refuse("Intermediate stress", "own_loading has one confinement on all sides; set Intermediate stress = none");
+    refuse("Intermediate stress", "has one confinement on all sides; set Intermediate stress = none");
   input.tests.loading_stages = read_loading_stages(input.tests.loading_table);
 }
 

@@ -18,7 +18,7 @@ void for_each_joint_section(AnyInput& input, F&& f)
   f(SofteningFlatJoint<2>::name, input.softening_flat_joint);
 }
 
-/// Of the joint law that the input names.
+/// The parameters of the joint law that the input names.
 inline JointParameters joint_parameters(const Input& input)
 {
   std::optional<JointParameters> parameters;

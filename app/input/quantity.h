@@ -10,7 +10,7 @@
 /// every locale. What is not of this form throws InputError, whose text says what was found and shows the right form.
 namespace feldspar
 {
-/// What a quantity measures.
+/// The kind of a quantity.
 struct Dimension
 {
   std::string_view name; ///< with its article, for error texts

@@ -37,13 +37,13 @@ void check_reference(const Input& input)
     read_reference(input.reference_file, test_kinds());
 }
 
-/// Equilibria of representative volumes go from break to break, which not every joint law allows.
+/// Representative volumes find equilibria event by event, which not every joint law allows.
 void check_equilibria(const SpecimenParameters& specimen, const std::string_view remedy)
 {
   if (!JointLaws::has_equilibria(specimen.joint_law))
-    refuse(
-      fmt::format("Specimen/Joint law = {}: softens between breaks, and equilibria are found from break to break; {}",
-                  specimen.joint_law, remedy));
+    refuse(fmt::format(
+      "Specimen/Joint law = {}: has no equilibria event by event, because its bonds soften between breaks; {}",
+      specimen.joint_law, remedy));
 }
 
 /// The size of a sample whose input can be run.

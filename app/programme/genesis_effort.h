@@ -12,10 +12,10 @@ namespace feldspar
 /// Free memory of the machine, or what is left of the limit of the control group [bytes]; none where that is not told.
 std::optional<double> free_memory();
 
-/// Of memory, by a grain of a specimen.
+/// The memory that a grain of a specimen takes.
 double bytes_of_grain(int dimension);
 
-/// What the genesis of one specimen will probably take. All 0 of one that is read from a specimen file.
+/// The expected cost of the genesis of one specimen. All values are 0 for one that is read from a specimen file.
 struct GenesisEffort
 {
   double n_grains = 0.0;

@@ -8,7 +8,7 @@
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace feldspar
 {
 namespace
 {
-/// What one test of the programme is.
+/// One test of the programme.
 template <int dim>
 struct PlannedTest
 {

@@ -20,7 +20,7 @@ template <int dim>
 TestOutcome run_test(const TestCase& wanted, const Input& input, const Specimen<dim>& specimen,
                      const Checkpoints& checkpoints, const std::function<void(const CurveSample&)>& show);
 
-/// What one process does of a programme that several share: of the tests, longest first, each `number`-th.
+/// The share of one process in a programme that several carry out: of the tests, longest first, each `number`-th.
 struct Share
 {
   std::size_t number = 1;
@@ -37,7 +37,7 @@ std::vector<std::size_t> specimens_of(const std::vector<Variant>& variants, cons
 /// Runs the whole programme of an input on its specimens, as many tests at a time as there are threads, longest first.
 /// Each leaves its last two checkpoints in `folder`/checkpoints, by which a later call takes it up; a test that
 /// has ended is not run again. After Ctrl-C comes what is there. Results stand in the order of variants, seeds, tests.
-/// Of a share only its specimens need be there, and only its tests are run.
+/// With a share, only its tests are run, and only its specimens need be there.
 template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
                                         const std::vector<Specimen<dim>>& specimens,

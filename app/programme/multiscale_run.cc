@@ -30,6 +30,13 @@ std::vector<std::uint64_t> packing_seeds(const Input& input)
   return seeds;
 }
 
+/// Where the specimens of the RVEs lie; runs of 0.2.0 have them in `volumes`.
+std::filesystem::path folder_of_rves(const std::filesystem::path& folder)
+{
+  const std::filesystem::path earlier = folder / "volumes";
+  return std::filesystem::exists(earlier) ? earlier : folder / "rves";
+}
+
 SampleTest from_the_start(const PlannedSample& planned, const Input& input)
 {
   if (!input.sample.has_grains())
@@ -50,7 +57,8 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
   of_packings.seeds = packing_seeds(input);
   const std::vector<Variant> one{{"", of_packings}};
   const auto orders = specimen_orders(one);
-  ranks::first([&] { std::filesystem::create_directories(folder / "volumes"); });
+  const std::filesystem::path of_rves = folder_of_rves(folder);
+  ranks::first([&] { std::filesystem::create_directories(of_rves); });
   if (ranks::number() > 1)
     {
       // Each rank makes its share; then all read all.
@@ -62,7 +70,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
         try
           {
             if (!own.empty())
-              provide_specimens<dim>(one, own, folder / "volumes", progress);
+              provide_specimens<dim>(one, own, of_rves, progress);
           }
         catch (const Interrupted&)
           {
@@ -72,7 +80,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
       if (ranks::any(was_interrupted))
         throw Interrupted();
     }
-  auto specimens = provide_specimens<dim>(one, orders, folder / "volumes", progress);
+  auto specimens = provide_specimens<dim>(one, orders, of_rves, progress);
   std::vector<Rock> rocks;
   for (std::size_t k = 0; k < specimens.size(); ++k)
     {

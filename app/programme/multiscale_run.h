@@ -19,7 +19,7 @@
 /// The parts of a multiscale run: its RVEs, its programme, and one test of it.
 namespace feldspar
 {
-/// Of the RVEs that one seed's samples share: as they were packed, then, where there is a weak seed, their weak twins.
+/// The RVEs that one seed's samples share: as they were packed, then, where there is a weak seed, their weak twins.
 template <int dim>
 struct Packings
 {

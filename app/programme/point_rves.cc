@@ -54,7 +54,7 @@ std::vector<Choice> chosen(const TestRecord& record, const std::uint64_t n_point
   return choices;
 }
 
-/// What one rank tells another of an RVE.
+/// The message about an RVE that ranks exchange.
 template <int dim, typename Archive>
 void transfer(Archive& archive, SampleRve<dim>& rve, std::uint64_t& realisation)
 {

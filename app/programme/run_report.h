@@ -11,7 +11,7 @@
 
 namespace feldspar
 {
-/// What a report is to be made of and where.
+/// The sources of a report and its folder.
 struct ReportOrder
 {
   std::vector<std::filesystem::path> result_folders;

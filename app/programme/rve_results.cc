@@ -59,7 +59,7 @@ template <int dim>
 void write_cracks(const std::vector<FinishedRve<dim>>& rves, const std::filesystem::path& file)
 {
   constexpr std::string_view axes = "xyz";
-  std::string text = "volume,kind,joint,segment,increment," + components<dim>("strain_", "");
+  std::string text = "rve,kind,joint,segment,increment," + components<dim>("strain_", "");
   for (int c = 0; c < dim; ++c)
     text += fmt::format(",{}_m", axes[c]);
   for (int c = 0; c < dim; ++c)
@@ -213,9 +213,9 @@ void write_results(const Provenance& provenance, const std::vector<FinishedRve<d
     mean += rve.network->intact_stiffness() / double(rves.size());
   json["stiffness_Pa"] = rows(mean); // Voigt, engineering shear; mean of the RVEs
   write_constants(json, isotropic_constants<dim>(mean));
-  json["volumes"] = Json::array();
+  json["rves"] = Json::array();
   for (const auto& rve : rves)
-    json["volumes"].push_back(as_json(rve));
+    json["rves"].push_back(as_json(rve));
   write_whole_file(folder / "summary.json", json.dump(2) + "\n");
 }
 

@@ -10,7 +10,7 @@
 
 namespace feldspar
 {
-/// What tests of specimens will probably take, besides the specimens. Times are right within a factor of two or three,
+/// The expected cost of tests of specimens, besides the specimens. Times are right within a factor of two or three,
 /// memory within a third.
 struct TestEffort
 {

@@ -20,7 +20,7 @@ inline constexpr int output_error = 3;  // a full disk
 inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 } // namespace exit_code
 
-/// What `lab`, `rve`, `multiscale`, `specimen` and `contact` have in common on the command line.
+/// The options of the command line that `lab`, `rve`, `multiscale`, `specimen` and `contact` have in common.
 struct CommonOptions
 {
   std::filesystem::path input;

@@ -106,10 +106,11 @@ void mark_complete(const std::filesystem::path& folder)
 void remove_run(const std::filesystem::path& folder)
 {
   for (const char* name :
-       {record_name,   "input.prm",        "input.json",   "checkpoints",    "curves",      "grains",
-        "fields",      "points",           "volumes",      "states",         "extracted",   "figures",
-        "tables",      "cracks.csv",       "summary.json", "reference.json", "report.html", "log.txt",
-        "calibration", "calibration.json", "design.csv",   "posterior.csv",  "best.prm",    "nearest.prm"})
+       {record_name,      "input.prm",     "input.json", "checkpoints", "curves",
+        "grains",         "fields",        "points",     "rves",        "states",
+        "extracted",      "figures",       "tables",     "cracks.csv",  "summary.json",
+        "reference.json", "report.html",   "log.txt",    "calibration", "calibration.json",
+        "design.csv",     "posterior.csv", "best.prm",   "nearest.prm", "volumes" /* of 0.2.0, now rves */})
     std::filesystem::remove_all(folder / name);
   std::vector<std::filesystem::path> specimens;
   for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// What a run's folder says of how it was begun, so that it can be taken up without anything else.
+/// The record of how a run was begun. It lies in the run's folder, which is therefore enough to continue it.
 struct RunRecord
 {
   Input input;
@@ -21,7 +21,7 @@ struct RunRecord
 void write_run_record(const std::string& command, const std::filesystem::path& input_file,
                       const std::vector<std::string>& settings, const std::filesystem::path& folder);
 
-/// Of a checkpoint of one part of a run: program, part and every parameter.
+/// The identity of a checkpoint of one part of a run: program, part and every parameter.
 std::string run_identity(const Input& input, const std::string& part);
 
 /// Notes that the run has come to its end.

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-// Of Eigen's functions that Ceres's static library holds too, as those that order a matrix, one copy serves the program:
+// Ceres's static library holds some of Eigen's functions too (those that order a matrix). One copy serves the program:
 // both must take and free memory alike.
 static_assert(EIGEN_MALLOC_ALREADY_ALIGNED && EIGEN_DEFAULT_ALIGN_BYTES == 16,
               "Eigen would allocate otherwise than in the libraries of the distribution");

@@ -44,7 +44,7 @@ struct Link
   LinkStrainGradient<dim> by_strain{};
 };
 
-/// Of a link with these axes, arms and branch; docs/theory.md §9.1.
+/// The gradient of a link with these axes, arms and branch; docs/theory.md §9.1.
 template <int dim>
 LinkGradient<dim> link_gradient(const Link<dim>& link);
 template <int dim>

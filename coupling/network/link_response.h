@@ -12,7 +12,7 @@ template <int dim>
 struct SegmentHistory
 {
   bool bonded = true;
-  /// Of an unbonded one; of a parallel bond, whether it holds or not, the shear force of its contact over its area [Pa].
+  /// Without a bond; of a parallel bond, whether it holds or not, the shear force of its contact over its area [Pa].
   std::array<double, dim - 1> shear_stress{};
 };
 

@@ -39,7 +39,7 @@ public:
   Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
   double volume() const { return cell_volume; }
   double mean_branch() const { return mean_branch_length; }
-  /// Of the joints, normal stiffness times length of the branch [N].
+  /// The mean over the joints of normal stiffness times length of the branch [N].
   double mean_normal_stiffness() const { return mean_stiffness; }
 
   /// Joints first, then pairs that may come to touch.
@@ -59,7 +59,7 @@ public:
   }
   const Bond<double>& bond(const std::uint32_t segment) const { return bonds[segment]; }
   double thickness() const { return plane_thickness; }
-  /// Of a link's segment i [m²].
+  /// The area of a link's segment i [m²].
   double segment_area(const Link<dim>& link, std::uint32_t i) const;
   std::uint32_t link_of_segment(const std::uint32_t segment) const
   {
@@ -69,7 +69,7 @@ public:
   /// Segments without a bond from the start.
   const std::vector<std::uint32_t>& unbonded() const { return unbonded_at_rest; }
 
-  /// Of a link whose segments are all bonded.
+  /// The stiffness of a link whose segments are all bonded.
   const JointStiffness<dim>& bonded_stiffness(const std::size_t joint) const { return bonded_stiffnesses[joint]; }
 
   /// The network with all bonds intact, K x.
@@ -93,7 +93,7 @@ public:
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
   /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
-  /// Of a law whose bonds bear the normal and shear stress of their segment, as all do now.
+  /// For a law whose bonds bear the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
   /// Whether, by a linear law, no pair without a face can come to touch at this strain: with all bonds kept the network is

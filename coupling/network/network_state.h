@@ -34,7 +34,7 @@ struct NetworkState
   bool intact = true;                         ///< and linear
   std::vector<double> motions;                ///< of all grains; empty while intact
   std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
-  /// Of a law that is not linear while it holds, of every segment [Pa]; empty at rest, and of other laws.
+  /// The shear stress of every segment, by a law that is not linear while it holds [Pa]; empty at rest and otherwise.
   std::vector<std::array<double, dim - 1>> contact_shear;
   std::uint32_t n_tension_breaks = 0;
   std::uint32_t n_shear_breaks = 0;

@@ -20,7 +20,7 @@ struct Overload
 template <int dim>
 std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present, BreakRule rule);
 
-/// Of the way since the last event, taken as straight, how much is behind when the first of these is overloaded.
+/// The share of the way since the last event, taken as straight, at which the first of these is overloaded.
 template <int dim>
 double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history,
                    const Unknowns& position);

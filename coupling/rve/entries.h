@@ -8,7 +8,7 @@
 /// The entries of a representative volume.
 namespace feldspar
 {
-/// Of section Representative volume.
+/// The entries of section Representative volume.
 inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
 {
   using P = EquilibriumParameters;

@@ -28,7 +28,7 @@ public:
   /// Where the search begins, instead of at the last event: the position of a state found from it.
   void begin_at(const NetworkState<dim>& nearby);
 
-  /// What its linear systems are solved with until that takes too long; may be empty.
+  /// The factor by which its linear systems are solved until that takes too long; may be empty.
   void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { solver.begin_with(std::move(nearby)); }
   const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return solver.last_factorised(); }
 
@@ -39,7 +39,7 @@ public:
   /// Segments with bonds that break where it stands.
   std::vector<Overload> overloads() const { return feldspar::overloads(history, present, parameters.break_rule); }
 
-  /// Of the way since the last event, taken as straight, how much is behind when the first of these is overloaded.
+  /// The share of the way since the last event, taken as straight, at which the first of these is overloaded.
   double share_until(const std::vector<Overload>& overloads) const
   {
     return feldspar::share_until(overloads, history, present.position);

@@ -82,7 +82,7 @@ void ExplicitRun<dim>::advance()
     }
   catch (const Runaway& error)
     {
-      // What has broken since the last sample may have broken by wrong numbers.
+      // Breaks since the last sample may come from wrong numbers.
       const PathSample<dim>& last = path_record.samples.back();
       path_record.cracks.resize(last.n_tension_cracks + last.n_shear_cracks);
       path_record.failure = error.what();

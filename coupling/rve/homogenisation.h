@@ -9,7 +9,7 @@
 /// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// Of every link at a state, in its own axes [N, N m]; a pull between its grains is positive.
+/// The forces of every link at a state, in its own axes [N, N m]; a pull between its grains is positive.
 template <int dim>
 std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
 
@@ -34,11 +34,11 @@ double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>
 template <int dim>
 Tensor<dim> fabric(const Network<dim>& network);
 
-/// Of a segment of a joint, with its grains at rest, in the cell's box or just outside.
+/// The place of a segment of a joint, with its grains at rest, in the cell's box or just outside.
 template <int dim>
 SegmentPlace<dim> segment_place(const Network<dim>& network, std::size_t joint, std::size_t segment);
 
-/// What has broken.
+/// Measures of the broken segments.
 template <int dim>
 struct CrackMeasures
 {

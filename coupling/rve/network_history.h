@@ -42,7 +42,7 @@ public:
   /// In the order of their first break or touch.
   const std::vector<ActiveLink<dim>>& active() const { return active_links; }
   bool is_active(const std::uint32_t link) const { return number[link] != none; }
-  /// Of an active link in active().
+  /// The number of an active link in active().
   std::uint32_t active_number(const std::uint32_t link) const { return number[link]; }
 
   /// Forces with the grains at a position, by the straight way from the last event.

@@ -25,7 +25,7 @@ struct LegCourse
   /// `start`: strain and stress at which it begins; `rve`: whose path it is.
   LegCourse(const PathLeg<dim>& leg, const NetworkState<dim>& start, const RepresentativeVolume<dim>& rve);
 
-  /// What is given where a share of it is behind.
+  /// The given strains and stresses where a share of the leg is behind.
   Control<dim> at(double share) const;
   /// Largest change of a component of the intact RVE's strain, tensor shear.
   double size() const { return strain_tensor<dim>(way).cwiseAbs().maxCoeff(); }

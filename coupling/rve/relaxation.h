@@ -6,7 +6,7 @@
 /// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §9.3.
 namespace feldspar
 {
-/// What is prescribed, per Voigt component: a strain, or a stress.
+/// The prescribed value of each Voigt component: a strain, or a stress.
 template <int dim>
 struct Control
 {

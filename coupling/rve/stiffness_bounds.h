@@ -2,7 +2,7 @@
 
 #include "coupling/network/network.h"
 
-/// What the boundary of a representative volume does to its elasticity: the same grains and joints under the weakest and
+/// How the boundary of an RVE acts on its elasticity: the same grains and joints under the weakest and
 /// the strictest hold on their boundary. The periodic one lies between them; docs/theory.md §9.5.
 namespace feldspar
 {
@@ -13,7 +13,7 @@ struct StiffnessBounds
   Stiffness<dim> affine;            ///< [Pa]
 };
 
-/// Of the network with all bonds intact. The body has the grains of the cell and the images that joints lead to, each a
+/// The bounds with all bonds intact. The body has the grains of the cell and the images that joints lead to, each a
 /// pair with its own grain. Minimal kinematic (Mesarovic and Padbidri 2005): only the mean over the
 /// pairs of each side follows the strain, which is a uniform traction on the sides. Affine: every grain of a pair is
 /// displaced as the strain says, and may turn.

@@ -17,7 +17,7 @@ template <int dim>
 Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
                        JointStiffness<dim> LinkResponse<dim>::*which = &LinkResponse<dim>::tangent);
 
-/// Of each link, in its own axes; [n_links].
+/// The stiffness of each link, in its own axes; [n_links].
 template <int dim>
 std::vector<JointStiffness<dim>> link_tangents(const NetworkHistory<dim>& history, const Balance<dim>& at);
 
@@ -40,7 +40,7 @@ public:
   void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { factorised = std::move(nearby); }
   const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
 
-  /// Of `apply`, which is near the tangent at the balance.
+  /// The solution with `apply`, which is near the tangent at the balance.
   Unknowns solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
                  const std::function<Unknowns(const Unknowns&)>& apply, bool symmetric, const Unknowns& right,
                  const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);

@@ -42,7 +42,7 @@ public:
   std::vector<double> fields() const override;
   std::optional<fem::PointEnergies> energies() const override;
   std::vector<fem::PointCrack<dim>> cracks_of_last_step() const override;
-  /// Of a law that is not linear while it holds: whether a bond has broken.
+  /// For a law that is not linear while it holds: whether a bond has broken.
   bool is_damaged() const override
   {
     const NetworkState<dim>& state = accepted.state();

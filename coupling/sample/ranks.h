@@ -19,7 +19,7 @@ bool any(bool here);
 std::uint64_t sum(std::uint64_t here);
 std::vector<double> sums(const std::vector<double>& here); ///< entry by entry
 
-/// What the first rank says.
+/// The value of the first rank.
 std::string of_first(const std::string& text);
 
 /// The texts of all ranks, one after another by rank, on the first; nothing on others. Any length.

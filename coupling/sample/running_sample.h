@@ -79,7 +79,7 @@ struct SampleTest::Parts
   void gather_cracks();
   CurveSample sample_row();
 
-  /// What all ranks know besides the solid; in sample_checkpoint.cc.
+  /// The state that all ranks share besides the solid; in sample_checkpoint.cc.
   template <typename Archive>
   void transfer(Archive& archive, std::string& fields_written, fem::StoredSolid& solid);
 

@@ -287,7 +287,7 @@ public:
   void restore(const fem::StoredSolid& stored) override { solid.restore(stored); }
 
 private:
-  /// What the sides sweep by a lateral strain of one [m³].
+  /// The volume that the sides sweep by a lateral strain of one [m³].
   double volume_of_lateral_strain() const { return n_lateral_directions() * solid.area("top") * its_size.height; }
 
   fem::SolidParameters parameters_of(const SampleSetUp& set_up) const

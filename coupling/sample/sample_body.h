@@ -20,7 +20,7 @@
 /// The finite elements of a sample, in whatever dimension: what a test on it asks of them.
 namespace feldspar
 {
-/// What is asked of a body between platens.
+/// A body between platens, as a test sees it.
 struct SampleSetUp
 {
   std::function<void(const fem::NewtonReport&)> watch; ///< as SolidParameters::watch
@@ -80,7 +80,7 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
                                                 std::vector<std::shared_ptr<const Network<dim>>> realisations,
                                                 std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
                                                 std::uint64_t seed);
-/// Of what sample.material says, without grains.
+/// A body of the material that sample.material names, without grains.
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                                  const ContinuumParameters& continuum);
 } // namespace feldspar

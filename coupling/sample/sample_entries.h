@@ -12,7 +12,7 @@
 /// The entries of a sample of finite elements.
 namespace feldspar
 {
-/// Of section Sample.
+/// The entries of section Sample.
 inline std::vector<Entry<SampleParameters>> sample_entries()
 {
   using P = SampleParameters;
@@ -93,7 +93,7 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
                         "unbalanced over internal force of the sample")};
 }
 
-/// Of section Continuum.
+/// The entries of section Continuum.
 inline std::vector<Entry<ContinuumParameters>> continuum_entries()
 {
   using P = ContinuumParameters;

@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-/// What a sample is, and how its mesh stands for it.
+/// A sample and its mesh.
 enum class SampleGeometry
 {
   plane,        ///< RVEs of discs, one metre thick
@@ -32,7 +32,7 @@ enum class MeshUnit
   millimetre
 };
 
-/// Of the RVEs at its points.
+/// The dimension of the RVEs at its points.
 constexpr unsigned int dimension_of_rves(const SampleGeometry geometry)
 {
   return geometry == SampleGeometry::plane ? 2 : 3;
@@ -80,7 +80,7 @@ struct SampleParameters
   bool has_grains() const { return material == "grains"; }
 };
 
-/// What the mesh of a sample measures.
+/// The measures of a sample's mesh.
 struct SampleSize
 {
   double width;           ///< of a cylinder the diameter [m]

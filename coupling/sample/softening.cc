@@ -143,7 +143,7 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
     }
 }
 
-/// What the scaled energies of the piece would gain between two states at one of its strains: those of the RVE do, along
+/// The gain of the scaled energies of the piece between two states at one of its strains: those of the RVE do, along
 /// a straight way from its last event, and count 1/κ times but for the elastic one.
 template <int dim>
 double SofteningPoint<dim>::gained(const Held& first, const Held& last, const Found& now) const
@@ -206,7 +206,7 @@ struct SofteningPoint<dim>::Stored
     archive.value("elastic_energy", state.elastic_energy);
     archive.value("elastic_strain", state.elastic_strain);
     archive.value("gained_while_held", state.gained_while_held);
-    archive.text("volume", stored.rve);
+    archive.text("rve", stored.rve);
   }
 };
 

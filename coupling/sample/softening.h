@@ -44,12 +44,12 @@ public:
   /// The last is 1 where it has localised and since strained, beyond what is elastic, by more than it was elastically then:
   /// a break in a small RVE may let the stress fall for a moment.
   std::vector<double> fields() const override;
-  /// Of the piece: what the RVE lost after it localised counts 1/κ times. While events run the piece stands still and
-  /// nothing works on it, so what its energies would gain then is taken from what breaks released; docs/theory.md §10.
+  /// The energies of the piece: losses of the RVE once localised count 1/κ times. During events the piece is held and
+  /// no work is done on it; the gain of its energies then is subtracted from the released energy; docs/theory.md §10.
   std::optional<fem::PointEnergies> energies() const override;
 
   bool has_localised() const { return at_work.localised; }
-  /// Of the RVE, in the accepted state.
+  /// The strain of the RVE in the accepted state.
   const Voigt<dim>& rve_strain() const { return accepted.rve_strain; }
 
 private:

@@ -205,7 +205,7 @@ void Dynamics<dim>::remove_lost_contacts()
         {
           Touch<dim> touch = make_touch(body, joints.grain_1[j], joints.grain_2[j]);
           touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
-          // What the face stored and the touch does not is let go in sliding off.
+          // The energy that the face stored and the touch does not is released in sliding off.
           const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
           ledger.slip_of_lost_contacts +=
             joints.slip_energy[j] + joint_energy(joints, j) - 0.5 * touch.stiffness.normal * overlap * overlap;

@@ -41,7 +41,7 @@ public:
   /// Body acceleration [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }
 
-  /// Of a periodic body: the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
+  /// In a periodic body the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
   /// counts as boundary work.
   void deform_cell(const Tensor<dim>& rate) { images.deform(rate); }
   /// The same, and the grains are set off with the motion of the cell about its middle, so that no wave has to tell them.
@@ -59,7 +59,7 @@ public:
   std::vector<Break> step();
   /// Throws Runaway where a grain moves as none can.
   void check_motion() const;
-  /// Of trouble that was found of the whole body: names its fastest grain, the step and the likely reason.
+  /// The error for trouble with the whole body: it names the fastest grain, the step and the likely reason.
   Runaway runaway(const std::string& trouble) const;
 
   /// After a change of radii, positions or velocities from outside: looks for contacts anew; overlaps count.
@@ -91,9 +91,9 @@ public:
   double largest_unbalanced_force_ratio() const;
   /// -(1/V) Σ f ⊗ l over all contacts and walls [Pa], tension positive.
   Tensor<dim> mean_stress() const;
-  /// Of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
+  /// The stress of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
   std::vector<Tensor<dim>> grain_stresses() const;
-  /// Of a periodic body, the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
+  /// In a periodic body the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
   /// where forces balance.
   Tensor<dim> boundary_stress() const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
@@ -108,7 +108,7 @@ public:
 
 private:
   void start();
-  /// What moves: the rigid groups, or else the grains (and the images of these behind them).
+  /// The moving bodies: the rigid groups, or else the grains (and the images of these behind them).
   const Grains<dim>& bodies() const { return groups.empty() ? body.grains : groups.bodies; }
   Grains<dim>& bodies() { return groups.empty() ? body.grains : groups.bodies; }
   std::size_t n_bodies() const { return groups.empty() ? images.n_own() : groups.size(); }

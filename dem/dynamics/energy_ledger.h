@@ -6,7 +6,7 @@
 namespace feldspar
 {
 /// The energies that only a running sum can tell: works, and whatever left the body with a contact that is no more [J].
-/// What grains and contacts hold now is asked of them; Dynamics::energies() puts both together.
+/// Grains and contacts themselves know their present energy; Dynamics::energies() puts both together.
 struct EnergyLedger
 {
   explicit EnergyLedger(const std::size_t n_grains)

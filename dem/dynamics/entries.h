@@ -8,7 +8,7 @@
 /// The entries of the dynamics.
 namespace feldspar
 {
-/// Of section Dynamics.
+/// The entries of section Dynamics.
 inline std::vector<Entry<DynamicsParameters>> dynamics_entries()
 {
   using P = DynamicsParameters;

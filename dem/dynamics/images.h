@@ -11,7 +11,7 @@
 namespace feldspar
 {
 /// The images of a periodic body, which stand behind its own grains and move with them, and the cell that tells where.
-/// Of any other body there are none.
+/// Other bodies have none.
 template <int dim>
 class Images
 {

@@ -36,7 +36,7 @@ struct Touch
   GrainPair ends() const { return {grain_1, grain_2}; }
 };
 
-/// Of two grains of a body that have not touched yet.
+/// A touch of two grains of a body that have not touched yet.
 template <int dim>
 Touch<dim> make_touch(const Specimen<dim>& body, std::uint32_t grain_1, std::uint32_t grain_2);
 
@@ -48,7 +48,7 @@ public:
   const std::vector<Touch<dim>>& list() const { return touches; }
   /// Which of them each grain takes part in.
   const Incidence& incidence() const { return contacts_of; }
-  /// Of one by its number; does not read the touch itself.
+  /// Whether the touch of this number presses; does not read the touch itself.
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
   /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
   std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }

@@ -25,7 +25,7 @@ struct Wall
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
-  /// Of a plate that is not endless: where it lies along extent_axis(), from and to [m].
+  /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
   /// Whether it is a plate. Which grains stand above it is looked up with each search for contacts.
@@ -97,7 +97,7 @@ public:
   void clear();
   /// How far a wall has gone since the last search [m].
   double way_since_search(std::size_t wall) const;
-  /// Of the gaps between a wall and the grains that were not near it at the last search, the smallest [m].
+  /// The smallest gap between a wall and the grains that were not near it at the last search [m].
   double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t n_own, std::size_t wall) const;
 
   void move(const double dt)

@@ -27,7 +27,7 @@ Vector<2> in_plane(const Vector<dim>& point)
   return {point[0], point[dim - 1]};
 }
 
-/// What a shape does to a grain's centre, and to the way between two centres.
+/// The effect of a shape on a grain's centre, and on the line between two centres.
 template <int dim>
 struct Effect
 {
@@ -212,7 +212,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
 
   const std::size_t n_joints = specimen.joints.size();
   drop_joints(specimen, cut);
-  // What is left of the body: pieces of it without a face to the largest hang on nothing.
+  // The rest of the body: pieces without a face to the largest hang on nothing.
   Specimen<dim> rest = part_of(specimen, kept);
   std::vector<std::uint32_t> old_number;
   for (std::uint32_t i = 0; i < n_grains; ++i)

@@ -9,7 +9,7 @@
 /// The entries of mineral grains and clumps; those of the other flaws, which are written as words, are with the input.
 namespace feldspar
 {
-/// Of section Mineral grains.
+/// The entries of section Mineral grains.
 inline std::vector<Entry<MineralGrainParameters>> mineral_grain_entries()
 {
   using P = MineralGrainParameters;
@@ -21,7 +21,7 @@ inline std::vector<Entry<MineralGrainParameters>> mineral_grain_entries()
                                    {.varies = true, .of_specimen = true})};
 }
 
-/// Of section Clumps.
+/// The entries of section Clumps.
 inline std::vector<Entry<ClumpParameters>> clump_entries()
 {
   using P = ClumpParameters;

@@ -46,7 +46,7 @@ struct Slot
   double width;       ///< [m]
 };
 
-/// What is special of the smooth joints of one flaw. Without a strength of its own it is not bonded.
+/// The properties of the smooth joints of one flaw. A flaw without a strength of its own is not bonded.
 struct SmoothSides
 {
   std::optional<double> normal_stiffness; ///< [Pa/m]
@@ -115,7 +115,7 @@ std::string_view name(const Shape& shape);
 /// Whether grains are taken out.
 bool is_open(const Shape& shape);
 
-/// Of a flaw whose sides slide on a plane; else null.
+/// The smooth sides of a flaw whose sides slide on a plane; else null.
 const SmoothSides* smooth_sides(const Shape& shape);
 
 /// The points of the line or, closed, of the outline, for what lies in the plane of the picture; of a sphere its equator

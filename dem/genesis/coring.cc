@@ -102,7 +102,7 @@ Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int,
       all.grains.moment_of_inertia[k] = cell.grains.moment_of_inertia[k % n_grains];
     }
 
-  // What a joint and its segments are is the same in each copy.
+  // Joints and segments are the same in each copy.
   Joints<dim> of_cell = cell.joints;
   Joints<dim>& joints = all.joints;
   joints.resize_all(n_copies * n_joints);

@@ -325,7 +325,7 @@ Sums Descent<dim>::sum_forces(const double wanted_stress, const bool radii_grow)
   Sums all;
   for (const Sums& sums : of_block)
     all += sums;
-  // What a growth of all radii by d ln(multiplier) does to the overlap energy, less the work of the wanted stress.
+  // The change of the overlap energy by a growth of all radii by d ln(multiplier), less the wanted stress's work.
   growth_force = dim * body.volume() * wanted_stress - all.virial;
   if (radii_grow)
     {
@@ -377,7 +377,7 @@ void Descent<dim>::advance(const double time_step, const double keep, const doub
     find_neighbours();
 }
 
-/// What is done to the radii.
+/// The treatment of the radii.
 enum class Stage
 {
   as_drawn,   ///< the first overlaps are let go

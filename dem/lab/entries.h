@@ -8,7 +8,7 @@
 /// The entries of the laboratory tests.
 namespace feldspar
 {
-/// Of section Tests.
+/// The entries of section Tests.
 inline std::vector<Entry<TestParameters>> test_entries()
 {
   using P = TestParameters;

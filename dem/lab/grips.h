@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 namespace feldspar
 {

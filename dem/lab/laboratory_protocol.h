@@ -20,7 +20,7 @@ template <int dim>
 using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure, const TestParameters&,
                                  const DynamicsParameters&);
 
-/// What the strain at the peak of a test goes with, for the time left before its curve has told more.
+/// The strain at the peak by that of another test, for the time left while the curve itself shows too little.
 struct PeakForecast
 {
   enum class With

@@ -10,7 +10,7 @@
 /// defaults of the input.
 namespace feldspar
 {
-/// What presses the side of a cylinder in a triaxial test.
+/// The lateral boundary of a cylinder in a triaxial test.
 enum class LateralBoundary
 {
   wall,    ///< a rigid cylinder that shrinks and widens

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 namespace feldspar
 {
@@ -28,7 +28,7 @@ void close(Dynamics<dim>& dynamics, const Platens& platens, const double speed)
   dynamics.wall(platens.upper).velocity = -0.5 * speed;
 }
 
-/// Of both platens, on an area [m²].
+/// The stress at both platens, on an area [m²].
 template <int dim>
 EndStress stress_of(const Dynamics<dim>& dynamics, const Platens& platens, const double area)
 {

@@ -22,7 +22,7 @@ struct PressureRamp
   std::string_view entry = "Tests/Confinements"; ///< that asks for the pressure
 };
 
-/// Of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].
+/// The speed of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].
 template <int dim>
 double wave_speed(const Specimen<dim>& specimen);
 

@@ -23,7 +23,7 @@ struct StageMoment
   double lateral_strain = 0.0; ///< of the gauge, where a stage of the table is led by it
 };
 
-/// What a stage asks for at one moment.
+/// The demand of a stage at one moment.
 struct StageDemand
 {
   double confining_pressure;                   ///< compression positive [Pa]
@@ -47,10 +47,10 @@ public:
   /// Asked before each step.
   StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;
-  /// Of a table with a stage that the lateral strain leads: moments have to tell it.
+  /// Whether the lateral strain leads a stage of the table: moments must then have it.
   bool needs_lateral_strain() const;
   bool is_led_by_lateral_strain() const { return stage().lateral_strain.has_value(); }
-  /// Of the stage that runs, its magnitude [1/s].
+  /// The magnitude of the strain rate of the present stage [1/s].
   double strain_rate() const { return rate_of(stage()); }
   /// The stage that runs, and where the test stood when it began.
   const LoadingStage& stage() const { return wanted.loading_stages[begun.size() - 1]; }

@@ -15,7 +15,7 @@ struct StopRule
   {
   }
 
-  /// Of a body that swings at first: its test does not end before a bond has broken, unless at a strain that is wanted.
+  /// For a body that swings at first: its test does not end before a bond has broken, except at a wanted strain.
   bool needs_crack = false;
 
   /// Whether this row is the last. confining_pressure in Pa, compression positive.

@@ -40,7 +40,7 @@ struct WallPair
 template <int dim>
 double distance(const Dynamics<dim>& dynamics, const WallPair& pair);
 
-/// What surrounds a specimen that is pressed between platens.
+/// The lateral boundary of a specimen that is pressed between platens.
 template <int dim>
 struct Surroundings
 {

@@ -33,7 +33,7 @@ std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const Entr
   return entries;
 }
 
-/// Of section Flat joint, and of those of laws with the same faces.
+/// The entries of section Flat joint, and of those of laws with the same faces.
 template <typename P = FlatJointParameters>
 std::vector<Entry<P>> flat_joint_entries()
 {
@@ -78,7 +78,7 @@ std::vector<Entry<P>> flat_joint_entries()
   return and_installation(entries, of_rock);
 }
 
-/// Of section Softening flat joint.
+/// The entries of section Softening flat joint.
 inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_entries()
 {
   using P = SofteningFlatJointParameters;
@@ -96,7 +96,7 @@ inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_ent
   return entries;
 }
 
-/// Of section Parallel bond.
+/// The entries of section Parallel bond.
 inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
 {
   using P = ParallelBondParameters;
@@ -125,7 +125,7 @@ inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
   return and_installation(entries, of_rock);
 }
 
-/// Of section Smooth joint.
+/// The entries of section Smooth joint.
 inline std::vector<Entry<SmoothJointParameters>> smooth_joint_entries()
 {
   using P = SmoothJointParameters;
@@ -149,7 +149,7 @@ inline std::vector<Entry<SmoothJointParameters>> smooth_joint_entries()
                              of_rock)};
 }
 
-/// Of section Particle contact.
+/// The entries of section Particle contact.
 inline std::vector<Entry<ParticleContactParameters>> particle_contact_entries()
 {
   using P = ParticleContactParameters;

@@ -5,10 +5,10 @@
 
 #include <array>
 
-/// What any joint law is given and gives back: a face, how it moves over a step, and its forces.
+/// Input and output of any joint law: a face, its motion over a step, and its forces.
 namespace feldspar
 {
-/// What the elements of a face have in common.
+/// The common properties of the elements of a face.
 template <typename Real>
 struct Face
 {

@@ -211,7 +211,7 @@ struct FlatJoint : CarriedPlane<dim>
   /// μ of broken segments.
   static double friction(const Parameters& wanted, const ParticleContactParameters&) { return wanted.friction; }
 
-  /// Of one face.
+  /// The bonds of one face.
   static std::vector<Bond<double>> draw_bonds(const Parameters& wanted, const std::size_t n_elements, Random& random)
   {
     if (wanted.strength_draw == StrengthDraw::per_contact)

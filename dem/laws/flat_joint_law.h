@@ -48,7 +48,7 @@ struct Segment<3, Real>
   Real area() const { return element_area; }
 };
 
-/// What a segment remembers; dim - 1 shear components.
+/// The state of a segment; dim - 1 shear components.
 template <int dim, typename Real>
 struct SegmentState
 {
@@ -163,7 +163,7 @@ NormalResponse<Real> normal_response(const Segment<3, Real>& segment, const Real
   return {select(!bonded && gap >= 0.0, Real(0.0), force), Real(0.0)};
 }
 
-/// What the normal stress stores [J].
+/// The energy that the normal stress stores [J].
 template <typename Real, typename Mask>
 Real normal_energy(const Segment<2, Real>& segment, const Real& gap, const Real& slope, const Mask& bonded)
 {

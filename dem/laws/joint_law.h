@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a joint law is: how the face between two grains responds to a motion of theirs, from its installation to its last
+/// A joint law says how the face between two grains responds to a motion of theirs, from its installation to its last
 /// piece. The grains' dynamics (dem/dynamics) and the network of a representative volume (coupling/rve) ask the same law.
 ///
 /// To add one:
@@ -54,7 +54,7 @@ inline std::string section_of(const std::string_view law_name)
   return section;
 }
 
-/// What an element remembers: the law may add `std::array<Real, n_more> more`.
+/// The state of an element, to which the law may add `std::array<Real, n_more> more`.
 template <typename State, int dim, typename Real>
 concept ElementState = requires(State state)
 {

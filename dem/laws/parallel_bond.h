@@ -212,15 +212,15 @@ struct ParallelBond : CarriedPlane<dim>
     return springs;
   }
 
-  /// Of the bond alone.
+  /// The stiffness of the bond alone.
   static JointStiffness<dim> bond_stiffness(const Face<double>& face) { return of_springs(face_springs<dim>(face)); }
-  /// Of a face that is pressed and does not slide: none is stiffer.
+  /// The stiffness of a face that is pressed and does not slide: none is stiffer.
   JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>&, const ElementRows<dim>&) const
   {
     return of_springs(stiffest(face));
   }
 
-  /// What the bond bears follows from the motion of the whole face.
+  /// The load of the bond follows from the motion of the whole face.
   static Motion<dim> strain(const ElementRows<dim>&, const Motion<dim>& motion) { return motion; }
   BondStress bond_stress(const Face<double>& face, const Motion<dim>& strain) const
   {
@@ -245,7 +245,7 @@ private:
     return diagonal.asDiagonal();
   }
 
-  /// What the force and the moments of a bond follow from.
+  /// The motion from which the force and the moments of a bond follow.
   template <typename Real>
   struct Strain
   {

@@ -11,7 +11,7 @@
 /// by Coulomb's law and opens by dilation; it bears no moment. docs/theory.md §1.9. Signs as of the flat joint.
 namespace feldspar::smooth_joint
 {
-/// What a joint is.
+/// The constants of a joint.
 struct Face
 {
   double normal_stiffness; ///< k_n [Pa/m]
@@ -31,7 +31,7 @@ inline Face face(const SmoothJointParameters& wanted)
            wanted.friction_angle ? std::tan(*wanted.friction_angle) : wanted.friction}};
 }
 
-/// What it remembers.
+/// The state of a joint.
 template <int dim>
 struct State
 {

@@ -112,7 +112,7 @@ struct SofteningFlatJoint : CarriedPlane<dim>
     return sum;
   }
 
-  /// What a bond that holds has dissipated so far [J].
+  /// The energy that a bond has dissipated while it holds [J].
   static double dissipated_so_far(const State<double>& state) { return state.bonded ? state.more[2] : 0.0; }
 
   static FaceSprings stiffest(const Face<double>& face) { return FlatJoint<dim>::stiffest(face); }

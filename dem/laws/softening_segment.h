@@ -18,13 +18,13 @@ using simd::magnitude;
 using simd::select;
 using simd::smaller;
 
-/// What a segment remembers.
+/// The state of a segment.
 template <int dim, typename Real>
 struct State
 {
   std::array<Real, dim - 1> shear_stress; ///< τ [Pa]
   decltype(Real() < Real()) bonded;
-  /// Of a bond that holds: D, the lost share of its stiffness in tension; the part of d that shear has taken; what it has
+  /// While a bond holds: D, the lost share of its stiffness in tension; the part of d that shear has taken; what it has
   /// dissipated so far [J].
   std::array<Real, 3> more;
 };
@@ -85,7 +85,7 @@ flat_joint::NormalResponse<Real> damaged_response(const flat_joint::Segment<dim,
   return {between(damage, bonded.force, unbonded.force), between(damage, bonded.moment, unbonded.moment)};
 }
 
-/// What the normal stress stores with the bond and does not without it [J].
+/// The energy that the normal stress stores with the bond and would not store without it [J].
 template <int dim, typename Real>
 Real energy_of_bond(const flat_joint::Segment<dim, Real>& segment, const Real& gap, const Real& slope)
 {
@@ -149,7 +149,7 @@ Update<dim, Real> update_bonded(const flat_joint::Segment<dim, Real>& segment, c
       slip_energy = residual * (1.0 - kept) * size * segment.area() / k_s;
       dissipated = dissipated * segment.area() / k_s - slip_energy;
     }
-  // What the bond stored under tension, as far as it has gone.
+  // The energy that the bond stored under tension, as far as it has gone.
   if (simd::any(damage > damage_before))
     dissipated += (damage - damage_before) * energy_of_bond(segment, motion.gap, motion.slope);
 

@@ -12,7 +12,7 @@
 /// The entries of a specimen.
 namespace feldspar
 {
-/// Of section Specimen.
+/// The entries of section Specimen.
 inline std::vector<Entry<SpecimenParameters>> specimen_entries()
 {
   using P = SpecimenParameters;

@@ -12,7 +12,7 @@ namespace feldspar
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_grains);
 
-/// Of a specimen, whose smooth joints hold as well.
+/// The fragments of a specimen, whose smooth joints hold as well.
 template <int dim>
 std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen);
 } // namespace feldspar

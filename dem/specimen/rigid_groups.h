@@ -17,14 +17,14 @@ public:
     : BodyCentres(specimen, specimen.grains.position)
   {
   }
-  /// Of grains that stand at these positions, which must outlive it [m].
+  /// The centres for grains that stand at these positions, which must outlive it [m].
   BodyCentres(const Specimen<dim>& specimen, const Components<dim>& positions);
   BodyCentres(const BodyCentres&) = delete;
   BodyCentres& operator=(const BodyCentres&) = delete;
 
-  /// Of each grain's body [m]; [n_grains].
+  /// The centre of each grain's body [m]; [n_grains].
   const Components<dim>& all() const { return *centre; }
-  /// Of one grain's body [m].
+  /// The centre of one grain's body [m].
   Vector<dim> of(const std::uint32_t grain) const { return at<dim>(*centre, grain); }
 
 private:

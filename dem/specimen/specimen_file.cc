@@ -402,7 +402,7 @@ void check_smooth_joints(const Specimen<dim>& specimen)
     }
 }
 
-/// What types alone do not tell, of a file whose bytes may be anybody's.
+/// Checks beyond types, for a file whose bytes may come from anywhere.
 template <int dim>
 void check(const Specimen<dim>& specimen)
 {

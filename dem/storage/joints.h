@@ -144,7 +144,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     whole = whole_face<dim>(elements);
   }
 
-  /// Of each segment, number k of those of the law.
+  /// The k-th value of the law's own, for each segment.
   PackedRow more(const std::size_t k) { return {this->more_state, k, n_more}; }
 
   Face<double> face(const std::size_t joint) const

@@ -19,7 +19,7 @@ struct SegmentPlace
   double size;          ///< length in 2D, root of the area in 3D [m]
 };
 
-/// Of an element of a face whose axes are the rows n, t (n, t_1, t_2); arm: from the centre of grain 1 to the middle of
+/// Place of an element of a face with axes n, t (n, t_1, t_2) as rows; arm: from the centre of grain 1 to the middle of
 /// the face [m].
 template <int dim>
 SegmentPlace<dim> segment_place(const Vector<dim>& centre_1, const double arm, const Tensor<dim>& axes,
@@ -35,7 +35,7 @@ SegmentPlace<dim> segment_place(const Vector<dim>& centre_1, const double arm, c
           half_length * (dim == 2 ? element.area : std::sqrt(element.area))};
 }
 
-/// Of a segment of a joint as its grains stand now.
+/// The place of a segment of a joint as its grains stand now.
 template <int dim>
 SegmentPlace<dim> segment_place(const Grains<dim>& grains, const Joints<dim>& joints, const std::size_t joint,
                                 const std::size_t segment)

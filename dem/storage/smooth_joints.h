@@ -35,7 +35,7 @@ struct SmoothJoint
 
   std::pair<std::uint32_t, std::uint32_t> ends() const { return {grain_1, grain_2}; }
   double stored_energy() const { return area * smooth_joint::stored_energy(face, state); } ///< [J]
-  /// Of its share of the plane: length in 2D, root of the area in 3D [m].
+  /// The size of its share of the plane: length in 2D, root of the area in 3D [m].
   double size(const double thickness) const { return dim == 2 ? area / thickness : std::sqrt(area); }
 };
 

@@ -3,8 +3,8 @@
 
     python3 examples/multiscale-and-grains/study.py FELDSPAR [NAME ...]
 
-NAME is that of an input here, or all. results/NAME.json is the summary of its run; for the paths of representative
-volumes it also has what follows the peak (after_peak), read off the curves. Prints the tables of the README and draws
+NAME is that of an input here, or all. results/NAME.json is the summary of its run; for the paths of RVEs it also has
+the course after the peak (after_peak), read off the curves. Prints the tables of the README and draws
 ../../docs/figures/multiscale-and-grains.png (gnuplot).
 """
 
@@ -34,17 +34,17 @@ COMMANDS = {
 }
 
 
-def after_peak(volume, curve):
+def after_peak(rve, curve):
     """Stress along the axis, tension or compression positive: its peak, the work after it and what is left at the end."""
     sign = 1.0 if max(float(row["strain_yy"]) for row in curve) > 0.0 else -1.0
     strain = [sign * float(row["strain_yy"]) for row in curve]
     stress = [sign * float(row["stress_yy_Pa"]) for row in curve]
     peak = stress.index(max(stress))
-    edge = volume["cell_m"][0][0] ** 2 + volume["cell_m"][1][0] ** 2
+    edge = rve["cell_m"][0][0] ** 2 + rve["cell_m"][1][0] ** 2
     work = sum(0.5 * (stress[k] + stress[k - 1]) * (strain[k] - strain[k - 1]) for k in range(peak + 1, len(curve)))
     return {
-        "variant": volume["variant"],
-        "seed": volume["seed"],
+        "variant": rve["variant"],
+        "seed": rve["seed"],
         "peak_stress_Pa": stress[peak],
         "strain_at_peak": strain[peak],
         "strain_at_end": strain[-1],
@@ -89,11 +89,11 @@ def keep(name, outs):
             summary.pop(of_first, None)
     if COMMANDS[name] == "rve":
         summary["after_peak"] = []
-        for volume in summary["volumes"]:
-            with open(os.path.join(outs[0], "curves", volume["name"] + ".csv"), encoding="utf-8") as file:
+        for rve in summary["rves"]:
+            with open(os.path.join(outs[0], "curves", rve["name"] + ".csv"), encoding="utf-8") as file:
                 curve = list(csv.DictReader(file))
-            if volume["at_end"]["strain_yy"] != 0.0:  # else it found no equilibrium at its first increment
-                summary["after_peak"].append(after_peak(volume, curve))
+            if rve["at_end"]["strain_yy"] != 0.0:  # else it found no equilibrium at its first increment
+                summary["after_peak"].append(after_peak(rve, curve))
     with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
         file.write(json.dumps(summary, indent=2) + "\n")
 

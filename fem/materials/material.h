@@ -121,7 +121,7 @@ public:
   /// Values of the accepted state for output, in the order of Material::field_names.
   virtual std::vector<double> fields() const { return {}; }
 
-  /// Of the structure at work, after its last event or accept(); none where they are not known.
+  /// The energies of the structure at work, after its last event or accept(); none where they are not known.
   virtual std::optional<PointEnergies> energies() const { return {}; }
 
   /// Opened in the last accepted step.
@@ -144,7 +144,7 @@ struct PointPlace
   double element_size;           ///< (volume, in the plane and in r-z area, of the cell)^(1/dim) / order [m]
 };
 
-/// What a sample is made of.
+/// The material of a sample.
 template <int dim>
 struct Material
 {

@@ -17,7 +17,7 @@ namespace feldspar::fem
 {
 namespace
 {
-/// What stands between two blanks of a line, by its place; empty beyond the last.
+/// A word of a line, by its place; empty beyond the last.
 std::string_view word_of(std::string_view line, int place)
 {
   for (;; --place)

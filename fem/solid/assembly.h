@@ -19,7 +19,7 @@ struct NodalForces
   NodalVector unbalanced; ///< external less internal, on what the constraints leave free to move
 };
 
-/// Of a state's stresses and pressures. Collective.
+/// The forces of a state's stresses and pressures. Collective.
 template <int dim, int material_dim>
 NodalForces assemble_forces(const Discretisation<dim>& elements, const std::vector<double>& volumes,
                             const SolidState<material_dim>& state,

@@ -43,6 +43,6 @@ struct PathVertex
 /// By the forces on the degrees of freedom of this rank. held: those whose displacement is prescribed.
 BoundaryWork work_between(const PathVertex& from, const PathVertex& to, const std::vector<bool>& held);
 
-/// Of all ranks. Collective.
+/// The work of all ranks. Collective.
 BoundaryWork sum(const BoundaryWork& of_rank, MPI_Comm communicator);
 } // namespace feldspar::fem

@@ -11,10 +11,10 @@
 
 namespace feldspar::fem
 {
-/// What a load asks of the corrections of Newton's method, for the degrees of freedom that a rank knows.
+/// The constraints of a load on the corrections of Newton's method, for the degrees of freedom that a rank knows.
 struct SolidConstraints
 {
-  /// Of a plate that goes as far as lets boundaries sweep a volume.
+  /// A plate that moves until boundaries have swept a volume.
   struct Following
   {
     std::vector<std::string> boundaries;
@@ -35,7 +35,7 @@ template <int dim>
 SolidConstraints constrain(const Discretisation<dim>& elements, const Load<dim>& load, const NodalVector& accepted,
                            double fraction);
 
-/// What boundaries sweep together [m³]. Collective.
+/// The volume that boundaries sweep together [m³]. Collective.
 template <int dim>
 double swept_between(const Discretisation<dim>& elements, const std::vector<std::string>& boundaries,
                      const NodalVector& displacement);

@@ -21,7 +21,7 @@ namespace feldspar::fem
 {
 using NodalVector = dealii::PETScWrappers::MPI::Vector;
 
-/// Of a displacement.
+/// The mask of one component of a displacement.
 template <int dim>
 dealii::ComponentMask only(const unsigned int component)
 {

@@ -56,7 +56,7 @@ StrainVector<material_dim> strain_of(const Kinematics kinematics, const unsigned
   return strain;
 }
 
-/// What an area or volume of the mesh counts for.
+/// The weight of an area or volume of the mesh.
 inline double weight(const Kinematics kinematics, const double radius)
 {
   return kinematics == Kinematics::axisymmetric ? 2.0 * std::numbers::pi * radius : 1.0;

@@ -9,7 +9,7 @@
 
 namespace feldspar::fem
 {
-/// What is done to the boundaries of a sample. Between two loads displacements and pressures go in proportion.
+/// The loads on the boundaries of a sample. Between two loads displacements and pressures go in proportion.
 ///
 /// Where two displacements are asked of one node the first holds.
 template <int dim>

@@ -30,7 +30,7 @@ public:
 
   std::size_t size() const { return points.size(); }
   const MaterialPoint<dim>& operator[](const std::size_t i) const { return *points[i]; }
-  /// What each point took of a processor since it was added, whatever else runs there [s].
+  /// The processor time of each point since it was added, whatever else runs there [s].
   const std::vector<double>& seconds() const { return times; }
 
   Responses trial(const Strains& strains) const
@@ -63,7 +63,7 @@ public:
     for_each([&](const std::size_t i) { points[i]->reject(); });
   }
 
-  /// Of each point, as it gave it.
+  /// The state of each point, as it gave it.
   std::vector<std::string> stored() const
   {
     std::vector<std::string> all;
@@ -101,7 +101,7 @@ private:
     times[i] += processor_time() - begin;
   }
 
-  /// Of this thread [s].
+  /// The processor time of this thread [s].
   static double processor_time()
   {
     timespec now{};

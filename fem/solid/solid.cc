@@ -28,7 +28,7 @@ Solid<dim, material_dim>::Solid(const SampleMesh<dim>& mesh, const SolidParamete
   set_up();
 }
 
-/// What is of this rank's cells, at rest.
+/// The state of this rank's cells, at rest.
 template <int dim, int material_dim>
 void Solid<dim, material_dim>::set_up()
 {

@@ -33,7 +33,7 @@ public:
   void accept();
   void reject();
 
-  /// Of the cells of this rank.
+  /// The state of the cells of this rank.
   StoredSolid stored() const;
   /// Each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of another mesh;
   /// the solid is then unusable.
@@ -65,7 +65,7 @@ public:
   /// Between the boundary at rest and as it is displaced, outwards positive [m³].
   double swept_volume(const std::string& boundary) const;
 
-  /// Of a boundary [m²].
+  /// The area of a boundary [m²].
   double area(const std::string& boundary) const;
 
   /// Mean over the volume.

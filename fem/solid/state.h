@@ -10,7 +10,7 @@
 
 namespace feldspar::fem
 {
-/// What the nodes and points of a solid are found to be under a load.
+/// The state of the nodes and points of a solid under a load.
 template <int material_dim>
 struct SolidState
 {
@@ -40,7 +40,7 @@ template <int dim, int material_dim>
 SolidState<material_dim> state_at_rest(const Discretisation<dim>& elements,
                                        const MaterialPoints<material_dim>& materials);
 
-/// Of each point of this rank.
+/// The strain at each point of this rank.
 template <int dim, int material_dim>
 std::vector<StrainVector<material_dim>> strains_of(const Discretisation<dim>& elements,
                                                    const NodalVector& displacement);

@@ -15,7 +15,7 @@ struct ShownUnit
   double size;
 };
 
-/// Of figures of this size; `Pa`, `rad` and `1` are known.
+/// The unit for figures of this size; `Pa`, `rad` and `1` are known.
 ShownUnit shown_unit(const std::string& si_unit, double size);
 
 /// Every pair of sampled parameters, with the histogram of each; none without samples.

@@ -130,7 +130,7 @@ private:
   int longest_key = 0; ///< [bytes]
 };
 
-/// What lines and bands are, for captions: with one specimen there is nothing to average.
+/// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
 std::string means_and_bands(const bool several)
 {
   return several ? ". Lines: means; bands: ± standard deviation; thin lines: single tests" : "";

@@ -58,7 +58,7 @@ struct CurveLooks
   std::string colour;
 };
 
-/// What is drawn, and how far it goes.
+/// The curves of a picture and their range.
 class EnvelopePlot
 {
 public:
@@ -115,7 +115,7 @@ public:
       }
   }
 
-  /// What specimens go on to carry after their peaks: marks of the same form, open, along a thin line.
+  /// The residual strengths: marks of the same form, open, along a thin line.
   void add_residual(const Series& series, const std::size_t n)
   {
     const std::string label = series.label + ": residual";

@@ -22,7 +22,7 @@ std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
                                                const std::vector<StrengthEnvelopes>& envelopes,
                                                const std::optional<Reference>& reference);
 
-/// What each envelope of the series, which is this one of all, leaves over at each point.
+/// The residual of each envelope of the series, which is this one of all, at each point.
 std::vector<Picture> residual_picture(const Series& series, std::size_t which, const StrengthEnvelopes& envelopes);
 
 /// Share of shear cracks at the peak against confinement.

@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// Of every test its stress–strain curve and its crack maps.
+/// The stress–strain curve and the crack maps of every test.
 std::vector<Picture> single_test_pictures(const Series& series);
 
 /// Curves above, crack maps below, of the first specimen; of the confinements the lowest and the highest.

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <string>
 
-/// What all pictures share: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
+/// The common style of all pictures: colours that the colour-blind tell apart (Okabe and Ito), and the looks of a plot.
 namespace feldspar::plot
 {
 inline constexpr double percent = 1e-2;
@@ -38,7 +38,7 @@ inline constexpr const char* wine = "#882255";
 inline constexpr const char* sand = "#DDCC77";
 inline constexpr const char* rose = "#CC6677";
 
-/// Of the n-th series; a measured curve is black.
+/// The colour of the n-th series; a measured curve is black.
 std::string colour(const Series& series, std::size_t n);
 
 /// gnuplot's number of the mark for points of a series: by what its tests were made on.

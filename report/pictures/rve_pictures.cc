@@ -40,7 +40,7 @@ std::vector<Picture> rve_picture(const FinishedTest& test, const std::string& ti
   std::vector<std::string> headings;
   for (std::size_t k = 0; k < rves.size(); ++k)
     headings.push_back(fmt::format("{}: {}", letter_of_rve(k), rves[k].which));
-  const std::string name = test.name + "_volumes";
+  const std::string name = test.name + "_rves";
   const std::string caption =
     fmt::format("{}, seed {}: grains and cracks of the representative volumes at a few points of the "
                 "sample, along its axes, at the end",

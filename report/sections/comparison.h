@@ -20,7 +20,7 @@ struct ComparisonRow
   std::optional<ReferenceValue> model; ///< of the paper
   std::optional<ReferenceValue> experiment;
 
-  /// Of our mean from that of the experiment, over the latter; none without either.
+  /// The deviation of our mean from that of the experiment, over the latter; none without either.
   std::optional<double> deviation() const;
   /// Whether our mean lies in the range of the experiment; none without either.
   std::optional<bool> in_range() const;

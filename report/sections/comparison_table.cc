@@ -51,7 +51,7 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
   return line;
 }
 
-/// What a series cost: means over its specimens.
+/// The cost of a series: means over its specimens.
 struct Cost
 {
   Statistics grains;

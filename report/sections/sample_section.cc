@@ -23,7 +23,7 @@ std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title
   if (test.appearance.rves.empty())
     return {};
   Table table{
-    "volumes_" + test.name + ending,
+    "rves_" + test.name + ending,
     fmt::format(
       "{}, seed {}: the representative volumes (RVEs) that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
       "writes these or any other for ParaView and for feldspar rve",

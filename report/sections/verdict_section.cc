@@ -17,7 +17,7 @@ namespace feldspar
 {
 namespace
 {
-/// What the input says of it.
+/// The material of the points, as the input names it.
 std::string material_at_points(const Provenance& made_by)
 {
   const auto found = std::find_if(made_by.input.begin(), made_by.input.end(), [](const InputEntry& one) {
@@ -35,7 +35,7 @@ std::string count_and_names(const std::vector<std::string>& names)
   return names.empty() ? "✓ none" : fmt::format("✗ {}: {}", names.size(), fmt::join(names, ", "));
 }
 
-/// What the blocks of few series say, a row a series.
+/// The measures of the blocks of few series, a row for each series.
 PageBlock verdict_of_many(const Findings& findings)
 {
   Table table{"verdicts",

@@ -25,7 +25,7 @@ struct ShearLineResult
   std::string reason;
 };
 
-/// Of the tests whose pressure acts across the stress that they measure; all others are passed over. Every test counts
+/// The line through the tests whose pressure acts across the measured stress; others are passed over. Every test counts
 /// once; normal stresses of two sizes or more are needed.
 ShearLineResult fit_shear_line(const std::vector<const FinishedTest*>& tests);
 } // namespace feldspar

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What the fits of strength envelopes have in common. Compression is positive here and in the files that include this
+/// Common parts of the fits of strength envelopes. Compression is positive here and in the files that include this
 /// one: a confinement is positive, a tensile strength is measured positive and enters as sigma_3 = -sigma_t.
 namespace feldspar
 {
@@ -19,7 +19,7 @@ struct EnvelopePoint
   double sigma_1;
 };
 
-/// What envelopes are fitted to and compared with; points are means over the seeds, all of the same weight.
+/// The data that envelopes are fitted to and compared with; points are means over the seeds, all of the same weight.
 struct StrengthData
 {
   std::vector<EnvelopePoint> points;                   ///< the uniaxial test is the one at sigma_3 = 0

@@ -21,6 +21,6 @@ struct ResidualPoint
   double deviation; ///< standard deviation; 0 of one
 };
 
-/// Of a series, by confinement, where at least half of the tests have one.
+/// The residual strengths of a series, by confinement, where at least half of the tests have one.
 std::vector<ResidualPoint> residual_points(const Series& series);
 } // namespace feldspar

@@ -165,7 +165,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
                              fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
                              text(fit.uniaxial_compressive_strength, 1, 1e6),
                              text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
-        // What the form itself fixes is no news.
+        // A value that the form itself fixes is no result.
         const bool fixes_s = pair.form != HoekBrownForm::as_paper;
         if (!fit.m.half_width.value)
           notes.push_back(fmt::format("{}: m has no interval: {}", title, fit.m.half_width.reason));

@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// What a report shows of a calibration, as it stands in its folder; SI.
+/// A calibration as its folder has it and a report shows it; SI.
 struct CalibrationRecord
 {
   struct TargetRow

@@ -11,8 +11,10 @@
 
 namespace feldspar
 {
-/// The layout of summary.json.
-inline constexpr int summary_schema_version = 1;
+/// The layout of summary.json. A key that is renamed or gone raises it; layout 1 had `volumes` for `rves`.
+inline constexpr int summary_schema_version = 2;
+/// The oldest layout that is read in full.
+inline constexpr int oldest_summary_schema_version = 1;
 
 /// How every summary.json begins: layout, program, input and machine.
 nlohmann::ordered_json as_json(const Provenance& provenance);
@@ -20,7 +22,7 @@ nlohmann::ordered_json as_json(const Provenance& provenance);
 /// Whole numbers are written as such.
 nlohmann::ordered_json json_number(double value);
 
-/// What a variant says of its entries, by entry: a number with the unit it was written in, or the words.
+/// The values of a variant, by entry: a number with the unit it was written in, or the words.
 nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 
 /// As far as it is there.

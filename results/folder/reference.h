@@ -65,7 +65,7 @@ struct ReferenceSource
   std::optional<PrintedLine> line() const;
 };
 
-/// What results are set beside (JSON; see examples/beishan-granite/reference.json and docs/report.md).
+/// The rock or model to compare results with (JSON; see examples/beishan-granite/reference.json and docs/report.md).
 struct Reference
 {
   std::string rock;

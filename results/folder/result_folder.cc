@@ -120,6 +120,13 @@ void write_rve(const PointRve& rve, const FinishedTest& of, const std::filesyste
   write_cracks(rve.cracks, name, of.record.kind, folder / (name + "_cracks.csv"));
 }
 
+/// The RVEs that a test keeps in its summary; layout 1 has them under another key.
+Json rves_in(const Json& test)
+{
+  const auto rves = test.find(test.contains("rves") ? "rves" : "volumes");
+  return rves != test.end() && rves->is_array() ? *rves : Json::array();
+}
+
 PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
 {
   PointRve rve;
@@ -183,7 +190,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
   const Json json = read_summary(folder);
   std::vector<std::string> problems;
   const auto version = json.find("schema_version");
-  if (version == json.end() || *version != summary_schema_version)
+  const bool is_whole = version != json.end() && version->is_number_integer() &&
+                        *version >= oldest_summary_schema_version && *version <= summary_schema_version;
+  if (!is_whole)
     problems.push_back(fmt::format("{} has layout {}; this program writes layout {}, so figures may be missing here",
                                    (folder / result_file::summary).string(),
                                    version == json.end() ? "unknown" : excerpt(version->dump()),
@@ -221,12 +230,10 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         try_to(problems, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
   for (const auto& entry : json["tests"])
-    if (entry.is_object() && entry.contains("volumes") && entry["volumes"].is_array())
-      for (auto& test : tests)
-        if (test.name == text_of(entry, "name"))
-          for (const auto& rve : entry["volumes"])
-            try_to(problems,
-                   [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
+    for (auto& test : tests)
+      if (entry.is_object() && test.name == text_of(entry, "name"))
+        for (const auto& rve : rves_in(entry))
+          try_to(problems, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);

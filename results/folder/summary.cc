@@ -46,7 +46,7 @@ Json as_json(const Statistics& over_seeds)
   return json;
 }
 
-/// What each stage of a loading table came to; compression positive.
+/// The figures at the end of each stage of a loading table; compression positive.
 Json stages(const TestRecord& record)
 {
   Json json = Json::array();
@@ -121,12 +121,12 @@ Json describe(const FinishedTest& test)
   for (const auto& flaw : test.appearance.flaws)
     json["flaws"].push_back({{"name", flaw.name}, {"open", flaw.open}, {"outline_m", flaw.outline}});
   for (const auto& rve : test.appearance.rves)
-    json["volumes"].push_back({{"which", rve.which},
-                               {"cell", rve.cell},
-                               {"point", rve.point},
-                               {"position_m", rve.position},
-                               {"n_segments", rve.n_segments},
-                               {"n_broken_segments", rve.cracks.size()}});
+    json["rves"].push_back({{"which", rve.which},
+                            {"cell", rve.cell},
+                            {"point", rve.point},
+                            {"position_m", rve.position},
+                            {"n_segments", rve.n_segments},
+                            {"n_broken_segments", rve.cracks.size()}});
   return json;
 }
 

@@ -25,14 +25,14 @@ public:
 
   VtkPolyData(const Components& points, Cells cells);
 
-  // Of each cell; of points their own. Names end in the SI unit, where there is one.
+  // A value for each cell; points have their own. Names end in the SI unit, where there is one.
   void scalar(const std::string& name, const std::vector<double>& values);
   void count(const std::string& name, const std::vector<std::uint32_t>& values);
   void vector(const std::string& name, const Components& values);
   /// Symmetric: xx, xy, xz, yy, yz, zz; nine components in the file.
   void tensor(const std::string& name, const std::vector<std::array<double, 6>>& values);
 
-  /// Of all.
+  /// A value of the whole.
   void of_all(const std::string& name, double value);
 
   /// Throws OutputError.

@@ -17,7 +17,7 @@ struct InputEntry
   std::string value; ///< with its unit
 };
 
-/// What made the results: saved with them.
+/// The origin of results, saved with them.
 struct Provenance
 {
   std::string version;

@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// What the tests of a series were made on.
+/// The bodies of the tests of a series.
 enum class SeriesKind
 {
   specimens,       ///< of grains: `feldspar lab`

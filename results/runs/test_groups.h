@@ -33,7 +33,7 @@ bool comes_before(const TestGroup& a, const TestGroup& b);
 /// The groups of a series in the order of kinds and pressures. The series must outlive them.
 std::vector<TestGroup> groups_of(const Series& series);
 
-/// Of the confinements only the lowest and the highest: what a page has room for.
+/// The groups for which a page has room: of the confinements the lowest and the highest.
 std::vector<TestGroup> shown(const std::vector<TestGroup>& groups);
 
 /// The first test of a group that has a curve with a peak; null if there is none.
@@ -42,7 +42,7 @@ const FinishedTest* typical(const TestGroup& group);
 /// A figure over the seeds of a group, where it could be had.
 std::vector<double> values(const TestGroup& group, Figure TestResults::*figure);
 
-/// What the quantities of a test are followed along: the axial strain, positive in the sense of the test, or the time [s]
+/// The abscissa of a test: the axial strain, positive in the sense of the test, or the time [s]
 /// where a table leads the strain back and forth.
 double abscissa(const TestKind& kind, const CurveSample& row);
 

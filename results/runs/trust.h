@@ -52,7 +52,7 @@ using TestsOfRock = std::vector<const FinishedTest*>;
 std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, SeriesKind kind);
 std::vector<TrustCheck> trust_checks(const Series& series);
 
-/// What failed and what is missing, each in a sentence; nothing if all is there.
+/// Failed and missing tests, each in a sentence; nothing if all are there.
 std::vector<std::string> shortcomings(const TestsOfRock& tests, SeriesKind kind);
 
 /// The same, and what is out of its bounds.
@@ -74,6 +74,6 @@ std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests);
 /// The checks for a terminal: of each measure its worst value, the bound, and how many tests are out of it.
 std::string as_text(const std::vector<TrustCheck>& checks);
 
-/// Of each rock the checks and the shortcomings.
+/// The checks and shortcomings of each rock.
 std::string trust_as_text(const std::vector<FinishedTest>& tests);
 } // namespace feldspar

@@ -23,6 +23,12 @@ inline nlohmann::json results_of(const std::string& example, const std::string& 
     content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/" + example + "/results/" + study + ".json"));
 }
 
+/// The RVEs in the summary of `feldspar rve`; results of 0.2.0 have them under another key.
+inline const nlohmann::json& rves_in(const nlohmann::json& summary)
+{
+  return summary.at(summary.contains("rves") ? "rves" : "volumes");
+}
+
 inline std::string number(const nlohmann::json& value, const double scale, const int decimals)
 {
   return fmt::format("{:.{}f}", value.get<double>() / scale, decimals);

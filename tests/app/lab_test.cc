@@ -75,7 +75,7 @@ TEST(Lab, WritesWhatItPromises)
   EXPECT_TRUE(outcome.output.ends_with("rock-results-001\n")) << outcome.output;
 
   const auto json = summary(results);
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "20 mm");
   ASSERT_EQ(json["tests"].size(), 4u);
   const auto& test = json["tests"][0];

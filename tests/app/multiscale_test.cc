@@ -75,7 +75,7 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
       EXPECT_FALSE(test.at(std::string(figure) + "_reason").get<std::string>().empty()) << figure;
     }
   for (const char* const file : {"one/fields/direct_tension_seed_1.xdmf", "one/cracks.csv", "one/report.html",
-                                 "one/curves/direct_tension_seed_1.csv", "one/volumes/specimen_seed_2.h5"})
+                                 "one/curves/direct_tension_seed_1.csv", "one/rves/specimen_seed_2.h5"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
 
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet --threads 2").exit_code, 0);
@@ -518,12 +518,12 @@ TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
   TemporaryFolder folder;
   const std::string cell_of_spheres =
     "subsection Specimen\n  set Dimension = 3\n  set Shape = periodic\n  set Width = 7 mm\n  set Height = 7 mm\nend\n";
-  folder.write("volume.prm", cell_of_spheres +
-                               "subsection Strain path\n  set Direction = free, free, 1, free, free, free\n"
-                               "  set Size = 2.4e-4\n  set Largest step = 1e-5\nend\n");
-  ASSERT_EQ(run_feldspar(folder.path(), "rve volume.prm --output volume --quiet").exit_code, 0);
-  const auto strain = column(folder.path() / "volume/curves/rve.csv", "strain_zz");
-  const auto stress = column(folder.path() / "volume/curves/rve.csv", "stress_zz_Pa");
+  folder.write("rve.prm", cell_of_spheres +
+                            "subsection Strain path\n  set Direction = free, free, 1, free, free, free\n"
+                            "  set Size = 2.4e-4\n  set Largest step = 1e-5\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "rve rve.prm --output rve --quiet").exit_code, 0);
+  const auto strain = column(folder.path() / "rve/curves/rve.csv", "strain_zz");
+  const auto stress = column(folder.path() / "rve/curves/rve.csv", "stress_zz_Pa");
   const auto of_rve = [&](const double wanted) {
     for (std::size_t k = 1; k < strain.size(); ++k)
       if (strain[k] >= wanted)

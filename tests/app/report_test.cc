@@ -214,7 +214,7 @@ TEST_F(Report, OfAnOlderLayoutSaysSoAndIsStillMade)
       test.erase(name);
   folder.write("out/summary.json", json.dump());
   holds(remade(),
-        {"summary.json has layout 0; this program writes layout 1", "from an unknown input", "Strength envelope"});
+        {"summary.json has layout 0; this program writes layout 2", "from an unknown input", "Strength envelope"});
 }
 
 /// 60 GPa, Poisson's ratio 0.2 to 60 MPa, 0.35 to 120 MPa, 0.9 to the peak of 160 MPa; in per cent and MPa.
@@ -549,7 +549,7 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsRves)
         "A, most damaged", "cell:point"})
     EXPECT_NE(words.find(wanted), std::string::npos) << wanted;
   EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
-  for (const char* const name : {"sample.svg", "sample.pdf", "volumes.png"})
+  for (const char* const name : {"sample.svg", "sample.pdf", "rves.png"})
     EXPECT_GT(fs::file_size(folder.path() / "out/figures" / ("direct_tension_seed_1_" + std::string(name))), 4000u)
       << name;
 
@@ -564,7 +564,7 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsRves)
       const int number = std::stoi(line.substr(begin));
       ++n_broken[fmt::format("{}:{}", number / 4, number % 4)];
     }
-  std::istringstream rows(content(folder.path() / "out/tables/volumes_direct_tension_seed_1.csv"));
+  std::istringstream rows(content(folder.path() / "out/tables/rves_direct_tension_seed_1.csv"));
   std::getline(rows, line);
   const std::regex row("\"(.), (.*)\",\"?\\(.*\\) mm\"?,([0-9]+:[0-9]+),([0-9]+),.*");
   std::size_t n_rows = 0;
@@ -600,8 +600,8 @@ TEST(ReportOfASample, CutsACylinderAndDrawsItsRvesInSpace)
   EXPECT_NE(words.find("The left half is the mirror image of the right"), std::string::npos);
   EXPECT_NE(words.find("Grains behind the mid-plane"), std::string::npos);
   EXPECT_EQ(words.find("class=\"absent\""), std::string::npos);
-  EXPECT_GT(fs::file_size(folder.path() / "out/figures/direct_tension_seed_1_volumes.png"), 10'000u);
-  EXPECT_NE(content(folder.path() / "out/tables/volumes_direct_tension_seed_1.csv").find("r = "), std::string::npos);
+  EXPECT_GT(fs::file_size(folder.path() / "out/figures/direct_tension_seed_1_rves.png"), 10'000u);
+  EXPECT_NE(content(folder.path() / "out/tables/rves_direct_tension_seed_1.csv").find("r = "), std::string::npos);
 
   // A module of Python's that came with a folder is not taken for the one that draws.
   for (const char* module : {"vtk", "subprocess", "signal"})

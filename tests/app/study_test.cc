@@ -408,7 +408,7 @@ const std::set<std::string> of_the_path{"peak_stress_Pa",
 /// Where records of one run lie, and what tells one from the others whatever else was run.
 const nlohmann::json& records(const nlohmann::json& summary)
 {
-  return summary.contains("volumes") ? summary["volumes"] : summary["tests"];
+  return summary.contains("tests") ? summary["tests"] : rves_in(summary);
 }
 
 std::string identity(const nlohmann::json& record)
@@ -420,7 +420,7 @@ std::string identity(const nlohmann::json& record)
   return result;
 }
 
-/// The tolerance of an equilibrium from break to break: what another order of summation changes is far below it.
+/// The tolerance of an equilibrium event by event; another order of summation changes far less.
 constexpr double tolerance = 1e-6;
 
 /// A side held free of stress has only what the tolerance leaves; where along the path that is largest says nothing.

@@ -15,7 +15,7 @@
 #include "dem/genesis/genesis.h"
 #include "dem/genesis/packing_file.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "fem/mesh/gmsh_binary.h"
 #include "fem/mesh/gmsh_check.h"

@@ -101,8 +101,8 @@ TEST(Metropolis, DrawsFromANormalDistributionAndKeepsToItsBounds)
   EXPECT_NEAR(variance, 0.01, 0.0015);
 }
 
-/// Poisson's ratio of a plane network in affine strain, (κ - 1)/(3κ + 1) (docs/theory.md §9): what a table of cells is
-/// about as curved as.
+/// Poisson's ratio of a plane network whose joints point equally in all directions, in affine strain: (κ - 1)/(3κ + 1). A
+/// table of cells is about as curved.
 double affine_poissons_ratio(const double ratio) { return (ratio - 1.0) / (3.0 * ratio + 1.0); }
 
 ElasticTable affine_table()

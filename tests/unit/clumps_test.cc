@@ -6,16 +6,16 @@
 #include "dem/flaws/clumps.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
+#include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -299,20 +299,7 @@ TEST(Clumps, CrackBetweenEachOtherAndTheEnergiesBalance)
 
 TEST(Clumps, GiveTheSameBitsWithOneThreadAndTwo)
 {
-  const Specimen<2> specimen = clumped({0.005});
-  const auto end = [&](const std::size_t n_threads) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
-    LabTest<2> test({uniaxial_compression}, specimen, quick_compression(), {});
-    for (int n = 0; n < 50; ++n)
-      test.advance();
-    return test.finish(true);
-  };
-  const auto one = end(1);
-  const auto two = end(2);
-  EXPECT_GT(one.record.cracks.size(), 0u);
-  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
-  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
-  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+  tests::expect_same_bits_on_two_threads(clumped({0.005}), quick_compression(), 50);
 }
 
 TEST(Clumps, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
@@ -326,25 +313,7 @@ TEST(Clumps, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_TRUE(back.groups_are_rigid);
   EXPECT_EQ(back.report.n_clumps, specimen.report.n_clumps);
 
-  LabTest<2> whole({uniaxial_compression}, specimen, quick_compression(), {});
-  for (int n = 0; n < 30; ++n)
-    whole.advance();
-  whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<2> again({uniaxial_compression}, back, quick_compression(), {});
-  again.read_checkpoint(folder.path() / "test.h5", "one");
-  for (int n = 0; n < 20; ++n)
-    {
-      whole.advance();
-      again.advance();
-    }
-  const auto one = whole.finish(true);
-  const auto two = again.finish(true);
-  EXPECT_GT(one.record.cracks.size(), 0u);
-  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
-  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
-  EXPECT_EQ(one.record.curve.back().gauge_lateral_strain, two.record.curve.back().gauge_lateral_strain);
-  EXPECT_EQ(one.record.curve.back().energies.damping, two.record.curve.back().energies.damping);
-  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+  tests::expect_same_bits_when_resumed(specimen, back, quick_compression(), 30, 20);
 
   const auto is_refused = [&](const std::function<void(Specimen<2>&)>& spoil) {
     Specimen<2> wrong = specimen;

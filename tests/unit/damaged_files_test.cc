@@ -3,7 +3,7 @@
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/rve_file.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/sample_fields.h"
 #include "tests/mutations.h"

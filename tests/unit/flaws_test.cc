@@ -3,7 +3,7 @@
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"
 #include "dem/specimen/specimen_part.h"

@@ -238,7 +238,7 @@ TEST(IncludeRules, NamespacesAreThoseOfTheLibraries)
   EXPECT_GT(n_opened, 300u) << "next to nothing was scanned under " << source_root;
 }
 
-// What a reader takes in at a glance.
+// A room of more files is not taken in at a glance.
 TEST(IncludeRules, NoRoomIsCrowded)
 {
   constexpr std::size_t most_files = 28;
@@ -254,7 +254,14 @@ TEST(IncludeRules, NoRoomIsCrowded)
     }
 }
 
-// Each room sees rooms above its own line only: what a cycle would need does not exist.
+// A file called so reads as a unit test.
+TEST(IncludeRules, TestsLieUnderTestsOnly)
+{
+  for (const fs::path& path : sources())
+    EXPECT_TRUE(!path.stem().string().ends_with("_test") || lies_in(path.parent_path().string(), {"tests"})) << path;
+}
+
+// Each room sees rooms above its own line only, so that no two of them can depend on each other.
 TEST(IncludeRules, RoomsStandInOneOrder)
 {
   for (std::size_t i = 0; i < rooms.size(); ++i)

@@ -3,15 +3,14 @@
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/parallel_bonds.h"
+#include "tests/unit/same_bits.h"
 
 #include <gtest/gtest.h>
-
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,21 +131,7 @@ TYPED_TEST(LaboratoryTests, APressedSpecimenBreaksAndItsEnergiesBalanceAllTheWay
 
 TYPED_TEST(LaboratoryTests, GiveTheSameBitsWithOneThreadAndTwo)
 {
-  constexpr int dim = TypeParam::dim;
-  const auto specimen = small_bonded_specimen<TypeParam>();
-  const auto end = [&](const std::size_t n_threads) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
-    LabTest<dim> test({uniaxial_compression}, specimen, quick_and_dense(), {});
-    for (int n = 0; n < 60 && test.advance(); ++n)
-      ;
-    return test.finish(true);
-  };
-  const auto one = end(1);
-  const auto two = end(2);
-  EXPECT_GT(one.record.cracks.size(), 0u);
-  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
-  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
-  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+  tests::expect_same_bits_on_two_threads(small_bonded_specimen<TypeParam>(), quick_and_dense(), 60);
 }
 
 TYPED_TEST(LaboratoryTests, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
@@ -162,24 +147,7 @@ TYPED_TEST(LaboratoryTests, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_EQ(back.joints.friction, specimen.joints.friction);
 
   // The specimen that was read, whose law brings its own numbers, and a checkpoint in the middle of breaking.
-  LabTest<dim> whole({uniaxial_compression}, specimen, quick_and_dense(), {});
-  for (int n = 0; n < 40; ++n)
-    whole.advance();
-  whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<dim> again({uniaxial_compression}, back, quick_and_dense(), {});
-  again.read_checkpoint(folder.path() / "test.h5", "one");
-  for (int n = 0; n < 25; ++n)
-    {
-      whole.advance();
-      again.advance();
-    }
-  const auto one = whole.finish(true);
-  const auto two = again.finish(true);
-  EXPECT_GT(one.record.cracks.size(), 0u);
-  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
-  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
-  EXPECT_EQ(one.record.curve.back().energies.slip, two.record.curve.back().energies.slip);
-  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+  tests::expect_same_bits_when_resumed(specimen, back, quick_and_dense(), 40, 25);
 }
 
 TEST(ParallelBondFile, AFileWithImpossibleNumbersOfTheLawIsRefused)

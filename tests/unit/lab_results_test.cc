@@ -1,5 +1,5 @@
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

@@ -186,6 +186,27 @@ TEST(ResultFolder, OfAnotherLayoutIsReadAsFarAsItGoes)
     EXPECT_NE(said.find(words), std::string::npos) << words << " in\n" << said;
 }
 
+/// Layout 1 had the RVEs of a test under the key `volumes`.
+TEST(ResultFolder, OfTheLayoutBeforeIsReadInFull)
+{
+  const TemporaryFolder folder;
+  auto test = compression(1);
+  test.appearance.rves.push_back({"most damaged", 3, 1, {}, 7, {}, {}});
+  write_result_folder({}, {test}, {}, folder.path());
+  auto json = nlohmann::ordered_json::parse(content(folder.path() / "summary.json"));
+  json["schema_version"] = 1;
+  json["tests"][0]["volumes"] = json["tests"][0]["rves"];
+  json["tests"][0].erase("rves");
+  folder.write("summary.json", json.dump());
+  const auto all = read_result_folder(folder.path(), test_kinds());
+  EXPECT_TRUE(all.at(0).problems.empty()) << all[0].problems[0];
+  const auto& rves = all[0].tests.at(0).appearance.rves;
+  ASSERT_EQ(rves.size(), 1u);
+  EXPECT_EQ(rves[0].which, "most damaged");
+  EXPECT_EQ(rves[0].cell, 3u);
+  EXPECT_EQ(rves[0].n_segments, 7u);
+}
+
 TEST(ResultFolder, ThatIsNoneIsRefused)
 {
   const TemporaryFolder folder;

@@ -2,7 +2,7 @@
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>

@@ -7,12 +7,13 @@
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"
 #include "dem/specimen/specimen_part.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
+#include "tests/unit/same_bits.h"
 #include "tests/unit/small_specimen.h"
 
 #include <Eigen/Geometry>
@@ -659,24 +660,7 @@ TEST(MineralGrains, ComeBackFromAFileAndATestTakenUpGivesTheSameBits)
   EXPECT_EQ(back.kept_apart, specimen.kept_apart);
   ASSERT_EQ(back.smooth_joints.size(), specimen.smooth_joints.size());
 
-  LabTest<2> whole({uniaxial_compression}, specimen, quick_compression(), {});
-  for (int n = 0; n < 30; ++n)
-    whole.advance();
-  whole.write_checkpoint(folder.path() / "test.h5", "one");
-  LabTest<2> again({uniaxial_compression}, back, quick_compression(), {});
-  again.read_checkpoint(folder.path() / "test.h5", "one");
-  for (int n = 0; n < 20; ++n)
-    {
-      whole.advance();
-      again.advance();
-    }
-  const auto one = whole.finish(true);
-  const auto two = again.finish(true);
-  EXPECT_GT(one.record.cracks.size(), 0u);
-  EXPECT_EQ(one.record.cracks.size(), two.record.cracks.size());
-  EXPECT_EQ(one.record.curve.back().axial_stress, two.record.curve.back().axial_stress);
-  EXPECT_EQ(one.record.curve.back().energies.slip, two.record.curve.back().energies.slip);
-  EXPECT_EQ(one.appearance.grains_at_end.back().position, two.appearance.grains_at_end.back().position);
+  tests::expect_same_bits_when_resumed(specimen, back, quick_compression(), 30, 20);
 
   const auto is_refused = [&](const std::function<void(SmoothJoint<2>&)>& spoil) {
     Specimen<2> wrong = specimen;

@@ -2,7 +2,7 @@
 
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

@@ -3,7 +3,7 @@
 
 #include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_part.h"
 #include "fem/materials/linear_elasticity.h"
 #include "fem/solid/solid.h"

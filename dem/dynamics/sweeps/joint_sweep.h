@@ -18,7 +18,7 @@ struct Break
   double released_energy; ///< [J]
 };
 
-/// What a sweep makes for itself and keeps for the next.
+/// The working arrays of a sweep, kept for the next.
 template <int dim>
 struct SweepMemory
 {
@@ -30,7 +30,7 @@ struct SweepMemory
   /// The least strengths of each joint's bonds [Pa]; below every stress where not all of them hold.
   PackedRows weakest;
 
-  /// Of each grain its centre [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
+  /// Centre of each grain [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
   /// in the plane both in one four: x, y, φ.
   static constexpr std::size_t record_size = dim == 2 ? 4 : 8;
   std::vector<double, PageAllocator<double>> grain_records;
@@ -63,7 +63,7 @@ bool has_face(const Joints<dim>& joints, std::size_t joint);
 template <int dim>
 double joint_energy(const Joints<dim>& joints, std::size_t joint);
 
-/// What the bonds of a joint that hold have dissipated so far; nothing by a law whose bonds dissipate in breaking only [J].
+/// Dissipated by the bonds of a joint while they hold; nothing by a law whose bonds dissipate in breaking only [J].
 template <int dim>
 double dissipated_by_bonds(const Joints<dim>& joints, std::size_t joint);
 } // namespace feldspar

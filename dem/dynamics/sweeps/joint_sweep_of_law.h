@@ -378,7 +378,7 @@ bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
   return true;
 }
 
-/// What a segment remembers, stored or known from the motion of its face.
+/// The state of a segment, stored or known from the motion of its face.
 template <int dim, JointLaw<dim> Law>
 typename Law::template State<double> segment_state(const Law& law, const Joints<dim>& joints, const unsigned int i,
                                                    const std::size_t j)

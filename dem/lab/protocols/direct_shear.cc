@@ -1,7 +1,7 @@
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
 #include "dem/lab/servo.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ HalfBox add_half_box(Dynamics<dim>& dynamics, const double from, const double to
   return {first, dynamics.add_wall(high)};
 }
 
-/// What a half pushes its grains with along the first axis [N].
+/// The force of a half on its grains along the first axis [N].
 template <int dim>
 double push(const Dynamics<dim>& dynamics, const HalfBox& half)
 {

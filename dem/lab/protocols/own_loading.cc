@@ -1,9 +1,9 @@
 #include "base/input_error.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>

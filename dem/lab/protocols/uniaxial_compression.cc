@@ -1,6 +1,6 @@
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 namespace feldspar
 {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What stands on a map of cracks beside them.
+/// The marks on a map of cracks, beside the cracks.
 namespace feldspar
 {
 /// Flaws of a specimen for gnuplot. Nothing of an intact one.
@@ -22,7 +22,7 @@ struct FlawOutlines
 /// tests.
 FlawOutlines flaw_outlines(const FinishedTest& test, const std::string& owner);
 
-/// Of a joint among the first that broke.
+/// A crack of a joint among the first that broke.
 struct NumberedCrack
 {
   std::uint64_t joint;

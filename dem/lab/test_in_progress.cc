@@ -1,4 +1,4 @@
-#include "dem/lab/running_test.h"
+#include "dem/lab/test_in_progress.h"
 
 #include "base/hdf5_archive.h"
 #include "dem/specimen/fragments.h"
@@ -441,7 +441,7 @@ namespace
 {
 const std::string checkpoint_format = "feldspar checkpoint";
 
-/// What must agree before the rest is worth reading.
+/// The values that must agree before the rest is read.
 template <typename Archive>
 void transfer_identity(Archive& archive, const std::string& identity)
 {

@@ -95,7 +95,7 @@ private:
   template <typename Archive>
   void transfer(Archive& archive);
   double lateral_stress() const;
-  /// Of the gauge, from where it was set.
+  /// The displacement gradient of the gauge since it was set.
   Tensor<dim> displacement_gradient() const;
   CurveSample sample() const;
   void seat(const std::function<void()>& check);
