@@ -131,9 +131,8 @@ void check_clumps(const Input& input, const GivenEntries& values)
   if (!input.flaws.all().empty())
     refuse("excludes section Flaws, which is given too; keep one of them");
   for (const TestKind& kind : input.test_list)
-    if (!protocol_of(kind).takes_clumps)
-      throw values.error("Tests", "List",
-                         fmt::format("{} takes no clumps; take it out, or set Clumps/Diameter = none", kind.name));
+    if (const std::string objection = objection_to_clumps(kind); !objection.empty())
+      throw values.error("Tests", "List", objection);
 }
 
 /// Reads the table, where there is one.

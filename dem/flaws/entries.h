@@ -28,8 +28,8 @@ inline std::vector<Entry<ClumpParameters>> clump_entries()
   return {entry::optional_quantity("Diameter", &P::diameter, Measure::length, "mm", ranges::above_zero,
                                    "diameter of the circles that are stamped over the packing, or of the circle of the "
                                    "mean area of the cells: the grains in one move as one rigid body, a clump, with "
-                                   "joints between clumps only; in two dimensions, in a box, for direct_tension, "
-                                   "uniaxial_compression and triaxial_compression; none makes no clumps",
+                                   "joints between clumps only; in two dimensions, in a box, for the tests that "
+                                   "take them; none makes no clumps",
                                    {.varies = true, .of_specimen = true}),
           entry::choice("Form", &P::form, {{"stamped circles", ClumpForm::stamped}, {"cells", ClumpForm::cells}},
                         "stamped circles: about one grain after another in random order, which take the grains that no "

@@ -3,6 +3,7 @@
 #include "base/prefixes.h"
 
 #include "report/live/chart.h"
+#include "report/live/group_colour.h"
 
 #include <fmt/format.h>
 
@@ -42,8 +43,9 @@ std::string crack_story(const FinishedTest& test)
                    row->n_tension_cracks, row->n_shear_cracks);
   std::string circles;
   for (const auto& grain : grains)
-    fmt::format_to(std::back_inserter(circles), "{}[{:.4g},{:.4g},{:.3g}]", circles.empty() ? "" : ",",
-                   grain.start[0] / milli, grain.start[axis] / milli, grain.radius / milli);
+    fmt::format_to(std::back_inserter(circles), "{}[{:.4g},{:.4g},{:.3g}{}]", circles.empty() ? "" : ",",
+                   grain.start[0] / milli, grain.start[axis] / milli, grain.radius / milli,
+                   grain.mineral == 0 ? "" : fmt::format(R"(,"#{:06x}")", group_colour(grain.mineral)));
   std::string cracks;
   for (const auto& crack : record.cracks)
     {

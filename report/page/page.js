@@ -194,12 +194,15 @@
       const y = value => height - margin - scale * (value - low[1]);
       pen.setTransform(pixels, 0, 0, pixels, 0, 0);
       pen.clearRect(0, 0, width, height);
-      pen.fillStyle = theme("--line");
+      const plain = theme("--line");
       for (const grain of data.grains) {
+        pen.fillStyle = grain[3] || plain; // of its clump or mineral grain
+        pen.globalAlpha = grain[3] && dark.matches ? 0.4 : 1;
         pen.beginPath();
         pen.arc(x(grain[0]), y(grain[1]), scale * grain[2], 0, 2 * Math.PI);
         pen.fill();
       }
+      pen.globalAlpha = 1;
       pen.fillStyle = theme("--text");
       pen.strokeStyle = theme("--text");
       pen.lineWidth = 1;

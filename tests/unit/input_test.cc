@@ -480,7 +480,10 @@ TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)
     refused("subsection Flaws\n  set Shapes = hole centre 20, 50 mm radius 5 mm\nend\n").find("excludes section Flaws"),
     std::string::npos);
   EXPECT_NE(
-    refused("subsection Tests\n  set List = brazilian\nend\n").find("Tests/List = brazilian: brazilian takes no"),
+    refused("subsection Tests\n  set List = brazilian\nend\n")
+      .find(
+        "Tests/List = brazilian: brazilian takes no clumps; take it out, or set Clumps/Diameter = none; tests that take "
+        "them: direct_tension, uniaxial_compression, triaxial_compression"),
     std::string::npos);
   EXPECT_EQ(error_of_entry("Clumps", "Form = cells"),
             "a.prm:2: Clumps/Form = cells: has no effect: Clumps/Diameter is none");

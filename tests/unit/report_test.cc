@@ -754,6 +754,12 @@ TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
   EXPECT_NEAR(json["cracks"][0][3], 0.18, 1e-3);
   EXPECT_EQ(json["grains"][0], nlohmann::json::parse("[10.0, 20.0, 0.62]")); // where it was at the start, mm
 
+  FinishedTest grouped = test; // of a mineral grain or clump
+  grouped.appearance.grains_at_end[0].mineral = 1;
+  const auto with_groups = nlohmann::json::parse(crack_story(grouped));
+  EXPECT_EQ(with_groups["grains"][0], nlohmann::json::parse(R"([10.0, 20.0, 0.62, "#c3d6e6"])"));
+  EXPECT_EQ(with_groups["grains"][1].size(), 3u);
+
   FinishedTest without = test;
   without.record.cracks.clear();
   EXPECT_EQ(crack_story(without), "");

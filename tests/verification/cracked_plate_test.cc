@@ -20,9 +20,9 @@ namespace
 {
 // ---- the continuum
 
-constexpr double E = 50e9;
-constexpr double nu = 0.2;
-constexpr double plane_modulus = E / (1.0 - nu * nu);
+constexpr double modulus_of_solid = 50e9;
+constexpr double ratio_of_solid = 0.2;
+constexpr double plane_modulus = modulus_of_solid / (1.0 - ratio_of_solid * ratio_of_solid);
 constexpr unsigned int n_across = 40; // elements across half the width
 
 /// Force on the end of a quarter of a plate, of half a width of 1 m and this length between its middle and the grip, that is
@@ -43,7 +43,8 @@ double force(const double half_length, const unsigned int n_cracked)
                         {"top", 0, [](const auto&) { return 0.0; }},
                         {"left", 0, [](const auto&) { return 0.0; }},
                         {"ligament", 1, [](const auto&) { return 0.0; }}};
-  fem::Solid<2> solid(mesh, {.order = 2}, fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(E, nu)));
+  fem::Solid<2> solid(mesh, {.order = 2},
+                      fem::linear_elasticity<2>(fem::isotropic_stiffness<2>(modulus_of_solid, ratio_of_solid)));
   const auto report = solid.solve(load);
   EXPECT_TRUE(report.converged) << report.failure;
   solid.accept();

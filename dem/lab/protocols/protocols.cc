@@ -56,6 +56,14 @@ std::string objection_to_finite_elements(const TestKind& kind)
                      names_of([](const auto& one) { return one.kind.runs_on_finite_elements; }));
 }
 
+std::string objection_to_clumps(const TestKind& kind)
+{
+  if (protocol_of(kind).takes_clumps)
+    return "";
+  return fmt::format("{} takes no clumps; take it out, or set Clumps/Diameter = none; tests that take them: {}",
+                     kind.name, names_of([](const auto& one) { return one.takes_clumps; }));
+}
+
 std::string objection_to_grains(const TestKind& kind, const Body body)
 {
   const auto is_made = [=](const LaboratoryProtocol& one) {

@@ -43,6 +43,8 @@ const LaboratoryProtocol& protocol_of(const TestKind& kind);
 /// Why this test cannot be made on finite elements, and which can, in the words of an error of the input; empty if it
 /// can.
 std::string objection_to_finite_elements(const TestKind& kind);
-/// The same of a specimen of grains of this shape.
+/// The same for a specimen of clumps.
+std::string objection_to_clumps(const TestKind& kind);
+/// The same for a specimen of grains of this shape.
 std::string objection_to_grains(const TestKind& kind, Body body);
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #include "report/pictures/maps/crack_map.h"
 
 #include "report/live/crack_story.h"
+#include "report/live/group_colour.h"
 #include "report/pictures/maps/damage_map.h"
 #include "report/pictures/maps/map_frame.h"
 #include "report/pictures/maps/map_marks.h"
@@ -94,13 +95,6 @@ void add_numbers(std::string& data, std::string& plots, const std::vector<Crack>
   data += fmt::format("$first << EOD\n{}EOD\n", numbers);
   plots += ", $first using 1:2:3 with labels font ',14' tc rgb '#101010' notitle";
 }
-
-/// As gnuplot counts colours; pale, so that cracks stand out. Neighbours in number are seldom neighbours in place.
-unsigned int mineral_colour(const std::uint32_t mineral)
-{
-  static constexpr std::array tones{0xead9b8u, 0xc3d6e6u, 0xd9c7deu, 0xcfe2c3u, 0xe9c9c0u, 0xe3e3d0u, 0xbfd8d2u};
-  return mineral == 0 ? 0xd8d8d8u : tones[mineral % tones.size()];
-}
 } // namespace
 
 std::vector<Picture> crack_map(const FinishedTest& test, const std::string& title)
@@ -127,7 +121,7 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
         {
           const auto& centre = at_end ? grain.position : grain.start;
           fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g} {}\n", centre[0] / milli,
-                         centre[axis] / milli, grain.radius / milli, mineral_colour(grain.mineral));
+                         centre[axis] / milli, grain.radius / milli, group_colour(grain.mineral));
         }
       data += fmt::format("$grains{} << EOD\n{}EOD\n", s, grains);
       plots += fmt::format("set title {} noenhanced\nplot $grains{} using 1:2:3:4 with circles fill solid noborder lc "
