@@ -127,6 +127,15 @@ std::string remark_on_printed(const ReferenceSource& source)
   return text + ".";
 }
 
+/// Whether the strengths lie at two places of the axis of σ₃ or more, tension being one of them: less is no envelope.
+bool make_an_envelope(const StrengthData& data)
+{
+  return !data.points.empty() &&
+         (data.tensile_strength || std::any_of(data.points.begin(), data.points.end(), [&](const auto& point) {
+            return point.sigma_3 != data.points.front().sigma_3;
+          }));
+}
+
 /// Of a series that the page has no room for.
 PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& book)
 {
@@ -160,8 +169,18 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"envelope", "Envelope", "Strength envelope", {}};
   const std::vector<StrengthEnvelopes> pictured_envelopes = findings.pictured_envelopes();
+  const bool any_envelope =
+    findings.reference || std::any_of(findings.envelopes.begin(), findings.envelopes.end(),
+                                      [](const StrengthEnvelopes& one) { return make_an_envelope(one.data); });
+  if (!any_envelope && findings.has_several())
+    {
+      section.blocks.push_back({});
+      section.blocks.back().paragraphs.push_back(
+        "No series has strengths at two confinements, or in compression and tension, so there is no envelope.");
+      return section;
+    }
   if (auto combined = combined_envelope_picture(findings.pictured, pictured_envelopes, findings.reference);
-      !combined.empty())
+      any_envelope && !combined.empty())
     {
       PageBlock together;
       together.pictures = book.keep(std::move(combined));
@@ -175,7 +194,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       const StrengthEnvelopes& envelopes = findings.envelopes[n];
       if (!findings.is_in_full(n))
         {
-          if (!envelopes.data.points.empty())
+          if (make_an_envelope(envelopes.data))
             section.blocks.push_back(as_files(findings, n, book));
           continue;
         }
@@ -183,6 +202,12 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (envelopes.data.points.empty())
         {
           block.paragraphs.push_back("No compression test of this series has a strength, so there is no envelope.");
+          section.blocks.push_back(block);
+          continue;
+        }
+      if (!make_an_envelope(envelopes.data) && !findings.reference)
+        {
+          block.paragraphs.push_back("All strengths of this series are at one confinement, so there is no envelope.");
           section.blocks.push_back(block);
           continue;
         }

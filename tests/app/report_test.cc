@@ -203,6 +203,20 @@ TEST_F(Report, SaysWhatIsMissingInAFolderAndIsStillMade)
                 "out/cracks.csv: cannot be read: No such file", "No crack map", "Strength envelope"});
 }
 
+TEST_F(Report, DrawsNoEnvelopeOfOneConfinement)
+{
+  auto json = nlohmann::ordered_json::parse(content(folder.path() / "out/summary.json"));
+  std::erase_if(json["tests"].get_ref<nlohmann::ordered_json::array_t&>(),
+                [](const auto& test) { return test["kind"] != "uniaxial_compression"; });
+  folder.write("out/summary.json", json.dump());
+  fs::remove(folder.path() / "out/reference.json");
+  for (const char* const drawn : {"out/figures", "out/tables"})
+    fs::remove_all(folder.path() / drawn);
+  holds(remade(), {"All strengths of this series are at one confinement, so there is no envelope."});
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("envelope")) << entry.path();
+}
+
 TEST_F(Report, OfAnOlderLayoutSaysSoAndIsStillMade)
 {
   auto json = nlohmann::ordered_json::parse(content(folder.path() / "out/summary.json"));
