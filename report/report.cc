@@ -89,6 +89,8 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
   page.sections.push_back(verdict_section(findings));
   if (calibration)
     page.sections.push_back(calibration_section(*calibration, book));
+  if (PageSection study = study_section(findings, book); !study.blocks.empty())
+    page.sections.push_back(std::move(study));
   page.sections.push_back(envelope_section(findings, book));
   page.sections.push_back(curve_section(findings, book));
   if (PageSection sample = sample_section(findings, book); !sample.blocks.empty())

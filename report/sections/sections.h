@@ -10,6 +10,9 @@ namespace feldspar
 /// Whether the model is the rock, each series beside the reference, and every warning.
 PageSection verdict_section(const Findings& findings);
 
+/// Results over the entries that take several numbers; nothing where there are none.
+PageSection study_section(const Findings& findings, PictureBook& book);
+
 /// Targets and micro-parameters of a calibration.
 PageSection calibration_section(const CalibrationRecord& record, PictureBook& book);
 

@@ -2,6 +2,8 @@
 
 #include "base/quoted.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -69,6 +71,23 @@ nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings)
         out["unit"] = written->unit;
     }
   return json;
+}
+
+std::vector<VariantSetting> read_settings(const nlohmann::ordered_json& json)
+{
+  std::vector<VariantSetting> settings;
+  if (json.is_object())
+    for (const auto& [entry, written] : json.items())
+      {
+        const auto value = written.is_object() ? written.find("value") : written.end();
+        if (value == written.end() || !(value->is_number() || value->is_string()))
+          continue;
+        const std::string unit = text_of(written, "unit");
+        const std::string text =
+          value->is_string() ? value->get<std::string>() : fmt::format("{}", value->get<double>());
+        settings.push_back({entry, unit.empty() ? text : text + " " + unit});
+      }
+  return settings;
 }
 
 std::string text_of(const nlohmann::ordered_json& json, const std::string_view key)

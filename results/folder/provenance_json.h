@@ -25,6 +25,9 @@ nlohmann::ordered_json json_number(double value);
 /// The values of a variant, by entry: a number with the unit it was written in, or the words.
 nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 
+/// The same read back; what is not so described is left out.
+std::vector<VariantSetting> read_settings(const nlohmann::ordered_json& json);
+
 /// As far as it is there.
 Provenance read_provenance(const nlohmann::ordered_json& summary);
 

@@ -71,6 +71,8 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   test.record.kind = kind;
   test.name = text_of(json, "name");
   test.variant = text_of(json, "variant");
+  if (const auto settings = json.find("variant_values"); settings != json.end())
+    test.settings = read_settings(*settings);
   test.record.failure = text_of(json, "failure");
   test.record.ended_early = text_of(json, "ended_early");
   test.record.came_apart = json.contains("came_apart") && json["came_apart"] == true;

@@ -11,6 +11,7 @@
 #include "report/pictures/maps/crack_map.h"
 #include "report/pictures/maps/map_marks.h"
 #include "report/pictures/stress_plane_pictures.h"
+#include "report/pictures/study_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
 #include "report/sections/verdict.h"
@@ -156,6 +157,7 @@ TEST(ResultFolder, OfVariantsIsASeriesForEach)
   const TemporaryFolder folder;
   auto slow = compression(1);
   slow.variant = "Tests/Compression strain rate = 0.5 1/s";
+  slow.settings = {{"Tests/Compression strain rate", "0.5 1/s"}, {"Specimen/Joint law", "flat joint"}};
   auto fast = compression(1);
   fast.name += "_variant_2";
   fast.variant = "Tests/Compression strain rate = 1 1/s";
@@ -163,6 +165,11 @@ TEST(ResultFolder, OfVariantsIsASeriesForEach)
   const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].label, slow.variant);
+  const auto& settings = all[0].tests.at(0).settings;
+  ASSERT_EQ(settings.size(), 2u);
+  EXPECT_EQ(settings[0].entry, "Tests/Compression strain rate");
+  EXPECT_EQ(settings[0].value, "0.5 1/s");
+  EXPECT_EQ(settings[1].value, "flat joint");
   EXPECT_EQ(all[1].tests.at(0).name, fast.name);
 }
 
@@ -521,6 +528,46 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   const std::string rows = curve.substr(7, curve.find("EOD\n", 7) - 7);
   const std::string last_row = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
   EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
+}
+
+TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
+{
+  const auto series_at = [](const std::string& label, const std::vector<VariantSetting>& settings,
+                            const std::vector<double>& strengths) {
+    Series series{label, SeriesKind::specimens, {}, {}, {}};
+    for (const double strength : strengths)
+      {
+        series.tests.push_back(compression(1));
+        series.tests.back().settings = settings;
+        series.tests.back().results.peak_stress = {strength, ""};
+      }
+    return series;
+  };
+  const auto live_of = [](const std::vector<Series>& all) {
+    const auto pictures = study_pictures(all);
+    EXPECT_FALSE(pictures.empty());
+    return pictures.empty() ? nlohmann::json() : nlohmann::json::parse(pictures.front().live);
+  };
+  const std::vector<Series> all{series_at("a", {{"Flat joint/Friction", "0.2"}}, {100e6, 120e6}),
+                                series_at("b", {{"Flat joint/Friction", "0.5"}}, {150e6})};
+  const auto strength = live_of(all);
+  ASSERT_EQ(strength["lines"].size(), 3u); // means, marks and bars of one test
+  EXPECT_EQ(strength["lines"][0]["points"], nlohmann::json::parse("[[0.2, 110.0], [0.5, 150.0]]"));
+  // The deviation of two values that are 20 MPa apart is 14.14 MPa; one value has none.
+  ASSERT_EQ(strength["lines"][2]["points"].size(), 3u);
+  EXPECT_NEAR(strength["lines"][2]["points"][1][1], 110.0 + 14.142, 0.01);
+
+  // A second entry that varies, by words: lines of its own. A number in two units, or one value: no picture.
+  const std::vector<Series> crossed{
+    series_at("a", {{"Flat joint/Friction", "0.2"}, {"Specimen/Joint law", "flat joint"}}, {100e6}),
+    series_at("b", {{"Flat joint/Friction", "0.5"}, {"Specimen/Joint law", "flat joint"}}, {150e6}),
+    series_at("c", {{"Flat joint/Friction", "0.2"}, {"Specimen/Joint law", "parallel bond"}}, {90e6}),
+    series_at("d", {{"Flat joint/Friction", "0.5"}, {"Specimen/Joint law", "parallel bond"}}, {80e6})};
+  EXPECT_EQ(live_of(crossed)["lines"][2]["label"], "Uniaxial compression, Joint law = parallel bond");
+  EXPECT_TRUE(study_pictures({all[0]}).empty());
+  EXPECT_TRUE(study_pictures({series_at("a", {{"Specimen/Width", "20 mm"}}, {100e6}),
+                              series_at("b", {{"Specimen/Width", "3 cm"}}, {100e6})})
+                .empty());
 }
 
 // gnuplot reckons 8.4 px for a letter and 53 px beside it, and 713 px hold all columns: 204 px for labels of 18 letters, so that
