@@ -161,6 +161,7 @@ TEST(ResultFolder, OfVariantsIsASeriesForEach)
   auto fast = compression(1);
   fast.name += "_variant_2";
   fast.variant = "Tests/Compression strain rate = 1 1/s";
+  fast.settings = {{"Tests/Compression strain rate", "1 1/s"}, {"Specimen/Joint law", "flat joint"}};
   write_result_folder({}, {slow, fast}, {}, folder.path());
   const auto all = read_result_folder(folder.path(), test_kinds());
   ASSERT_EQ(all.size(), 2u);
