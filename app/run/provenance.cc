@@ -23,6 +23,14 @@ std::string processor_name()
       return line.substr(std::min(line.size(), line.find(':') + 2));
   return "unknown";
 }
+
+/// The value of an entry as the input has it: a file is named from the folder of the input, wherever that lies on this
+/// machine.
+std::string as_in_input(const std::string& value, const std::filesystem::path& folder)
+{
+  const std::string beginning = (folder / "").string();
+  return !beginning.empty() && value.starts_with(beginning) ? value.substr(beginning.size()) : value;
+}
 } // namespace
 
 Provenance provenance(const Input& input, const std::filesystem::path& input_file)
@@ -35,7 +43,8 @@ Provenance provenance(const Input& input, const std::filesystem::path& input_fil
   for (const auto& parameter : parameter_table())
     if (std::any_of(all.begin(), all.end(),
                     [&](const Variant& variant) { return has_use_for(variant.input, parameter); }))
-      result.input.push_back({std::string(parameter.section), std::string(parameter.entry), parameter.write(input)});
+      result.input.push_back({std::string(parameter.section), std::string(parameter.entry),
+                              as_in_input(parameter.write(input), input.folder)});
   result.processor = processor_name();
   result.n_threads = unsigned(std::min<std::size_t>(
     std::thread::hardware_concurrency(),

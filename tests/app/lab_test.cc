@@ -253,6 +253,8 @@ TEST(Lab, AKilledRunWithAFileBesideItsInputIsTakenUpFromItsCheckpoint)
   const auto resumed = run_feldspar(folder.path(), "lab --resume broken --quiet");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
   EXPECT_EQ(resumed.error.find("going back"), std::string::npos) << resumed.error;
+  const auto input = summary(folder.path() / "broken")["input"];
+  EXPECT_EQ(input["parameters"]["Report"]["Reference file"], "reference.json") << "as the input names it";
 }
 
 TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)

@@ -674,17 +674,31 @@ TEST(CommittedResults, OfExamplesHaveAPieceOrAReason)
   EXPECT_GE(n_reasons, without_piece.size());
 }
 
+/// Below examples and benchmarks.
+std::vector<std::filesystem::path> committed_results()
+{
+  std::vector<std::filesystem::path> files;
+  for (const char* const folder : {"examples", "benchmarks"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".json" && entry.path().parent_path().filename() == "results")
+        files.push_back(entry.path());
+  return files;
+}
+
+TEST(CommittedResults, NameNoPathOfAMachine)
+{
+  for (const auto& file : committed_results())
+    EXPECT_EQ(text_of(file).find("\"/"), std::string::npos) << file << " has a path from the root";
+}
+
 TEST(CommittedResults, AreOfBuildsOfCommits)
 {
   const std::regex of_a_commit(R"(\d+\.\d+\.\d+\+g([0-9a-f]{7,}))");
   // An archive and a shallow clone do not know the commits.
   const bool has_history = exit_code_of_git("rev-parse --verify HEAD") == 0 &&
                            exit_code_of_git("rev-parse --is-shallow-repository | grep false") == 0;
-  std::vector<std::filesystem::path> files{root / "docs/figures/figures.json"};
-  for (const char* const folder : {"examples", "benchmarks"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
-      if (entry.path().extension() == ".json" && entry.path().parent_path().filename() == "results")
-        files.push_back(entry.path());
+  std::vector<std::filesystem::path> files = committed_results();
+  files.push_back(root / "docs/figures/figures.json");
   EXPECT_GT(files.size(), 40u);
   for (const auto& file : files)
     {
