@@ -66,6 +66,13 @@ inline Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
 inline double smaller(const double a, const double b) { return b < a ? b : a; }
 inline Pack smaller(const Pack& a, const Pack& b) { return select(b < a, b, a); }
 
+/// 1, 0 or -1.
+template <typename Real>
+Real sign(const Real& value)
+{
+  return select(value > 0.0, Real(1.0), select(value < 0.0, Real(-1.0), Real(0.0)));
+}
+
 template <typename Real>
 Real load(const double* from);
 template <>

@@ -1,9 +1,7 @@
 #include "dem/dynamics/dynamics.h"
 
-#include "base/hdf5_archive.h"
 #include "base/parallel.h"
 #include "base/simd.h"
-#include "dem/dynamics/contact_stress.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
@@ -21,13 +19,6 @@ template <int dim>
 bool face_outlives_bonds(const Joints<dim>& joints)
 {
   return std::visit([](const auto& law) { return law.face_outlives_bonds; }, joints.law);
-}
-
-/// 1, 0 or -1.
-template <typename Real>
-Real sign(const Real& value)
-{
-  return simd::select(value > 0.0, Real(1.0), simd::select(value < 0.0, Real(-1.0), Real(0.0)));
 }
 } // namespace
 
@@ -79,16 +70,6 @@ void Dynamics<dim>::push(const std::uint32_t grain, const Vector<dim>& more)
     groups.push(body.grains, grain, more);
   if (started)
     ledger.kinetic_at_start += kinetic_energy(pushed) - before;
-}
-
-/// Of a free body at the last half step [J].
-template <int dim>
-double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
-{
-  const auto& grains = bodies();
-  return grips.holds(i) ? 0.0
-                        : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
-                            0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
 }
 
 template <int dim>
@@ -300,7 +281,7 @@ void Dynamics<dim>::integrate()
                                           const std::vector<double>& inertia, std::vector<double>& velocity) {
     const Real old_velocity = simd::load<Real>(&velocity[i]);
     const Real is_free = simd::load<Real>(&grips.freedom()[i]);
-    const Real damping_force = -parameters.damping * simd::absolute(force) * sign(old_velocity);
+    const Real damping_force = -parameters.damping * simd::absolute(force) * simd::sign(old_velocity);
     const Real change = kick * (force + damping_force) * (1.0 / simd::load<Real>(&inertia[i]));
     const Real free_velocity = old_velocity + change;
     const Real work = 0.5 * damping_force * (previous_dt * old_velocity + dt * free_velocity);
@@ -363,172 +344,6 @@ void Dynamics<dim>::add_boundary_work(const double step, const double share)
     ledger.boundary_work += share * step * body.volume() * (boundary_stress().array() * rate.array()).sum();
 }
 
-template <int dim>
-Energies Dynamics<dim>::energies() const
-{
-  const auto& grains = bodies();
-  const auto& joints = body.joints;
-  Energies sum;
-  if (steps == 0 && !started)
-    {
-      for (std::uint32_t i = 0; i < n_bodies(); ++i)
-        sum.kinetic += kinetic_energy(i);
-      sum.kinetic_at_start = sum.kinetic;
-      return sum;
-    }
-  sum.boundary_work = ledger.boundary_work;
-  sum.released = ledger.released;
-  sum.slip = ledger.slip_of_lost_contacts;
-  sum.kinetic_at_start = ledger.kinetic_at_start;
-  sum.strain = -ledger.strain_at_start;
-
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    {
-      sum.slip += joints.slip_energy[j];
-      sum.strain += joint_energy(joints, j);
-      sum.released += dissipated_by_bonds(joints, j);
-    }
-  sum = with_smooth_joints(wall_set.added_to(touches.added_to(sum), body), body);
-
-  // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
-  const double kick = 0.5 * (previous_dt + dt);
-  const auto centre = [&](const double force, const double inertia, const double velocity) {
-    const double damping_force = -parameters.damping * std::abs(force) * sign(velocity);
-    sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
-    sum.damping -= 0.5 * damping_force * previous_dt * velocity;
-  };
-  for (std::size_t i = 0; i < n_bodies(); ++i)
-    {
-      sum.damping += ledger.damping_work[i];
-      sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
-      if (grips.holds(i))
-        continue;
-      for (int c = 0; c < dim; ++c)
-        centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
-      for (int c = 0; c < n_rotations<dim>; ++c)
-        centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
-    }
-  return sum;
-}
-
-template <int dim>
-double Dynamics<dim>::unbalanced_force_ratio() const
-{
-  double unbalanced = 0.0;
-  std::size_t n_free = 0;
-  for (std::size_t i = 0; i < n_bodies(); ++i)
-    if (!grips.holds(i))
-      {
-        unbalanced += std::sqrt(squared_norm<dim>(bodies().force, i));
-        ++n_free;
-      }
-  const double carried = mean_contact_force(body, touches);
-  return carried > 0.0 && n_free > 0 ? unbalanced / double(n_free) / carried : 0.0;
-}
-
-template <int dim>
-double Dynamics<dim>::largest_unbalanced_force_ratio() const
-{
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n_bodies(); ++i)
-    largest = std::max(largest, squared_norm<dim>(bodies().force, i));
-  const double carried = mean_contact_force(body, touches);
-  return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
-}
-
-template <int dim>
-Tensor<dim> Dynamics<dim>::mean_stress() const
-{
-  return feldspar::mean_stress(body, touches, wall_set);
-}
-
-template <int dim>
-std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
-{
-  return feldspar::grain_stresses(body, touches, wall_set);
-}
-
-template <int dim>
-Tensor<dim> Dynamics<dim>::boundary_stress() const
-{
-  return feldspar::boundary_stress(body, touches, images);
-}
-
-template <int dim>
-double Dynamics<dim>::force_across(const double height) const
-{
-  return feldspar::force_across(body, touches, height);
-}
-
-template <int dim>
-double Dynamics<dim>::faceless_coordination_number() const
-{
-  const auto& all = touches.list();
-  const auto n = std::count_if(all.begin(), all.end(), [](const Touch<dim>& touch) { return touch.touching; });
-  return 2.0 * double(n) / double(images.n_own());
-}
-
-template <int dim>
-template <typename Archive>
-void Dynamics<dim>::transfer(Archive& archive)
-{
-  auto& grains = body.grains;
-  const auto all_of = [&](const std::string& name, auto& components) {
-    for (std::size_t c = 0; c < components.size(); ++c)
-      archive.array(name + "_" + "xyz"[c], components[c]);
-  };
-  all_of("position", grains.position);
-  all_of("velocity", grains.velocity);
-  all_of("spin", grains.spin);
-  all_of("force", grains.force);
-  all_of("couple", grains.couple);
-  all_of("applied_force", applied_force);
-  all_of("position_at_start", position_at_start);
-  images.transfer(archive, grains);
-  groups.transfer(archive);
-
-  auto& joints = body.joints;
-  archive.array("grain_1", joints.grain_1);
-  archive.array("grain_2", joints.grain_2);
-  archive.array("number", joints.number);
-  if constexpr (Archive::reads)
-    joints.resize_all(joints.grain_1.size());
-  const auto pass = [&](const std::string& name, auto& values) { transfer_numbers(archive, name, values); };
-  joints.visit_per_joint(pass);
-  joints.visit_per_segment(pass);
-  const auto pass_all = [&](const std::string& name, auto& components) {
-    for (std::size_t c = 0; c < components.size(); ++c)
-      pass(name + "_" + "xyz"[c], components[c]);
-  };
-  pass_all("joint_force", joints.force);
-  pass_all("joint_couple_1", joints.couple_1);
-  pass_all("joint_couple_2", joints.couple_2);
-
-  archive.bytes("smooth_joints", body.smooth_joints);
-  touches.transfer(archive);
-  wall_set.transfer(archive);
-  watch.transfer(archive);
-  ledger.transfer(archive);
-
-  std::uint32_t flags = std::uint32_t(started) + 2 * std::uint32_t(contact_made) +
-                        4 * std::uint32_t(zero_force == ZeroForce::as_placed) + 8 * std::uint32_t(faces_have_gone);
-  archive.value("flags", flags);
-  started = flags & 1;
-  contact_made = flags & 2;
-  faces_have_gone = flags & 8;
-  zero_force = flags & 4 ? ZeroForce::as_placed : ZeroForce::at_touch;
-  archive.value("steps", steps);
-  archive.value("dt", dt);
-  archive.value("previous_dt", previous_dt);
-  archive.value("current_time", current_time);
-  number_joints();
-  touches.number(images);
-}
-
 template class Dynamics<2>;
-template void Dynamics<2>::transfer(Hdf5Writer&);
-template void Dynamics<2>::transfer(Hdf5Reader&);
 template class Dynamics<3>;
-template void Dynamics<3>::transfer(Hdf5Writer&);
-template void Dynamics<3>::transfer(Hdf5Reader&);
 } // namespace feldspar

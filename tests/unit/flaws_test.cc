@@ -449,12 +449,7 @@ void expect_breaks_from_its_crack(const TestOutcome& outcome, const Vector<dim>&
 
 TEST(NotchedBodies, OfACentreCrackBreakFromItsTips)
 {
-  SpecimenParameters wanted;
-  wanted.width = 0.030;
-  wanted.height = 0.060;
-  FlatJointParameters flat_joint;
-  flat_joint.coordination_number = 4.2;
-  const auto plate = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  const auto plate = granite_box(0.030, 0.060);
   expect_breaks_from_its_crack<2>(pull_cracked(plate), plate.size, plate.report.mean_radius, 0.030);
 }
 
@@ -467,12 +462,7 @@ TEST(NotchedBodies, OfACentreCrackBreakFromItsFrontsInSpace)
 
 TEST(NotchedBodies, BreakFromTheNotchInTension)
 {
-  SpecimenParameters wanted;
-  wanted.width = 0.060;
-  wanted.height = 0.014;
-  FlatJointParameters flat_joint;
-  flat_joint.coordination_number = 4.2;
-  const auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  const auto specimen = granite_box(0.060, 0.014);
   TestParameters test_parameters;
   test_parameters.bending_strain_rate = 0.5;
   test_parameters.bending_sampling_strain = 1e-5;
@@ -498,12 +488,7 @@ TEST(NotchedBodies, BreakFromTheNotchInTension)
 
 TEST(DirectShear, OfARoughFlawCarriesMoreUnderMoreNormalStress)
 {
-  SpecimenParameters wanted;
-  wanted.width = 0.020;
-  wanted.height = 0.012;
-  FlatJointParameters flat_joint;
-  flat_joint.coordination_number = 4.2;
-  auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  auto specimen = granite_box(0.020, 0.012);
   put_in_flaws(specimen, {line(0.0, 0.006, 0.020, 0.006)});
   TestParameters test_parameters;
   test_parameters.shear_strain_rate = 0.5;

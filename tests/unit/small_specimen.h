@@ -22,6 +22,17 @@ Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bond_stren
   return make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
 }
 
+/// Table 1 in a box of this size [m].
+inline Specimen<2> granite_box(const double width, const double height)
+{
+  SpecimenParameters wanted;
+  wanted.width = width;
+  wanted.height = height;
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 4.2;
+  return make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+}
+
 /// Table 1 in a cylinder (or box) of 8 × 12 mm: some 150 grains.
 template <typename Joint = FlatJointParameters>
 Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0,

@@ -1,0 +1,146 @@
+// The measures of a body in motion: energies, unbalanced forces, stresses, contacts. Nothing here changes it.
+
+#include "base/simd.h"
+#include "dem/dynamics/contact_stress.h"
+#include "dem/dynamics/dynamics.h"
+#include "dem/dynamics/sweeps/smooth_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace feldspar
+{
+/// Of a free body at the last half step [J].
+template <int dim>
+double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
+{
+  const auto& grains = bodies();
+  return grips.holds(i) ? 0.0
+                        : 0.5 * grains.mass[i] * squared_norm<dim>(grains.velocity, i) +
+                            0.5 * grains.moment_of_inertia[i] * squared_norm<n_rotations<dim>>(grains.spin, i);
+}
+
+template <int dim>
+Energies Dynamics<dim>::energies() const
+{
+  const auto& grains = bodies();
+  const auto& joints = body.joints;
+  Energies sum;
+  if (steps == 0 && !started)
+    {
+      for (std::uint32_t i = 0; i < n_bodies(); ++i)
+        sum.kinetic += kinetic_energy(i);
+      sum.kinetic_at_start = sum.kinetic;
+      return sum;
+    }
+  sum.boundary_work = ledger.boundary_work;
+  sum.released = ledger.released;
+  sum.slip = ledger.slip_of_lost_contacts;
+  sum.kinetic_at_start = ledger.kinetic_at_start;
+  sum.strain = -ledger.strain_at_start;
+
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    {
+      sum.slip += joints.slip_energy[j];
+      sum.strain += joint_energy(joints, j);
+      sum.released += dissipated_by_bonds(joints, j);
+    }
+  sum = with_smooth_joints(wall_set.added_to(touches.added_to(sum), body), body);
+
+  // ½ m v(n-½)·v(n+½), and half of the coming step's damping: the values at the current time.
+  const double kick = 0.5 * (previous_dt + dt);
+  const auto centre = [&](const double force, const double inertia, const double velocity) {
+    const double damping_force = -parameters.damping * std::abs(force) * simd::sign(velocity);
+    sum.kinetic += 0.5 * inertia * velocity * (velocity + kick * (force + damping_force) / inertia);
+    sum.damping -= 0.5 * damping_force * previous_dt * velocity;
+  };
+  for (std::size_t i = 0; i < n_bodies(); ++i)
+    {
+      sum.damping += ledger.damping_work[i];
+      sum.boundary_work += grains.mass[i] * gravity.dot(at<dim>(grains.position, i) - at<dim>(position_at_start, i));
+      if (grips.holds(i))
+        continue;
+      for (int c = 0; c < dim; ++c)
+        centre(grains.force[c][i] + grains.mass[i] * gravity[c], grains.mass[i], grains.velocity[c][i]);
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        centre(grains.couple[c][i], grains.moment_of_inertia[i], grains.spin[c][i]);
+    }
+  return sum;
+}
+
+template <int dim>
+double Dynamics<dim>::unbalanced_force_ratio() const
+{
+  double unbalanced = 0.0;
+  std::size_t n_free = 0;
+  for (std::size_t i = 0; i < n_bodies(); ++i)
+    if (!grips.holds(i))
+      {
+        unbalanced += std::sqrt(squared_norm<dim>(bodies().force, i));
+        ++n_free;
+      }
+  const double carried = mean_contact_force(body, touches);
+  return carried > 0.0 && n_free > 0 ? unbalanced / double(n_free) / carried : 0.0;
+}
+
+template <int dim>
+double Dynamics<dim>::largest_unbalanced_force_ratio() const
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n_bodies(); ++i)
+    largest = std::max(largest, squared_norm<dim>(bodies().force, i));
+  const double carried = mean_contact_force(body, touches);
+  return carried > 0.0 ? std::sqrt(largest) / carried : 0.0;
+}
+
+template <int dim>
+Tensor<dim> Dynamics<dim>::mean_stress() const
+{
+  return feldspar::mean_stress(body, touches, wall_set);
+}
+
+template <int dim>
+std::vector<Tensor<dim>> Dynamics<dim>::grain_stresses() const
+{
+  return feldspar::grain_stresses(body, touches, wall_set);
+}
+
+template <int dim>
+Tensor<dim> Dynamics<dim>::boundary_stress() const
+{
+  return feldspar::boundary_stress(body, touches, images);
+}
+
+template <int dim>
+double Dynamics<dim>::force_across(const double height) const
+{
+  return feldspar::force_across(body, touches, height);
+}
+
+template <int dim>
+double Dynamics<dim>::faceless_coordination_number() const
+{
+  const auto& all = touches.list();
+  const auto n = std::count_if(all.begin(), all.end(), [](const Touch<dim>& touch) { return touch.touching; });
+  return 2.0 * double(n) / double(images.n_own());
+}
+
+template double Dynamics<2>::kinetic_energy(std::uint32_t) const;
+template Energies Dynamics<2>::energies() const;
+template double Dynamics<2>::unbalanced_force_ratio() const;
+template double Dynamics<2>::largest_unbalanced_force_ratio() const;
+template Tensor<2> Dynamics<2>::mean_stress() const;
+template std::vector<Tensor<2>> Dynamics<2>::grain_stresses() const;
+template Tensor<2> Dynamics<2>::boundary_stress() const;
+template double Dynamics<2>::force_across(double) const;
+template double Dynamics<2>::faceless_coordination_number() const;
+template double Dynamics<3>::kinetic_energy(std::uint32_t) const;
+template Energies Dynamics<3>::energies() const;
+template double Dynamics<3>::unbalanced_force_ratio() const;
+template double Dynamics<3>::largest_unbalanced_force_ratio() const;
+template Tensor<3> Dynamics<3>::mean_stress() const;
+template std::vector<Tensor<3>> Dynamics<3>::grain_stresses() const;
+template Tensor<3> Dynamics<3>::boundary_stress() const;
+template double Dynamics<3>::force_across(double) const;
+template double Dynamics<3>::faceless_coordination_number() const;
+} // namespace feldspar
