@@ -119,12 +119,14 @@ FinishedRve<dim> run_rve(const Variant& variant, const std::string& name, const 
   const auto started = Clock::now();
   const Input& input = variant.input;
   // Shared: the run and its result refer to it.
-  const auto network = std::make_shared<const Network<dim>>(specimen, turn_of_cell<dim>(input.strain_path.cell_angle));
+  const Tensor<dim> turn = turn_of_cell<dim>(input.strain_path.cell_angle);
+  const auto network = std::make_shared<const Network<dim>>(specimen, turn, input.boundary);
   const auto legs = path_legs<dim>(input.strain_path);
   const Checkpoints checkpoints(folder / "checkpoints", name, run_identity(input, name));
+  const auto bounds = stiffness_bounds(specimen, turn);
   const auto finish = [&](const auto& run) -> FinishedRve<dim> {
-    return {name,    variant.label, variant.settings, specimen.seed,         specimen.report,
-            network, run.record(),  run.state(),      seconds_since(started)};
+    return {name,    variant.label, variant.settings, specimen.seed, specimen.report,
+            network, bounds,        run.record(),     run.state(),   seconds_since(started)};
   };
   std::optional<NetworkState<dim>> start; // an RVE out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())

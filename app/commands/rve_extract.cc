@@ -79,7 +79,7 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
   std::filesystem::create_directories(folder);
   const std::string name = fmt::format("{}_cell_{}_point_{}", planned.name, place.cell, place.point);
   const auto file = folder / (name + ".h5");
-  write_rve(specimen, rve.state, file);
+  write_rve(specimen, rve.network->boundary(), rve.state, file);
   const RveView seen = as_seen(specimen, rve, of_sample);
   write_fields(name + "_fields", of_sample.kind, seen.cracks, seen.appearance, folder);
   return fmt::format("{}\n  at {} mm, its axes turned by {}; strain of the sample {:.4g} %; {} broken segments\n",

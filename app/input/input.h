@@ -1,6 +1,7 @@
 #pragma once
 
 #include "calibration/parameters.h"
+#include "coupling/network/boundary.h"
 #include "coupling/rve/parameters.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
@@ -85,6 +86,7 @@ struct Input
   ContactParameters contact;
   StrainPathParameters strain_path;
   EquilibriumParameters equilibrium;
+  Boundary boundary; ///< of representative volumes
   SampleParameters sample;
   ContinuumParameters continuum;
   CalibrationParameters calibration;

@@ -66,6 +66,7 @@ std::vector<Parameter> make_parameter_table()
   table.add("Contact path", &Input::contact, {contact_path_entry()});
   table.add("Strain path", &Input::strain_path, strain_path_entries());
   table.add("Representative volume", &Input::equilibrium, equilibrium_entries());
+  table.add("Representative volume", &Input::boundary, boundary_entries());
   table.add("Sample", &Input::sample, sample_entries());
   table.add("Continuum", &Input::continuum, continuum_entries());
   table.add("Calibration", &Input::calibration, calibration_list_entries());

@@ -46,6 +46,13 @@ void check_equilibria(const SpecimenParameters& specimen, const std::string_view
       specimen.joint_law, remedy));
 }
 
+/// Of representative volumes.
+void check_boundary(const Input& input)
+{
+  if (input.specimen.dimension == 2 && input.boundary.free_axis == 2)
+    refuse("Representative volume/Free axis = z: in two dimensions it is x or y");
+}
+
 /// The size of a sample whose input can be run.
 SampleSize checked_sample(const Input& input)
 {
@@ -58,6 +65,7 @@ SampleSize checked_sample(const Input& input)
                        needed));
   if (has_grains)
     check_equilibria(input.specimen, "take another law");
+  check_boundary(input);
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic", input.specimen.shape));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
@@ -193,6 +201,13 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
                              variant.input.specimen.shape));
         if (variant.input.strain_path.solver == PathSolver::event_by_event)
           check_equilibria(variant.input.specimen, "set Strain path/Solver = explicit or take another law");
+        check_boundary(variant.input);
+        if (variant.input.strain_path.solver == PathSolver::explicit_dynamics &&
+            variant.input.boundary.kind != BoundaryKind::periodic)
+          refuse(
+            fmt::format("Representative volume/Boundary = {}: explicit dynamics have periodic cells only; set Strain "
+                        "path/Solver = event by event",
+                        name(variant.input.boundary)));
         check(variant.input.strain_path);
       }
     reference_body(input);

@@ -91,9 +91,9 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
       if (k % input.sample.n_realisations == 0)
         rocks.push_back({input.seeds[rocks.size()], Packings<dim>()});
       auto& packings = std::get<Packings<dim>>(rocks.back().packings);
-      packings.realisations.push_back(std::make_shared<const Network<dim>>(specimens[k]));
+      packings.realisations.push_back(realisation(specimens[k], input.boundary));
       if (const std::string& file = input.specimen.specimen_file;
-          !file.empty() && read_rve_state(file, *packings.realisations.back()))
+          !file.empty() && read_rve_state(file, *packings.realisations.back().inside))
         throw InputError(
           fmt::format("{}: Specimen/Specimen file = {}: is an RVE in the state it had in a sample, and a "
                       "sample begins with intact ones; feldspar rve goes on from that state",
@@ -108,7 +108,7 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
         for (std::size_t k = 0; k < packings.n_packed; ++k)
           {
             packings.specimens.push_back(weakened<dim>(packings.specimens[k], input.sample.weak_seed_strength));
-            packings.realisations.push_back(std::make_shared<const Network<dim>>(packings.specimens.back()));
+            packings.realisations.push_back(realisation(packings.specimens.back(), input.boundary));
           }
       }
   return rocks;
@@ -162,9 +162,9 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
           return;
         if (any_takes_confining_pressure(input.test_list))
           for (const double pressure : input.confinements)
-            check_confinement(pressure, "Tests/Confinements", *packings.realisations.front());
+            check_confinement(pressure, "Tests/Confinements", *packings.realisations.front().inside);
         for (const LoadingStage& stage : input.tests.loading_stages)
-          check_confinement(stage.confining_pressure, "Tests/Loading table", *packings.realisations.front());
+          check_confinement(stage.confining_pressure, "Tests/Loading table", *packings.realisations.front().inside);
       },
       rock.packings);
   std::vector<PlannedSample> planned;

@@ -23,19 +23,19 @@ namespace feldspar
 template <int dim>
 struct Packings
 {
-  using Networks = std::vector<std::shared_ptr<const Network<dim>>>;
+  using Realisations = std::vector<Realisation<dim>>;
 
   std::vector<Specimen<dim>> specimens;
-  Networks realisations; ///< of the specimens; shared by the points that got them
+  Realisations realisations; ///< of the specimens; shared by the points that got them
   std::size_t n_packed = 0;
 
-  Networks as_packed() const { return {realisations.begin(), realisations.begin() + std::ptrdiff_t(n_packed)}; }
-  Networks weak_twins() const { return {realisations.begin() + std::ptrdiff_t(n_packed), realisations.end()}; }
+  Realisations as_packed() const { return {realisations.begin(), realisations.begin() + std::ptrdiff_t(n_packed)}; }
+  Realisations weak_twins() const { return {realisations.begin() + std::ptrdiff_t(n_packed), realisations.end()}; }
 
   /// Whose network it is.
   std::size_t realisation_of(const Network<dim>& network) const
   {
-    const auto is_it = [&](const auto& one) { return one.get() == &network; };
+    const auto is_it = [&](const auto& one) { return one.inside.get() == &network || one.at_side.get() == &network; };
     return std::size_t(std::find_if(realisations.begin(), realisations.end(), is_it) - realisations.begin());
   }
 };

@@ -56,10 +56,11 @@ std::vector<Choice> chosen(const TestRecord& record, const std::uint64_t n_point
 
 /// The message about an RVE that ranks exchange.
 template <int dim, typename Archive>
-void transfer(Archive& archive, SampleRve<dim>& rve, std::uint64_t& realisation)
+void transfer(Archive& archive, SampleRve<dim>& rve, std::uint64_t& realisation, bool& is_at_side)
 {
   archive.value("number", rve.number);
   archive.value("realisation", realisation);
+  transfer_flag(archive, "is_at_side", is_at_side);
   for (int i = 0; i < dim; ++i)
     {
       archive.value("position", rve.position[i]);
@@ -75,18 +76,21 @@ std::optional<SampleRve<dim>> brought(const SampleTest& test, const Packings<dim
 {
   BytesWriter writer;
   std::uint64_t realisation = 0;
+  bool is_at_side = false;
   if (auto rve = test.rve_here<dim>(number))
     {
       realisation = packings.realisation_of(*rve->network);
-      transfer<dim>(writer, *rve, realisation);
+      is_at_side = packings.realisations[realisation].at_side.get() == rve->network;
+      transfer<dim>(writer, *rve, realisation, is_at_side);
     }
   const std::string bytes = ranks::gathered(writer.all);
   if (!ranks::is_first())
     return std::nullopt;
   BytesReader reader(bytes);
   SampleRve<dim> rve{};
-  transfer<dim>(reader, rve, realisation);
-  rve.network = packings.realisations.at(realisation).get();
+  transfer<dim>(reader, rve, realisation, is_at_side);
+  const Realisation<dim>& dealt = packings.realisations.at(realisation);
+  rve.network = (is_at_side ? dealt.at_side : dealt.inside).get();
   return rve;
 }
 

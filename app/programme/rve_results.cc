@@ -2,7 +2,6 @@
 
 #include "base/whole_file.h"
 #include "coupling/rve/homogenisation.h"
-#include "coupling/rve/stiffness_bounds.h"
 #include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
@@ -142,7 +141,8 @@ Json as_json(const FinishedRve<dim>& rve)
       json["variant"] = rve.variant;
       json["variant_values"] = as_json(rve.settings);
     }
-  json["n_grains"] = network.n_grains();
+  json["boundary"] = name(network.boundary());
+  json["n_grains"] = network.n_own_grains();
   json["n_joints"] = network.n_joints();
   json["coordination_number"] = rve.specimen.coordination_number;
   json["installation_gap_ratio"] = rve.specimen.installation_gap_ratio;
@@ -150,9 +150,8 @@ Json as_json(const FinishedRve<dim>& rve)
   json["cell_m"] = rows(network.cell());
   json["stiffness_Pa"] = rows(network.intact_stiffness());
   write_constants(json, isotropic_constants<dim>(network.intact_stiffness()));
-  const StiffnessBounds<dim> bounds = stiffness_bounds(network);
-  json["stiffness_minimal_kinematic_Pa"] = rows(bounds.minimal_kinematic);
-  json["stiffness_affine_Pa"] = rows(bounds.affine);
+  json["stiffness_minimal_kinematic_Pa"] = rows(rve.bounds.minimal_kinematic);
+  json["stiffness_affine_Pa"] = rows(rve.bounds.affine);
   json["fabric"] = rows(fabric(network));
 
   for (const auto& [key, sign] : {std::pair("highest_stress", 1.0), std::pair("lowest_stress", -1.0)})
@@ -227,7 +226,7 @@ std::string describe(const FinishedRve<dim>& rve)
   const auto& last = rve.record.samples.back();
   std::string text =
     fmt::format("{}{}: {} grains, {} joints, z {:.3f}, gap {:.4f}\n", rve.name,
-                rve.variant.empty() ? "" : ", " + rve.variant, rve.network->n_grains(), rve.network->n_joints(),
+                rve.variant.empty() ? "" : ", " + rve.variant, rve.network->n_own_grains(), rve.network->n_joints(),
                 rve.specimen.coordination_number, rve.specimen.installation_gap_ratio);
   text += fmt::format("  stiffness, GPa                {}\n", components<dim>("", ""));
   for (int i = 0; i < n_voigt<dim>; ++i)

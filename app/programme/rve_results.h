@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/rve/path_run.h"
+#include "coupling/rve/stiffness_bounds.h"
 #include "results/evaluation.h"
 #include "results/runs/run.h"
 
@@ -21,6 +22,7 @@ struct FinishedRve
   std::uint64_t seed = 0;
   SpecimenReport specimen;
   std::shared_ptr<const Network<dim>> network; ///< shared with the run that it was made for
+  StiffnessBounds<dim> bounds;
   PathRecord<dim> record;
   NetworkState<dim> state; ///< at the end
   double wall_time = 0.0;  ///< of the path [s]

@@ -85,15 +85,16 @@ void StiffnessPattern<dim>::add(const std::vector<Link<dim>>& links, const std::
 
 template <int dim>
 FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern<dim>& where,
+                                          std::shared_ptr<const BoundaryConditions<dim>> admitted,
                                           const StiffnessOf<dim>& stiffness_of, const Motion<dim>& lent)
   : pattern(where)
-  , factor(std::make_unique<Factor>())
+  , its_conditions(std::move(admitted))
+  , of_strains(Stiffness<dim>::Zero())
 {
   constexpr int n = n_motions<dim>;
   const Eigen::Index n_own = pattern.place().size();
   Eigen::SparseMatrix<double> matrix = pattern.matrix();
-  Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>); // forces on grains under unit strains
-  condensed.setZero();
+  Eigen::MatrixXd of_unit_strains = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>);
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (const JointStiffness<dim>* const stiffness = stiffness_of(k))
       {
@@ -103,22 +104,24 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
           links[k].by_grains.transpose() * (*stiffness * by_strain);
         const auto first = first_motions(links[k]);
         for (int end = 0; end < 2; ++end)
-          coupling.block<n, n_voigt<dim>>(first[end], 0) += forces.template middleRows<n>(n * end);
-        condensed += by_strain.transpose() * *stiffness * by_strain;
+          of_unit_strains.block<n, n_voigt<dim>>(first[end], 0) += forces.template middleRows<n>(n * end);
+        of_strains += by_strain.transpose() * *stiffness * by_strain;
       }
+  coupling = std::make_shared<const Eigen::MatrixXd>(std::move(of_unit_strains));
+  const auto diagonal_of = [&](const Eigen::Index i) -> double& {
+    return matrix.valuePtr()[matrix.outerIndexPtr()[pattern.place()[i]]]; // it leads its column
+  };
   for (Eigen::Index i = 0; i < n_own; ++i)
-    {
-      // The diagonal leads its column.
-      double& diagonal = matrix.valuePtr()[matrix.outerIndexPtr()[pattern.place()[i]]];
-      diagonal += diagonal > 0.0 ? lent[i % n] : lent[i % n] + 1.0;
-    }
-  factor->analyzePattern(matrix);
-  factor->factorize(matrix);
-
-  unit_motion.resize(n_own, n_voigt<dim>);
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    unit_motion.col(k) = -solve_grains(coupling.col(k));
-  condensed += coupling.transpose() * unit_motion;
+    diagonal_of(i) += diagonal_of(i) > 0.0 ? lent[i % n] : lent[i % n] + 1.0;
+  constexpr double rigid = 1e12; // over its own stiffness
+  for (const std::uint32_t grain : its_conditions->held())
+    for (int c = 0; c < dim; ++c)
+      diagonal_of(n * Eigen::Index(grain) + c) *= rigid;
+  const auto made = std::make_shared<Factor>();
+  made->analyzePattern(matrix);
+  made->factorize(matrix);
+  factor = made;
+  condense();
 
   // Factorising takes the squares of the columns' lengths, a solution and the rest of an iteration some ten a value.
   const auto& columns = factor->matrixL().nestedExpression();
@@ -132,14 +135,48 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
 }
 
 template <int dim>
-Eigen::VectorXd FactorisedNetwork<dim>::solve_grains(const Eigen::VectorXd& forces) const
+FactorisedNetwork<dim> FactorisedNetwork<dim>::under(std::shared_ptr<const BoundaryConditions<dim>> others) const
+{
+  FactorisedNetwork copy = *this;
+  copy.its_conditions = std::move(others);
+  copy.condense();
+  return copy;
+}
+
+/// The motions under unit multipliers of the boundary, and under unit strains.
+template <int dim>
+void FactorisedNetwork<dim>::condense()
+{
+  const Eigen::Index n_own = coupling->rows();
+  const Eigen::Index n_multipliers = its_conditions->n_multipliers();
+  of_multipliers.resize(n_own, n_multipliers);
+  Eigen::MatrixXd products(n_multipliers, n_multipliers);
+  for (Eigen::Index k = 0; k < n_multipliers; ++k)
+    {
+      Eigen::VectorXd forces = Eigen::VectorXd::Zero(n_own);
+      its_conditions->add_reactions(Eigen::VectorXd::Unit(n_multipliers, k), 1.0, forces);
+      of_multipliers.col(k) = solve_unconditioned(forces);
+      products.col(k) = its_conditions->violations(of_multipliers.col(k));
+    }
+  if (n_multipliers > 0)
+    violations_of_multipliers.compute(products);
+
+  unit_motion.resize(n_own, n_voigt<dim>);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    unit_motion.col(k) = -solve_grains(coupling->col(k));
+  condensed = of_strains + coupling->transpose() * unit_motion;
+}
+
+template <int dim>
+Eigen::VectorXd FactorisedNetwork<dim>::solve_unconditioned(const Eigen::VectorXd& forces) const
 {
   constexpr int n = n_motions<dim>;
-  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far.
+  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it.
   Motion<dim> mean = Motion<dim>::Zero();
   const Eigen::Index n_grains = forces.size() / n;
-  for (Eigen::Index i = 0; i < n_grains; ++i)
-    mean += forces.segment<n>(n * i) / double(n_grains);
+  if (its_conditions->held().empty())
+    for (Eigen::Index i = 0; i < n_grains; ++i)
+      mean += forces.segment<n>(n * i) / double(n_grains);
   mean.template tail<n_rotations<dim>>().setZero();
   Eigen::VectorXd ordered(forces.size());
   for (Eigen::Index i = 0; i < forces.size(); ++i)
@@ -148,6 +185,19 @@ Eigen::VectorXd FactorisedNetwork<dim>::solve_grains(const Eigen::VectorXd& forc
   Eigen::VectorXd motions(forces.size());
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     motions[i] = ordered[pattern.place()[i]];
+  return motions;
+}
+
+template <int dim>
+Eigen::VectorXd FactorisedNetwork<dim>::solve_grains(Eigen::VectorXd forces) const
+{
+  if (its_conditions->are_none())
+    return solve_unconditioned(forces);
+  its_conditions->project(forces);
+  Eigen::VectorXd motions = solve_unconditioned(forces);
+  if (its_conditions->n_multipliers() > 0)
+    motions -= of_multipliers * violations_of_multipliers.solve(its_conditions->violations(motions));
+  its_conditions->project(motions);
   return motions;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/network/boundary_conditions.h"
 #include "coupling/network/link.h"
 
 #include <Eigen/OrderingMethods>
@@ -50,14 +51,21 @@ private:
 template <int dim>
 using StiffnessOf = std::function<const JointStiffness<dim>*(std::uint32_t link)>;
 
-/// A network with given stiffnesses, solved directly: nearly the inverse of its equations, for conjugate gradients.
+/// A network with given stiffnesses, solved directly: nearly the inverse of its equations, for conjugate gradients. Copies
+/// share the factor.
 template <int dim>
 class FactorisedNetwork
 {
 public:
   /// `lent`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
+  /// Motions are those that the conditions admit.
   FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern<dim>& pattern,
-                    const StiffnessOf<dim>& stiffness_of, const Motion<dim>& lent);
+                    std::shared_ptr<const BoundaryConditions<dim>> conditions, const StiffnessOf<dim>& stiffness_of,
+                    const Motion<dim>& lent);
+
+  /// The same factor under other conditions, which hold the same grains.
+  FactorisedNetwork under(std::shared_ptr<const BoundaryConditions<dim>> others) const;
+  const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return its_conditions; }
 
   /// Motions for forces on grains and on the free strains; the other strains stay.
   Unknowns solve(const Unknowns& forces, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
@@ -69,12 +77,19 @@ public:
   unsigned int cost_in_iterations() const { return cost; }
 
 private:
-  Eigen::VectorXd solve_grains(const Eigen::VectorXd& forces) const;
+  Eigen::VectorXd solve_grains(Eigen::VectorXd forces) const;
+  Eigen::VectorXd solve_unconditioned(const Eigen::VectorXd& forces) const;
+  void condense();
 
   using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
   const StiffnessPattern<dim>& pattern;
-  std::unique_ptr<Factor> factor; ///< on the heap: Eigen's cannot be moved
+  std::shared_ptr<const BoundaryConditions<dim>> its_conditions;
+  std::shared_ptr<const Factor> factor;
+  std::shared_ptr<const Eigen::MatrixXd> coupling; ///< forces on grains under unit strains; [n_own × n_voigt]
+  Stiffness<dim> of_strains;                       ///< volume × stiffness without motions of the grains [N m]
+  Eigen::MatrixXd of_multipliers;                  ///< motions under the unit multipliers of the conditions
+  Eigen::LDLT<Eigen::MatrixXd> violations_of_multipliers;
   Eigen::MatrixXd unit_motion;
   Stiffness<dim> condensed; ///< volume × stiffness [N m]
   unsigned int cost;

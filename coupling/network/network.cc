@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "coupling/network/conjugate_gradients.h"
+#include "coupling/network/open_cell.h"
 #include "coupling/network/rigid_motions.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/specimen/neighbours.h"
@@ -24,6 +25,8 @@ namespace
 constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
 constexpr double largest_residual = 1e-8;  // of the intact solutions, over the forces under unit strains
 constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
+// An open body may also turn; its tractions stop that, and what is lent must not drown in the difference.
+constexpr double regularity_of_open_cells = 1e-6;
 
 /// Axes n, t (n, t_1, t_2) of a contact as rows; in space t_1 is any vector across n, the same for the same n.
 Tensor<2> contact_axes(const Vector<2>& normal)
@@ -66,8 +69,10 @@ Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
 } // namespace
 
 template <int dim>
-Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation)
-  : number_of_grains(specimen.grains.size())
+Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation, const Boundary& wanted)
+  : its_boundary(wanted)
+  , number_of_own_grains(specimen.grains.size())
+  , number_of_grains(number_of_own_grains)
   , number_of_joints(specimen.joints.size())
   , cell_volume(specimen.volume())
   , plane_thickness(specimen.thickness)
@@ -87,8 +92,15 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
                                  "it; make it larger",
                                  section_of(std::visit([](const auto& law) { return law.name; }, joint_law))));
   const auto& joints = specimen.joints;
-  for (std::size_t i = 0; i < number_of_grains; ++i)
+  for (std::size_t i = 0; i < number_of_own_grains; ++i)
     centres.push_back(at<dim>(specimen.grains.position, i));
+  const OpenCell<dim> open(specimen, its_boundary);
+  for (const auto& image : open.images())
+    {
+      centres.push_back(centres[image.owner] + shift(image, edges));
+      grain_radii.push_back(grain_radii[image.owner]);
+    }
+  number_of_grains += open.images().size();
 
   using Pair = std::pair<std::uint32_t, PeriodicImage<dim>>;
   std::set<Pair> jointed;
@@ -104,11 +116,11 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       for (int& boxes_away : first.boxes)
         boxes_away = -boxes_away;
       jointed.insert({joints.grain_2[j], first});
-      boxes.push_back(second.boxes);
+      const auto& ends = open.of_joint(j);
+      boxes.push_back(ends.boxes);
       mean_branch_length += distance / double(number_of_joints);
-      all_links.push_back({joints.grain_1[j], joints.grain_2[j], std::uint32_t(j * face.size()),
-                           std::uint32_t(face.size()), true, joint_axes(joints, j), distance * normal,
-                           0.5 * distance + joints.half_radius_difference[j],
+      all_links.push_back({ends.grain_1, ends.grain_2, std::uint32_t(j * face.size()), std::uint32_t(face.size()), true,
+                           joint_axes(joints, j), distance * normal, 0.5 * distance + joints.half_radius_difference[j],
                            0.5 * distance - joints.half_radius_difference[j], joints.normal_stiffness[j],
                            joints.shear_stiffness[j], joints.half_length[j], joints.opening[j], joints.friction});
       JointStiffness<dim> stiffness = JointStiffness<dim>::Zero();
@@ -126,6 +138,9 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
       mean_stiffness += bonded_stiffnesses.back()(0, 0) * distance / double(number_of_joints);
     }
 
+  boundary_conditions = std::make_shared<const BoundaryConditions<dim>>(open.conditions(specimen).that_bear(
+    all_links, number_of_joints, number_of_grains, [](std::uint32_t) { return true; }));
+
   // Pairs that may come to touch.
   const double reach = touch_search_ratio * specimen.grains.mean_radius();
   const auto images = images_within(specimen.grains, edges, reach);
@@ -133,20 +148,25 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   std::uint32_t next_segment = std::uint32_t(bonds.size());
   for (const auto& [one, two] : pairs_within(all, reach))
     {
-      if (one >= number_of_grains || (two >= number_of_grains && !counts(one, images[two - number_of_grains])))
+      if (one >= number_of_own_grains ||
+          (two >= number_of_own_grains && !counts(one, images[two - number_of_own_grains])))
         continue;
       const PeriodicImage<dim> second =
-        two < number_of_grains ? PeriodicImage<dim>{two, {}} : images[two - number_of_grains];
+        two < number_of_own_grains ? PeriodicImage<dim>{two, {}} : images[two - number_of_own_grains];
       if (jointed.contains({one, second}))
+        continue;
+      const auto ends = open.of_pair(one, second);
+      if (!ends)
         continue;
       const Vector<dim> branch = at<dim>(all.position, two) - at<dim>(all.position, one);
       const double radius_1 = all.radius[one];
       const double radius_2 = all.radius[two];
       const double k_n = stiffness_per_area(specimen.particle_contact.modulus, radius_1, radius_2);
       const double half_difference = 0.5 * (radius_1 - radius_2);
-      boxes.push_back(second.boxes);
-      all_links.push_back({one, second.owner, next_segment++, 1, false, contact_axes(Vector<dim>(branch.normalized())),
-                           branch, 0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
+      boxes.push_back(ends->boxes);
+      all_links.push_back({ends->grain_1, ends->grain_2, next_segment++, 1, false,
+                           contact_axes(Vector<dim>(branch.normalized())), branch,
+                           0.5 * branch.norm() + half_difference, 0.5 * branch.norm() - half_difference, k_n,
                            k_n / specimen.particle_contact.stiffness_ratio, std::min(radius_1, radius_2),
                            std::max(0.0, branch.norm() - radius_1 - radius_2), specimen.particle_contact.friction});
     }
@@ -205,15 +225,19 @@ void Network<dim>::factorise_intact()
   const auto bonded = [&](const std::uint32_t link) {
     return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
   };
-  factorised = std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, bonded, regularity * stiffness_scale);
+  const auto factor_of = [&](const StiffnessOf<dim>& stiffness_of) {
+    const double lent_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
+    return std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, boundary_conditions, stiffness_of,
+                                                    lent_share * stiffness_scale);
+  };
+  factorised = factor_of(bonded);
 
   std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
     stiffest.push_back(
       element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length)));
-  factorised_all = std::make_unique<FactorisedNetwork<dim>>(
-    all_links, *pattern, [&](const std::uint32_t link) { return &stiffest[link]; }, regularity * stiffness_scale);
+  factorised_all = factor_of([&](const std::uint32_t link) { return &stiffest[link]; });
 }
 
 template <int dim>
@@ -226,20 +250,21 @@ void Network<dim>::solve_unit_strains()
     {
       Unknowns affine = Unknowns::Zero(n_unknowns());
       affine[n_own + k] = 1.0;
-      Unknowns right = -apply_bonded(affine);
-      right.tail<n_voigt<dim>>().setZero();
-      const auto apply = [&](const Unknowns& x) {
+      const auto forces_on_grains = [&](const Unknowns& x) {
         Unknowns y = apply_bonded(x);
         y.tail<n_voigt<dim>>().setZero();
+        boundary_conditions->project(y);
         return y;
       };
+      const auto apply = forces_on_grains;
+      const Unknowns right = -forces_on_grains(affine);
       auto solution = conjugate_gradients(
         apply, [&](const Unknowns& r) { return factorised->solve(r, no_strain_free); }, right, 1e-13, 500);
       // The factor multiplies round-off in the sums of forces on what may float by the inverse of its regularity. Mostly
       // that is harmless; where it is not, the residual shows it, and the rigid motions are kept out.
       if (!((right - apply(solution.x)).norm() <= largest_residual * right.norm()))
         {
-          const RigidMotions<dim> rigid(all_links, number_of_joints, number_of_grains);
+          const RigidMotions<dim> rigid(all_links, number_of_joints, number_of_grains, boundary_conditions->grains());
           solution = conjugate_gradients(
             apply,
             [&](const Unknowns& r) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/network/boundary.h"
 #include "coupling/network/factorised_network.h"
 #include "coupling/network/link.h"
 #include "dem/laws/joint_laws.h"
@@ -9,7 +10,8 @@
 #include <variant>
 #include <vector>
 
-/// A periodic specimen as a network in its reference configuration: what all copies of a representative volume share.
+/// A periodic specimen as a network in its reference configuration, under one of the boundaries that a cell may have: what all
+/// copies of a representative volume share.
 /// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §9.
 namespace feldspar
 {
@@ -31,9 +33,12 @@ class Network
 {
 public:
   /// The specimen turned by a rotation. Throws InputError where it is not periodic.
-  explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity());
+  explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity(),
+                   const Boundary& boundary = {});
 
+  /// Of the cell, then the images behind open sides.
   std::size_t n_grains() const { return number_of_grains; }
+  std::size_t n_own_grains() const { return number_of_own_grains; }
   std::size_t n_joints() const { return number_of_joints; }
   std::size_t n_segments() const { return bonds.size(); }
   Eigen::Index n_unknowns() const { return n_motions<dim> * Eigen::Index(number_of_grains) + n_voigt<dim>; }
@@ -45,11 +50,14 @@ public:
   /// Joints first, then pairs that may come to touch.
   const std::vector<Link<dim>>& links() const { return all_links; }
   const std::vector<FaceElement<dim>>& elements() const { return face; }
-  /// Along which a link crosses from box to box; [n_links].
+  /// Along which a link crosses from box to box, over sides that are not open; [n_links].
   const std::vector<std::array<int, dim>>& boxes_crossed() const { return boxes; }
   const std::vector<Vector<dim>>& positions() const { return centres; }
   const std::vector<double>& radii() const { return grain_radii; }
   const Tensor<dim>& cell() const { return edges; }
+  const Boundary& boundary() const { return its_boundary; }
+  /// On the motions of the grains beside the affine ones.
+  const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return boundary_conditions; }
 
   const AnyJointLaw<dim>& law() const { return joint_law; }
   /// Else joints respond by their law (link_response.h) from the beginning.
@@ -79,9 +87,11 @@ public:
   /// The same with every pair that may come to touch touching: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
   /// With other stiffnesses of its links, and a little lent to what floats.
-  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share) const
+  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share,
+                                   std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {
-    return FactorisedNetwork<dim>(all_links, *pattern, stiffness_of, lent_share * stiffness_scale);
+    return FactorisedNetwork<dim>(all_links, *pattern, std::move(conditions), stiffness_of,
+                                  lent_share * stiffness_scale);
   }
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
   Unknowns lent(const Unknowns& unknowns) const;
@@ -109,6 +119,9 @@ private:
   void solve_unit_strains();
   void bound_segments();
 
+  Boundary its_boundary;
+  std::shared_ptr<const BoundaryConditions<dim>> boundary_conditions;
+  std::size_t number_of_own_grains;
   std::size_t number_of_grains;
   std::size_t number_of_joints;
   double cell_volume;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <utility>
 
 namespace feldspar
@@ -27,8 +28,11 @@ struct Way
 
 template <int dim>
 RigidMotions<dim>::RigidMotions(const std::vector<Link<dim>>& links, const std::size_t n_joints,
-                                const std::size_t n_grains)
+                                const std::size_t n_grains, const std::vector<std::uint32_t>& bound)
 {
+  std::vector<bool> is_bound(n_grains, false);
+  for (const std::uint32_t grain : bound)
+    is_bound[grain] = true;
   std::vector<std::vector<Way<dim>>> ways(n_grains);
   for (std::size_t j = 0; j < n_joints; ++j)
     {
@@ -59,6 +63,9 @@ RigidMotions<dim>::RigidMotions(const std::vector<Link<dim>>& links, const std::
             else if ((there - place[way.to]).norm() > same_place * way.branch.norm())
               hangs_on_image = true;
           }
+
+      if (std::any_of(group.grains.begin(), group.grains.end(), [&](const auto grain) { return is_bound[grain]; }))
+        continue;
 
       constexpr int n = n_motions<dim>;
       const int n_turns = hangs_on_image ? 0 : n_rotations<dim>;

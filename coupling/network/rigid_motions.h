@@ -18,8 +18,10 @@ template <int dim>
 class RigidMotions
 {
 public:
-  /// The first `n_joints` of the links hold; a grain without any has no motion here, as no force acts on it.
-  RigidMotions(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains);
+  /// The first `n_joints` of the links hold; a grain without any has no motion here, as no force acts on it. Nor have groups
+  /// with one of the `bound` grains: forces of the boundary act on these.
+  RigidMotions(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains,
+               const std::vector<std::uint32_t>& bound = {});
 
   /// Forces, or motions, less their projection on the rigid motions; strains stay as they are.
   Unknowns removed_from(Unknowns unknowns) const;

@@ -61,6 +61,7 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   if (!to_target.isZero())
     {
       to_target.head(n_own) = network.unit_motions() * to_target.template tail<n_voigt<dim>>();
+      history.conditions()->project(to_target);
       stand_at(present.position + to_target);
     }
 
@@ -189,6 +190,7 @@ void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, st
       ++(overload.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
       events.push_back({overload.segment, overload.in_tension, released});
     }
+  history.release_loose_pairs();
   begin_again();
 }
 

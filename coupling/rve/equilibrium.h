@@ -54,6 +54,7 @@ public:
   /// Strain, stress and motions at the present position, without history.
   NetworkState<dim> provisional_state() const;
 
+  const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }
   Voigt<dim> stress() const { return present.balance.stress; }
   double unbalanced_ratio() const { return present.balance.unbalanced_ratio; }
   double stored_energy() const { return present.balance.stored_energy; }

@@ -14,7 +14,7 @@ struct ExplicitParameters
 
 /// The path of a PathRun gone by explicit dynamics, a fixed number of steps for each strain: the reference for the RVE
 /// that breaks from event to event. Here the grains turn and move apart as far as they do, and what is not in
-/// equilibrium shows; docs/theory.md §9.6.
+/// equilibrium shows; docs/theory.md §9.7.
 template <int dim>
 class ExplicitRun
 {

@@ -41,8 +41,22 @@ Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<
   return sum / network.volume();
 }
 
+namespace
+{
+/// What links do on grains.
 template <int dim>
-Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+Eigen::VectorXd on_grains(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+{
+  Unknowns sum = Unknowns::Zero(network.n_unknowns());
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    add_forces(network.links()[k], forces[k], sum);
+  return sum.head(network.n_unknowns() - n_voigt<dim>);
+}
+} // namespace
+
+template <int dim>
+Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                            const std::vector<Motion<dim>>& forces)
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
   for (std::size_t k = 0; k < forces.size(); ++k)
@@ -51,25 +65,55 @@ Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motio
       const Vector<dim> way = shift(PeriodicImage<dim>{link.grain_2, network.boxes_crossed()[k]}, network.cell());
       sum += link.axes.transpose() * forces[k].template head<dim>() * way.transpose();
     }
+  if (conditions.are_none())
+    return sum / network.volume();
+  const Eigen::VectorXd held = on_grains(network, forces);
+  for (const std::uint32_t grain : conditions.held())
+    sum += held.segment<dim>(n_motions<dim> * Eigen::Index(grain)) * network.positions()[grain].transpose();
+  const Eigen::VectorXd multipliers = conditions.multipliers(held);
+  for (std::size_t p = 0; p < conditions.pieces().size(); ++p)
+    for (const auto& pair : conditions.pieces()[p])
+      sum += pair.share * conditions.traction(multipliers, p) *
+             (network.positions()[pair.image] - network.positions()[pair.owner]).transpose();
   return sum / network.volume();
 }
 
 template <int dim>
+BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                            std::vector<Motion<dim>> of_links)
+{
+  BornForces<dim> forces{std::move(of_links), {}};
+  if (conditions.n_multipliers() > 0)
+    {
+      const Eigen::VectorXd multipliers = conditions.multipliers(on_grains(network, forces.of_links));
+      forces.of_boundary = Eigen::VectorXd::Zero(network.n_unknowns() - n_voigt<dim>);
+      conditions.add_reactions(multipliers, 1.0, forces.of_boundary);
+    }
+  return forces;
+}
+
+template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
-                            const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
-                            const std::vector<Motion<dim>>& forces_after, const double least_work)
+                            const BornForces<dim>& forces_before, const NetworkState<dim>& after,
+                            const BornForces<dim>& forces_after, const double least_work)
 {
   const Unknowns from = unknowns_of(network, before);
   const Unknowns to = unknowns_of(network, after);
   double of_links = 0.0;
-  for (std::size_t k = 0; k < forces_after.size(); ++k)
+  for (std::size_t k = 0; k < forces_after.of_links.size(); ++k)
     {
       const Link<dim>& link = network.links()[k];
-      of_links += 0.5 * (forces_before[k] + forces_after[k]).dot(link_motion(link, to) - link_motion(link, from));
+      of_links +=
+        0.5 *
+        (forces_before.of_links[k] + forces_after.of_links[k]).dot(link_motion(link, to) - link_motion(link, from));
     }
   const double of_body = 0.5 * network.volume() * (before.stress + after.stress).dot(after.strain - before.strain);
-  const double size = std::max(std::abs(of_links) + std::abs(of_body), least_work);
-  return size > 0.0 ? std::abs(of_body - of_links) / size : 0.0;
+  double of_boundary = 0.0;
+  for (const Eigen::VectorXd* const forces : {&forces_before.of_boundary, &forces_after.of_boundary})
+    if (forces->size() > 0)
+      of_boundary += 0.5 * forces->dot((to - from).head(forces->size()));
+  const double size = std::max(std::abs(of_links) + std::abs(of_body) + std::abs(of_boundary), least_work);
+  return size > 0.0 ? std::abs(of_body + of_boundary - of_links) / size : 0.0;
 }
 
 template <int dim>
@@ -156,9 +200,10 @@ IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
 
 template std::vector<Motion<2>> link_forces<2>(const Network<2>&, const NetworkState<2>&);
 template Tensor<2> branch_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
-template Tensor<2> boundary_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
-template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const std::vector<Motion<2>>&,
-                                        const NetworkState<2>&, const std::vector<Motion<2>>&, double);
+template Tensor<2> boundary_stress<2>(const Network<2>&, const BoundaryConditions<2>&, const std::vector<Motion<2>>&);
+template BornForces<2> born_forces(const Network<2>&, const BoundaryConditions<2>&, std::vector<Motion<2>>);
+template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const BornForces<2>&,
+                                        const NetworkState<2>&, const BornForces<2>&, double);
 template Tensor<2> fabric<2>(const Network<2>&);
 template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::size_t);
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
@@ -166,9 +211,10 @@ template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
 template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
 template std::vector<Motion<3>> link_forces<3>(const Network<3>&, const NetworkState<3>&);
 template Tensor<3> branch_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
-template Tensor<3> boundary_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
-template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const std::vector<Motion<3>>&,
-                                        const NetworkState<3>&, const std::vector<Motion<3>>&, double);
+template Tensor<3> boundary_stress<3>(const Network<3>&, const BoundaryConditions<3>&, const std::vector<Motion<3>>&);
+template BornForces<3> born_forces(const Network<3>&, const BoundaryConditions<3>&, std::vector<Motion<3>>);
+template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const BornForces<3>&,
+                                        const NetworkState<3>&, const BornForces<3>&, double);
 template Tensor<3> fabric<3>(const Network<3>&);
 template SegmentPlace<3> segment_place<3>(const Network<3>&, std::size_t, std::size_t);
 template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);

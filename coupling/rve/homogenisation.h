@@ -17,18 +17,32 @@ std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkS
 template <int dim>
 Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
 
-/// The same from the links that cross the sides of the cell alone, (1/V) Σ f ⊗ (boxes crossed × edges) [Pa]: the mean of
-/// the tractions. Equal where forces balance.
+/// The same from what crosses the sides of the cell alone, (1/V) Σ f ⊗ (boxes crossed × edges) over links and the tractions
+/// on open sides [Pa]. Equal where forces balance.
 template <int dim>
-Tensor<dim> boundary_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
+Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                            const std::vector<Motion<dim>>& forces);
 
-/// Hill and Mandel: |V σ̄ : Δε - Σ s·Δm| over the sum of both magnitudes, or over `least_work` [J] if that is more, between
-/// two states, with the mean forces s and stress σ̄ of both and the motions m of the links. Breaking and sliding do not
-/// enter: it only says how well forces balance.
+/// What an RVE bears.
+template <int dim>
+struct BornForces
+{
+  std::vector<Motion<dim>> of_links; ///< as link_forces()
+  Eigen::VectorXd of_boundary;       ///< on grains, by the tractions of an open cell; empty where there are none
+};
+
+template <int dim>
+BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                            std::vector<Motion<dim>> of_links);
+
+/// Hill and Mandel: |V σ̄ : Δε + r̄·Δu - Σ s̄·Δm| over the sum of the magnitudes, or over `least_work` [J] if that is more,
+/// between two states, with the mean forces of both and the motions m of the links. The forces r of the boundary do work on
+/// the motions u of the grains only where it lets go of a grain between the two. Breaking and sliding do not enter: it only
+/// says how well forces balance.
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
-                            const std::vector<Motion<dim>>& forces_before, const NetworkState<dim>& after,
-                            const std::vector<Motion<dim>>& forces_after, double least_work = 0.0);
+                            const BornForces<dim>& forces_before, const NetworkState<dim>& after,
+                            const BornForces<dim>& forces_after, double least_work = 0.0);
 
 /// Mean of n ⊗ n over the joints; its trace is 1 (Oda 1982).
 template <int dim>

@@ -15,6 +15,7 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
   : of(network)
   , number(network.links().size(), none)
   , position_at_event(unknowns_of(network, state))
+  , bearing(network.conditions())
 {
   for (const auto& unbonded : state.unbonded)
     {
@@ -23,6 +24,7 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
       segment.bonded = false;
       segment.shear_stress = unbonded.shear_stress;
     }
+  release_loose_pairs();
   if (network.is_linear_while_bonded())
     return;
   for (std::uint32_t link = 0; link < network.n_joints(); ++link)
@@ -54,6 +56,40 @@ ActiveLink<dim>& NetworkHistory<dim>::activate(const std::uint32_t link)
       active_links.push_back(at_event(link));
     }
   return active_links[number[link]];
+}
+
+template <int dim>
+void NetworkHistory<dim>::release_loose_pairs()
+{
+  if (bearing->pieces().empty())
+    return;
+  const auto holds = [&](const std::uint32_t joint) {
+    if (number[joint] == none)
+      return true;
+    const auto& segments = active_links[number[joint]].segments;
+    return std::any_of(segments.begin(), segments.end(), [](const auto& segment) { return segment.bonded; });
+  };
+  auto left = bearing->that_bear(of.links(), of.n_joints(), of.n_grains(), holds);
+  const auto n_pairs = [](const BoundaryConditions<dim>& conditions) {
+    std::size_t n = 0;
+    for (const auto& piece : conditions.pieces())
+      n += piece.size();
+    return n;
+  };
+  if (n_pairs(left) == n_pairs(*bearing))
+    return;
+  bearing = std::make_shared<const BoundaryConditions<dim>>(std::move(left));
+  stiffest.reset();
+}
+
+template <int dim>
+const FactorisedNetwork<dim>& NetworkHistory<dim>::factorised_stiffest() const
+{
+  if (bearing == of.conditions())
+    return of.factorised_stiffest();
+  if (!stiffest)
+    stiffest = std::make_shared<const FactorisedNetwork<dim>>(of.factorised_stiffest().under(bearing));
+  return *stiffest;
 }
 
 template <int dim>
@@ -113,6 +149,8 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
         }
     }
   result.stress = result.forces.template tail<n_voigt<dim>>() / of.volume();
+
+  bearing->project(result.forces);
 
   double largest = 0.0;
   for (std::size_t i = 0; i < of.n_grains(); ++i)

@@ -4,6 +4,7 @@
 #include "coupling/network/network_state.h"
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -45,11 +46,19 @@ public:
   /// The number of an active link in active().
   std::uint32_t active_number(const std::uint32_t link) const { return number[link]; }
 
+  /// Of the boundary, on the pairs that can bear them.
+  const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return bearing; }
+  /// The network's factor with every pair touching, under these conditions.
+  const FactorisedNetwork<dim>& factorised_stiffest() const;
+
   /// Forces with the grains at a position, by the straight way from the last event.
   Balance<dim> balance(const Unknowns& at) const;
 
   /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);
+
+  /// To be called after bonds of its links have been changed.
+  void release_loose_pairs();
 
   /// Makes this the last event: positions and shear stresses are kept, pairs that touch become active.
   void keep(const Configuration<dim>& present);
@@ -63,5 +72,8 @@ private:
   std::vector<ActiveLink<dim>> active_links;
   std::vector<std::uint32_t> number; ///< of each link in `active_links`, or none
   Unknowns position_at_event;
+  std::shared_ptr<const BoundaryConditions<dim>> bearing;
+  mutable std::shared_ptr<const FactorisedNetwork<dim>>
+    stiffest; ///< made where it is asked for; one thread has a history
 };
 } // namespace feldspar

@@ -1,6 +1,5 @@
 #include "coupling/rve/path_run.h"
 
-#include "coupling/rve/homogenisation.h"
 #include "coupling/rve/path_checkpoint.h"
 #include "coupling/rve/state_archive.h"
 
@@ -85,16 +84,18 @@ PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<P
   : legs(std::move(wanted_legs))
   , parameters(wanted)
   , body(std::move(network), wanted.equilibrium)
-  , forces(body.network().links().size(), Motion<dim>::Zero())
 {
   if (begin)
     {
       body.restore(*begin);
-      forces = link_forces(body.network(), body.state());
+      forces = forces_at(body.state());
       add(look_at(*begin, *begin, 0.0));
     }
   else
-    path_record.samples.emplace_back();
+    {
+      forces.of_links.assign(body.network().links().size(), Motion<dim>::Zero());
+      path_record.samples.emplace_back();
+    }
   begin_leg();
 }
 
@@ -187,7 +188,7 @@ typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state
 {
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
   Look look;
-  look.forces = equilibrium.link_forces();
+  look.forces = born_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
   auto& sample = look.sample;
   sample.strain = as_array<dim>(state.strain);
   sample.stress = as_array<dim>(state.stress);
@@ -200,9 +201,10 @@ typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state
   constexpr double least_share_of_work = 1e-6;
   sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, look.forces,
                                                      least_share_of_work * std::abs(state.work.boundary));
-  const Tensor<dim> stress = branch_stress(body.network(), look.forces);
+  const Tensor<dim> stress = branch_stress(body.network(), look.forces.of_links);
   if (const double size = stress.norm(); size > 0.0)
-    sample.boundary_stress_error = (boundary_stress(body.network(), look.forces) - stress).norm() / size;
+    sample.boundary_stress_error =
+      (boundary_stress(body.network(), equilibrium.conditions(), look.forces.of_links) - stress).norm() / size;
   sample.crack_density = crack_measures(body.network(), state).density;
   return look;
 }
@@ -212,6 +214,13 @@ void PathRun<dim>::add(Look&& look)
 {
   path_record.samples.push_back(look.sample);
   forces = std::move(look.forces);
+}
+
+template <int dim>
+BornForces<dim> PathRun<dim>::forces_at(const NetworkState<dim>& state) const
+{
+  const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
+  return born_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
 }
 
 template <int dim>
@@ -245,7 +254,7 @@ void PathRun<dim>::transfer(Archive& archive)
   archive.bytes("cracks", path_record.cracks);
   archive.text("failure", path_record.failure);
   if constexpr (Archive::reads)
-    forces = link_forces(body.network(), body.state());
+    forces = forces_at(body.state());
 }
 
 template <int dim>

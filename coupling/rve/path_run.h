@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/rve/homogenisation.h"
 #include "coupling/rve/representative_volume.h"
 
 #include <filesystem>
@@ -122,10 +123,11 @@ private:
   struct Look
   {
     PathSample<dim> sample;
-    std::vector<Motion<dim>> forces; ///< of the links
+    BornForces<dim> forces;
   };
   Look look_at(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio) const;
   void add(Look&& look);
+  BornForces<dim> forces_at(const NetworkState<dim>& state) const;
   template <typename Archive>
   void transfer(Archive& archive);
 
@@ -133,7 +135,7 @@ private:
   PathParameters parameters;
   RepresentativeVolume<dim> body;
   PathRecord<dim> path_record;
-  std::vector<Motion<dim>> forces; ///< of the links, at the last sample
+  BornForces<dim> forces; ///< at the last sample
 
   std::uint64_t leg = 0;
   NetworkState<dim> start;    ///< strain and stress at which the leg began

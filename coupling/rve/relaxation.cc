@@ -60,7 +60,7 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
   for (; k < most_steps && !(measure(present, control) <= tolerance); ++k)
     {
       const Unknowns force = unbalanced(network, present, control);
-      const Unknowns acceleration = network.factorised_stiffest().solve(force, control.stress_given);
+      const Unknowns acceleration = history.factorised_stiffest().solve(force, control.stress_given);
       if (force.dot(velocity) > 0.0)
         {
           const double speed = std::sqrt(velocity.dot(momentum) / acceleration.dot(force));
@@ -133,7 +133,7 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       const double precision = std::clamp(0.01 * tolerance / error, 1e-10, 1e-2);
       Unknowns step = step_share > 0.1
                         ? solver.solve(history, present, apply, symmetric, right, control.stress_given, precision)
-                        : network.factorised_stiffest().solve(right, control.stress_given);
+                        : history.factorised_stiffest().solve(right, control.stress_given);
       const double longest = longest_step * network.mean_branch();
       double largest = 0.0;
       for (std::size_t i = 0; i < network.n_grains(); ++i)

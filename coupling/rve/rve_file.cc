@@ -1,9 +1,12 @@
 #include "coupling/rve/rve_file.h"
 
 #include "base/hdf5_archive.h"
+#include "base/quoted.h"
 #include "coupling/rve/parameters.h"
 #include "coupling/rve/state_archive.h"
 #include "dem/specimen/specimen_file.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +16,7 @@ namespace feldspar
 namespace
 {
 constexpr const char* group_of_state = "state";
+constexpr const char* key_of_boundary = "boundary"; // in words
 
 template <int dim>
 bool fits(const NetworkState<dim>& state, const Network<dim>& network)
@@ -40,12 +44,15 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
 } // namespace
 
 template <int dim>
-void write_rve(const Specimen<dim>& specimen, const NetworkState<dim>& state, const std::filesystem::path& file)
+void write_rve(const Specimen<dim>& specimen, const Boundary& boundary, const NetworkState<dim>& state,
+               const std::filesystem::path& file)
 {
   write_specimen<dim>(specimen, file, [&](Hdf5Writer& root) {
     auto group = root.subgroup(group_of_state);
     NetworkState<dim> copy = state; // one description serves writing and reading, and reading changes
     transfer(group, copy);
+    std::string words = name(boundary);
+    group.text(key_of_boundary, words);
   });
 }
 
@@ -57,6 +64,14 @@ std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& fil
     if (!root.has(group_of_state))
       return;
     auto group = root.subgroup(group_of_state);
+    std::string boundary = name(Boundary{}); // the only one of earlier versions
+    if (group.has_attribute(key_of_boundary))
+      group.text(key_of_boundary, boundary);
+    if (boundary != name(network.boundary()))
+      throw InputError(
+        fmt::format("its state is that of an RVE whose boundary is {}, and Representative volume/Boundary "
+                    "is {}",
+                    in_quotes(boundary), name(network.boundary())));
     transfer(group, state.emplace());
     if (!fits(*state, network))
       throw InputError("its state is not that of its specimen");
@@ -64,8 +79,8 @@ std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& fil
   return state;
 }
 
-template void write_rve<2>(const Specimen<2>&, const NetworkState<2>&, const std::filesystem::path&);
-template void write_rve<3>(const Specimen<3>&, const NetworkState<3>&, const std::filesystem::path&);
+template void write_rve<2>(const Specimen<2>&, const Boundary&, const NetworkState<2>&, const std::filesystem::path&);
+template void write_rve<3>(const Specimen<3>&, const Boundary&, const NetworkState<3>&, const std::filesystem::path&);
 template std::optional<NetworkState<2>> read_rve_state<2>(const std::filesystem::path&, const Network<2>&);
 template std::optional<NetworkState<3>> read_rve_state<3>(const std::filesystem::path&, const Network<3>&);
 } // namespace feldspar

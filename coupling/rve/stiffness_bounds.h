@@ -3,7 +3,7 @@
 #include "coupling/network/network.h"
 
 /// How the boundary of an RVE acts on its elasticity: the same grains and joints under the weakest and
-/// the strictest hold on their boundary. The periodic one lies between them; docs/theory.md §9.5.
+/// the strictest hold on their boundary. All others lie between them; docs/theory.md §9.6.
 namespace feldspar
 {
 template <int dim>
@@ -13,10 +13,14 @@ struct StiffnessBounds
   Stiffness<dim> affine;            ///< [Pa]
 };
 
-/// The bounds with all bonds intact. The body has the grains of the cell and the images that joints lead to, each a
-/// pair with its own grain. Minimal kinematic (Mesarovic and Padbidri 2005): only the mean over the
-/// pairs of each side follows the strain, which is a uniform traction on the sides. Affine: every grain of a pair is
-/// displaced as the strain says, and may turn.
+/// With all bonds intact, of the specimen turned by a rotation.
 template <int dim>
-StiffnessBounds<dim> stiffness_bounds(const Network<dim>& network);
+StiffnessBounds<dim> stiffness_bounds(const Specimen<dim>& specimen,
+                                      const Tensor<dim>& rotation = Tensor<dim>::Identity())
+{
+  const auto stiffness = [&](const BoundaryKind kind) {
+    return Network<dim>(specimen, rotation, {.kind = kind}).intact_stiffness();
+  };
+  return {stiffness(BoundaryKind::minimal_kinematic), stiffness(BoundaryKind::affine)};
+}
 } // namespace feldspar

@@ -87,6 +87,9 @@ Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Bal
     return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
                      : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
   };
+  if (const auto& nearby = factorised ? *factorised : network.factorised_intact();
+      nearby.conditions() != history.conditions())
+    factorised = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
   const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
   if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
     return solution.x;
@@ -97,8 +100,8 @@ Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Bal
     stiffnesses[history.active()[a].link] = &at.active[a].tangent;
   for (const auto& [k, touch] : at.touches)
     stiffnesses[k] = &touch.tangent;
-  factorised = std::make_shared<const FactorisedNetwork<dim>>(
-    network.factorise([&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness));
+  factorised = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
+    [&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness, history.conditions()));
   constexpr unsigned int most_iterations = 400;
   return solve(*factorised, most_iterations).x;
 }
@@ -123,6 +126,7 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
       // against what the affine motion would leave.
       Unknowns& unit = responses[k];
       unit = network.intact_unknowns(Voigt<dim>::Unit(k));
+      history.conditions()->project(unit);
       const auto left_by = [&](const Unknowns& motions) {
         Unknowns right = -apply_tangent(history, at, motions);
         right.template tail<n_voigt<dim>>().setZero();

@@ -270,6 +270,23 @@ Tensor<dim> local_axes(const fem::PointPlace& place)
     Eigen::Rotation2Dd(std::atan2(place.position[1], place.position[0])).toRotationMatrix();
   return axes;
 }
+
+/// The least turn that takes the first axis to a normal, or against it, in the coordinates of a sample: of a section these
+/// are the first and the last axis.
+template <int dim>
+Tensor<dim> first_axis_along(const std::vector<double>& normal)
+{
+  Vector<dim> wanted = Vector<dim>::Zero();
+  for (std::size_t c = 0; c + 1 < normal.size(); ++c)
+    wanted[Eigen::Index(c)] = normal[c];
+  wanted[dim - 1] = normal.back();
+  if (wanted[0] < 0.0)
+    wanted = -wanted;
+  if constexpr (dim == 2)
+    return Eigen::Rotation2Dd(std::atan2(wanted[1], wanted[0])).toRotationMatrix();
+  else
+    return Eigen::Quaterniond::FromTwoVectors(Vector<3>::UnitX(), wanted).toRotationMatrix();
+}
 } // namespace
 
 template <int dim>
@@ -287,8 +304,8 @@ Specimen<dim> weakened(Specimen<dim> specimen, const double share)
 }
 
 template <int dim>
-fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak)
+fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, const GrainMaterialParameters& parameters,
+                                  WeakCells<dim> weak)
 {
   fem::Material<dim> material;
   material.field_names = names_of_fields<dim>();
@@ -297,9 +314,13 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
     Random random(point_seed(parameters, place), RandomStream::dealing);
     const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
     const auto by_lot = std::size_t(random.uniform() * double(candidates.size()));
-    const auto& network = candidates[parameters.in_turn ? dealt_in_turn(parameters, place, candidates.size()) : by_lot];
+    const auto& dealt = candidates[parameters.in_turn ? dealt_in_turn(parameters, place, candidates.size()) : by_lot];
+    const auto& network = place.side_normal.empty() ? dealt.inside : dealt.at_side;
+    const bool is_edge = network->boundary().kind == BoundaryKind::edge;
     Tensor<dim> turn = Tensor<dim>::Identity();
-    if (parameters.random_orientation)
+    if (is_edge && !parameters.in_local_axes)
+      turn = first_axis_along<dim>(place.side_normal);
+    else if (!is_edge && parameters.random_orientation)
       turn = random_turn<dim>(random);
     if (parameters.in_local_axes)
       turn = local_axes<dim>(place) * turn;
@@ -310,10 +331,8 @@ fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>
 
 template class GrainPoint<2>;
 template Specimen<2> weakened<2>(Specimen<2>, double);
-template fem::Material<2> grain_material<2>(std::vector<std::shared_ptr<const Network<2>>>,
-                                            const GrainMaterialParameters&, WeakCells<2>);
+template fem::Material<2> grain_material<2>(std::vector<Realisation<2>>, const GrainMaterialParameters&, WeakCells<2>);
 template class GrainPoint<3>;
 template Specimen<3> weakened<3>(Specimen<3>, double);
-template fem::Material<3> grain_material<3>(std::vector<std::shared_ptr<const Network<3>>>,
-                                            const GrainMaterialParameters&, WeakCells<3>);
+template fem::Material<3> grain_material<3>(std::vector<Realisation<3>>, const GrainMaterialParameters&, WeakCells<3>);
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/rve/representative_volume.h"
+#include "coupling/sample/realisation.h"
 #include "fem/materials/material.h"
 
 #include <any>
@@ -93,13 +94,13 @@ Specimen<dim> weakened(Specimen<dim> specimen, double share);
 template <int dim>
 struct WeakCells
 {
-  std::set<std::string> cells;                            ///< as PointPlace::cell
-  std::vector<std::shared_ptr<const Network<dim>>> twins; ///< one of each realisation
+  std::set<std::string> cells;         ///< as PointPlace::cell
+  std::vector<Realisation<dim>> twins; ///< one of each realisation
 };
 
 /// RVEs of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
-/// number of ranks. The material's fields are those of GrainPoint::fields().
+/// number of ranks. Edges are not turned by chance: their first axis is the normal of the side. The material's fields are those of GrainPoint::fields().
 template <int dim>
-fem::Material<dim> grain_material(std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                  const GrainMaterialParameters& parameters, WeakCells<dim> weak = {});
+fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, const GrainMaterialParameters& parameters,
+                                  WeakCells<dim> weak = {});
 } // namespace feldspar

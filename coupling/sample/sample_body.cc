@@ -379,9 +379,8 @@ unsigned int n_points_of_cell(const SampleParameters& sample)
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
-                                                std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
-                                                const std::uint64_t seed)
+                                                std::vector<Realisation<dim>> realisations,
+                                                std::vector<Realisation<dim>> weak_twins, const std::uint64_t seed)
 {
   if (dimension_of_rves(sample.geometry) != dim)
     throw std::invalid_argument("RVEs of another dimension than the sample's");
@@ -393,7 +392,8 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   material.n_points_of_cell = n_points_of_cell(sample);
   material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
   material.equilibrium = equilibrium;
-  const double size = std::pow(realisations.front()->volume() / realisations.front()->thickness(), 1.0 / dim);
+  const Network<dim>& first = *realisations.front().inside;
+  const double size = std::pow(first.volume() / first.thickness(), 1.0 / dim);
   const double unscaled = 0.0; // any element is larger
   return make_body<dim>(sample, set_up, [&](const auto& mesh) {
     auto rves = grain_material<dim>(std::move(realisations), material,
@@ -412,13 +412,9 @@ std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample,
 }
 
 template std::unique_ptr<SampleBody> make_body_of_grains<2>(const SampleParameters&, const SampleSetUp&,
-                                                            const EquilibriumParameters&,
-                                                            std::vector<std::shared_ptr<const Network<2>>>,
-                                                            std::vector<std::shared_ptr<const Network<2>>>,
-                                                            std::uint64_t);
+                                                            const EquilibriumParameters&, std::vector<Realisation<2>>,
+                                                            std::vector<Realisation<2>>, std::uint64_t);
 template std::unique_ptr<SampleBody> make_body_of_grains<3>(const SampleParameters&, const SampleSetUp&,
-                                                            const EquilibriumParameters&,
-                                                            std::vector<std::shared_ptr<const Network<3>>>,
-                                                            std::vector<std::shared_ptr<const Network<3>>>,
-                                                            std::uint64_t);
+                                                            const EquilibriumParameters&, std::vector<Realisation<3>>,
+                                                            std::vector<Realisation<3>>, std::uint64_t);
 } // namespace feldspar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
 #include "fem/output.h"
@@ -77,9 +78,8 @@ public:
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,
-                                                std::vector<std::shared_ptr<const Network<dim>>> realisations,
-                                                std::vector<std::shared_ptr<const Network<dim>>> weak_twins,
-                                                std::uint64_t seed);
+                                                std::vector<Realisation<dim>> realisations,
+                                                std::vector<Realisation<dim>> weak_twins, std::uint64_t seed);
 /// A body of the material that sample.material names, without grains.
 std::unique_ptr<SampleBody> make_continuous_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                                  const ContinuumParameters& continuum);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
 #include "dem/lab/parameters.h"
@@ -40,9 +41,8 @@ public:
   /// Throws InputError for a test that such a sample cannot make.
   template <int dim>
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
-             const EquilibriumParameters& equilibrium, std::vector<std::shared_ptr<const Network<dim>>> realisations,
-             std::vector<std::shared_ptr<const Network<dim>>> weak_twins, const SpecimenReport& of_rves,
-             std::uint64_t seed);
+             const EquilibriumParameters& equilibrium, std::vector<Realisation<dim>> realisations,
+             std::vector<Realisation<dim>> weak_twins, const SpecimenReport& of_rves, std::uint64_t seed);
   /// A sample without grains; sample.material says which. Cracks and energies are not known of it.
   SampleTest(const TestCase& test, const SampleParameters& sample, const TestParameters& wanted,
              const ContinuumParameters& continuum);

@@ -142,6 +142,9 @@ struct PointPlace
   unsigned int quadrature_point; ///< within the cell, from 0
   std::vector<double> position;  ///< [m], in the coordinates of the sample
   double element_size;           ///< (volume, in the plane and in r-z area, of the cell)^(1/dim) / order [m]
+  /// The outward normal of the side of the sample, without its ends, that the cell lies on, in the coordinates of the
+  /// sample; empty inside.
+  std::vector<double> side_normal = {};
 };
 
 /// The material of a sample.

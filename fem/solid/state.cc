@@ -1,7 +1,9 @@
 #include "fem/solid/state.h"
 
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -9,6 +11,30 @@
 namespace feldspar::fem
 {
 using namespace dealii;
+
+namespace
+{
+/// PointPlace::side_normal.
+template <int dim, typename Cell>
+std::vector<double> side_normal(const Discretisation<dim>& elements, const Cell& cell)
+{
+  FEFaceValues<dim> values(elements.mapping, elements.fe, QMidpoint<dim - 1>(), update_normal_vectors);
+  for (const unsigned int face : cell->face_indices())
+    {
+      const auto& boundaries = elements.mesh.boundaries;
+      const auto is_no_side = [&](const auto& boundary) {
+        return boundary.second == cell->face(face)->boundary_id() &&
+               (boundary.first == "bottom" || boundary.first == "top" || boundary.first == "axis");
+      };
+      if (!cell->face(face)->at_boundary() || std::any_of(boundaries.begin(), boundaries.end(), is_no_side))
+        continue;
+      values.reinit(cell, face);
+      const Tensor<1, dim>& normal = values.normal_vector(0);
+      return {normal.begin_raw(), normal.end_raw()};
+    }
+  return {};
+}
+} // namespace
 
 template <int dim, int material_dim>
 SolidPoints<material_dim> make_points(const Discretisation<dim>& elements, const Material<material_dim>& material)
@@ -20,15 +46,13 @@ SolidPoints<material_dim> make_points(const Discretisation<dim>& elements, const
     if (cell->is_locally_owned())
       {
         values.reinit(cell);
+        const std::vector<double> normal = side_normal(elements, cell);
         const double measure = std::accumulate(values.get_JxW_values().begin(), values.get_JxW_values().end(), 0.0);
         for (const unsigned int q : values.quadrature_point_indices())
           {
             const Point<dim>& position = values.quadrature_point(q);
-            PointPlace place{cell->id().to_string(),
-                             number_of(cell),
-                             q,
-                             {},
-                             std::pow(measure, 1.0 / dim) / elements.order};
+            PointPlace place{
+              cell->id().to_string(), number_of(cell), q, {}, std::pow(measure, 1.0 / dim) / elements.order, normal};
             for (unsigned int component = 0; component < dim; ++component)
               place.position.push_back(position[component]);
             points.materials.add(material.make_point(place));

@@ -290,6 +290,27 @@ TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
   EXPECT_NEAR(cell(curve, "stress_xx_Pa", 0), 0.0, 1e-5 * stress);
   EXPECT_NEAR(cell(curve, "strain_yy", 1), 4.1e-5, 1e-9 * 4e-5); // and goes on from there
 
+  // Between free sides the points have edges, whose states no other boundary takes. With one element across both
+  // sides of the sample are free, and the strain is as uniform.
+  folder.write("edges.prm", even + "subsection Representative volume\n  set Boundary = edge\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale edges.prm --output edges --quiet").exit_code, 0);
+  ASSERT_EQ(run_feldspar(folder.path(), "multiscale edges --extract 1:3").exit_code, 0);
+  const std::string of_edge = "edges/extracted/direct_tension_seed_1_cell_1_point_3.h5";
+  const std::string edge_rve =
+    "subsection Specimen\n  set Shape = periodic\n  set Specimen file = " + of_edge + "\nend\n" + path;
+  folder.write("edge.prm", edge_rve);
+  const auto other = run_feldspar(folder.path(), "rve edge.prm --output edge --quiet");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.error.find("its state is that of an RVE whose boundary is \"edge, x free\", and Representative "
+                             "volume/Boundary is periodic"),
+            std::string::npos)
+    << other.error;
+  folder.write("edge.prm", edge_rve + "subsection Representative volume\n  set Boundary = edge\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "rve edge.prm --output edge --quiet").exit_code, 0);
+  const double of_edges = cell(folder.path() / "edges/curves/direct_tension_seed_1.csv", "axial_stress_Pa", last);
+  EXPECT_NEAR(cell(folder.path() / "edge/curves/rve.csv", "stress_yy_Pa", 0), of_edges, 1e-5 * of_edges);
+  EXPECT_LT(of_edges, 0.999 * stress);
+
   // Broken: the cracks of that point and no others.
   folder.write("pull.prm", pull);
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet").exit_code, 0);

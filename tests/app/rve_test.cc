@@ -169,6 +169,37 @@ TEST(Rve, GivesTheValuesOfVariantsWithTheirUnits)
   EXPECT_EQ(rves[1]["variant_values"]["Strain path/Cell angle"], (nlohmann::json{{"value", 30}, {"unit", "deg"}}));
 }
 
+// The order of the stiffnesses as the theory has it (§9.6); the bounds in every summary are those of the extreme boundaries.
+TEST(Rve, HoldsACellByEachBoundary)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm", small_cell + "subsection Strain path\n  set Direction = 0, 1, 0\n  set Size = 1e-5\nend\n"
+                                        "subsection Variants\n  set Entry = Representative volume/Boundary\n"
+                                        "  set Values = minimal kinematic; weakly periodic; edge; periodic; affine\n"
+                                        "end\n");
+  const auto run = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const auto rves = summary(folder.path() / "out")["rves"];
+  ASSERT_EQ(rves.size(), 5u);
+  const std::vector<std::string> names{"minimal kinematic", "weakly periodic, 4 pieces", "edge, x free", "periodic",
+                                       "affine"};
+  std::vector<double> stresses;
+  for (std::size_t k = 0; k < rves.size(); ++k)
+    {
+      EXPECT_EQ(rves[k]["boundary"], names[k]);
+      EXPECT_EQ(rves[k]["n_grains"], rves[3]["n_grains"]);
+      EXPECT_EQ(rves[k]["n_joints"], rves[3]["n_joints"]);
+      EXPECT_EQ(rves[k]["stiffness_minimal_kinematic_Pa"], rves[0]["stiffness_Pa"]);
+      EXPECT_EQ(rves[k]["stiffness_affine_Pa"], rves[4]["stiffness_Pa"]);
+      stresses.push_back(rves[k]["at_end"]["stress_yy_Pa"]);
+      EXPECT_NEAR(stresses.back(), rves[k]["stiffness_Pa"][1][1].get<double>() * 1e-5, 1e-9 * stresses.back());
+    }
+  EXPECT_LT(stresses[0], stresses[1]);
+  EXPECT_LT(stresses[1], stresses[3]);
+  EXPECT_LT(stresses[2], stresses[3]);
+  EXPECT_LT(stresses[3], stresses[4]);
+}
+
 TEST(Rve, TakesSpheres)
 {
   const TemporaryFolder folder;
@@ -309,6 +340,18 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve",
          small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set Largest step = 1e-20\nend\n", "",
          "bad.prm: Strain path/Largest step = 1e-20: Size = ");
+  const std::string held = "subsection Representative volume\n";
+  expect("rve", small_cell + free_sides + held + "  set Boundary = edge\n  set Free axis = z\nend\n", "",
+         "bad.prm: Representative volume/Free axis = z: in two dimensions it is x or y");
+  expect("rve", small_cell + free_sides + held + "  set Boundary = rigid\nend\n", "",
+         "bad.prm:10: Representative volume/Boundary = rigid: must be one of: ");
+  expect("rve", small_cell + free_sides + held + "  set Traction pieces = 0\nend\n", "",
+         "bad.prm:10: Representative volume/Traction pieces = 0: must be an integer in [1, 1000]");
+  expect("rve",
+         small_cell + held +
+           "  set Boundary = affine\nend\nsubsection Strain path\n  set Direction = free, 1, free\n"
+           "  set Solver = explicit\nend\n",
+         "", "bad.prm: Representative volume/Boundary = affine: explicit dynamics have periodic cells only; set ");
   expect("lab", small_cell, "", "bad.prm: Specimen/Shape = periodic: a laboratory test needs a specimen between walls");
 }
 

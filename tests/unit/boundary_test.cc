@@ -1,8 +1,10 @@
-// The elasticity of a representative volume under the weakest and the strictest hold on its boundary.
+// The boundaries of a representative volume: their order, their limits, and that what holds for the periodic one holds for
+// all.
 
+#include "coupling/rve/path_run.h"
 #include "coupling/rve/stiffness_bounds.h"
-
 #include "dem/genesis/coring.h"
+#include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
 
 #include <Eigen/Eigenvalues>
@@ -14,11 +16,28 @@ namespace feldspar
 {
 namespace
 {
+using tests::TemporaryFolder;
+
 template <typename Case>
 class Bounds : public testing::Test
 {
 };
 TYPED_TEST_SUITE(Bounds, Dimensions);
+
+template <int dim>
+std::vector<Boundary> all_boundaries()
+{
+  return {{.kind = BoundaryKind::minimal_kinematic},
+          {.kind = BoundaryKind::weakly_periodic, .n_pieces = dim == 2 ? 4u : 2u},
+          {.kind = BoundaryKind::edge, .free_axis = 0},
+          {.kind = BoundaryKind::affine}};
+}
+
+template <int dim>
+Network<dim> network_under(const Boundary& boundary, const std::uint64_t seed = 1)
+{
+  return Network<dim>(periodic_specimen<dim>(seed), Tensor<dim>::Identity(), boundary);
+}
 
 template <int dim>
 double least_eigenvalue(const Stiffness<dim>& matrix)
@@ -33,9 +52,9 @@ TYPED_TEST(Bounds, MinimalKinematicIsBelowPeriodicBelowAffine)
   constexpr int dim = TypeParam::value;
   for (const std::uint64_t seed : {1, 2, 3})
     {
-      const Network<dim> network(periodic_specimen<dim>(seed));
-      const Stiffness<dim>& periodic = network.intact_stiffness();
-      const auto bounds = stiffness_bounds(network);
+      const auto specimen = periodic_specimen<dim>(seed);
+      const Stiffness<dim> periodic = Network<dim>(specimen).intact_stiffness();
+      const auto bounds = stiffness_bounds(specimen);
       const double size = periodic.norm();
       // Well apart: a boundary that was periodic by mistake would be equal, to 1e-9.
       EXPECT_GT(least_eigenvalue<dim>(periodic - bounds.minimal_kinematic), 1e-4 * size) << seed;
@@ -50,8 +69,8 @@ TEST(Bounds, TurnWithTheCell)
   const auto specimen = periodic_specimen<2>(1);
   Tensor<2> quarter;
   quarter << 0.0, -1.0, 1.0, 0.0;
-  const auto upright = stiffness_bounds(Network<2>(specimen));
-  const auto lying = stiffness_bounds(Network<2>(specimen, quarter));
+  const auto upright = stiffness_bounds(specimen);
+  const auto lying = stiffness_bounds(specimen, quarter);
   for (const auto& [one, other] :
        {std::pair(upright.minimal_kinematic, lying.minimal_kinematic), std::pair(upright.affine, lying.affine)})
     {
@@ -70,9 +89,9 @@ TEST(Bounds, NarrowAsOneOverTheSize)
   std::vector<double> below, above;
   for (const unsigned int n : {1u, 2u, 4u})
     {
-      const Network<2> network(repeated<2>(cell, {n, n}));
-      const auto bounds = stiffness_bounds(network);
-      const Stiffness<2>& periodic = network.intact_stiffness();
+      const auto rock = repeated<2>(cell, {n, n});
+      const auto bounds = stiffness_bounds(rock);
+      const Stiffness<2> periodic = Network<2>(rock).intact_stiffness();
       below.push_back((periodic - bounds.minimal_kinematic).trace() / periodic.trace());
       above.push_back((bounds.affine - periodic).trace() / periodic.trace());
     }
@@ -81,6 +100,274 @@ TEST(Bounds, NarrowAsOneOverTheSize)
       EXPECT_NEAR(share[1] / share[0], 0.5, 0.15);
       EXPECT_NEAR(share[2] / share[1], 0.5, 0.10);
     }
+}
+
+template <typename Case>
+class Boundaries : public testing::Test
+{
+};
+TYPED_TEST_SUITE(Boundaries, Dimensions);
+
+// Each of these admits the motions of the next.
+TYPED_TEST(Boundaries, ThatAdmitLessAreStiffer)
+{
+  constexpr int dim = TypeParam::value;
+  using K = BoundaryKind;
+  const std::vector<std::vector<Boundary>> chains{{{.kind = K::minimal_kinematic},
+                                                   {.kind = K::weakly_periodic, .n_pieces = 2},
+                                                   {.kind = K::weakly_periodic, .n_pieces = 4},
+                                                   {.kind = K::weakly_periodic, .n_pieces = 8},
+                                                   {}},
+                                                  {{.kind = K::edge, .free_axis = 0}, {}, {.kind = K::affine}},
+                                                  {{.kind = K::edge, .free_axis = dim - 1}, {}}};
+  for (std::uint64_t seed = 1; seed <= (dim == 2 ? 2 : 1); ++seed)
+    for (const auto& chain : chains)
+      for (std::size_t k = 1; k < chain.size(); ++k)
+        {
+          const Stiffness<dim> wider = network_under<dim>(chain[k - 1], seed).intact_stiffness();
+          const Stiffness<dim> narrower = network_under<dim>(chain[k], seed).intact_stiffness();
+          EXPECT_GT(least_eigenvalue<dim>(narrower - wider), -1e-9 * narrower.norm())
+            << name(chain[k - 1]) << " below " << name(chain[k]) << ", seed " << seed;
+        }
+}
+
+TYPED_TEST(Boundaries, OfOnePieceIsMinimalKinematicAndOfTheFinestPiecesPeriodic)
+{
+  constexpr int dim = TypeParam::value;
+  const auto with_pieces = [](const unsigned int n) {
+    return network_under<dim>({.kind = BoundaryKind::weakly_periodic, .n_pieces = n});
+  };
+  EXPECT_EQ(with_pieces(1).intact_stiffness(),
+            network_under<dim>({.kind = BoundaryKind::minimal_kinematic}).intact_stiffness());
+  const Network<dim> finest = with_pieces(1000);
+  const Network<dim> periodic = network_under<dim>({});
+  EXPECT_EQ(finest.n_grains(), periodic.n_grains());
+  EXPECT_EQ(finest.links().size(), periodic.links().size());
+  EXPECT_EQ(finest.intact_stiffness(), periodic.intact_stiffness());
+}
+
+TYPED_TEST(Boundaries, KeepEveryJointOnceAndTheBranchesOfAll)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> periodic = network_under<dim>({});
+  for (const Boundary& boundary : all_boundaries<dim>())
+    {
+      SCOPED_TRACE(name(boundary));
+      const Network<dim> network = network_under<dim>(boundary);
+      ASSERT_EQ(network.n_joints(), periodic.n_joints());
+      EXPECT_EQ(network.n_own_grains(), periodic.n_own_grains());
+      EXPECT_EQ(network.volume(), periodic.volume());
+      for (std::size_t j = 0; j < network.n_joints(); ++j)
+        {
+          const Link<dim>& link = network.links()[j];
+          // From centre to centre through what is left of the periodic sides.
+          const Vector<dim> way = network.positions()[link.grain_2] - network.positions()[link.grain_1] +
+                                  shift(PeriodicImage<dim>{link.grain_2, network.boxes_crossed()[j]}, network.cell());
+          EXPECT_LT((way - link.branch).norm(), 1e-9 * link.branch.norm());
+          EXPECT_EQ(link.branch, periodic.links()[j].branch);
+        }
+    }
+}
+
+TYPED_TEST(Boundaries, StiffnessIsThatOfADirectSolution)
+{
+  constexpr int dim = TypeParam::value;
+  for (const Boundary& boundary : all_boundaries<dim>())
+    {
+      const Network<dim> network = network_under<dim>(boundary);
+      const DirectSolution<dim> direct(network, intact_stiffnesses(network));
+      EXPECT_LT(relative(network.intact_stiffness(), direct.stiffness), 1e-8) << name(boundary);
+    }
+}
+
+// What a grain and its image bear is their share of one traction, and the stress is that of these tractions.
+TYPED_TEST(Boundaries, BearTheirStressByUniformTractions)
+{
+  constexpr int dim = TypeParam::value;
+  for (const Boundary& boundary : all_boundaries<dim>())
+    {
+      SCOPED_TRACE(name(boundary));
+      const Network<dim> network = network_under<dim>(boundary);
+      NetworkState<dim> state;
+      state.strain = uneven<dim>(3e-5);
+      const auto forces = link_forces(network, state);
+      const Tensor<dim> stress = branch_stress(network, forces);
+      EXPECT_LT((stress - stress.transpose()).norm(), 1e-8 * stress.norm());
+      EXPECT_LT(relative(boundary_stress(network, *network.conditions(), forces), stress), 1e-8);
+      EXPECT_LT(relative(stress_voigt<dim>(stress), network.intact_stiffness() * state.strain), 1e-8);
+
+      Unknowns borne = Unknowns::Zero(network.n_unknowns());
+      for (std::size_t k = 0; k < forces.size(); ++k)
+        add_forces(network.links()[k], forces[k], borne);
+      const auto on = [&](const std::uint32_t grain) -> Vector<dim> {
+        return borne.segment<dim>(n_motions<dim> * Eigen::Index(grain));
+      };
+      for (const auto& piece : network.conditions()->pieces())
+        {
+          Vector<dim> whole = Vector<dim>::Zero(); // the images of a piece may lie on both of its sides
+          double shares = 0.0;
+          for (const auto& pair : piece)
+            {
+              whole += (pair.share > 0.0 ? 1.0 : -1.0) * on(pair.image);
+              shares += std::abs(pair.share);
+            }
+          EXPECT_NEAR(shares, 1.0, 1e-12);
+          for (const auto& pair : piece)
+            EXPECT_LT((on(pair.image) - pair.share * whole).norm(), 1e-6 * whole.norm());
+        }
+    }
+}
+
+// No stress given across the free sides: nothing pulls at the grains there, and the cell is a plate.
+TYPED_TEST(Boundaries, OfAnEdgeLeaveItsSidesFree)
+{
+  constexpr int dim = TypeParam::value;
+  RepresentativeVolume<dim> rve = small_rve<dim>(1, {.event_tolerance = 1e-8, .final_tolerance = 1e-11}, 0.5,
+                                                 {.kind = BoundaryKind::edge, .free_axis = 0});
+  Control<dim> control;
+  control.strain = axial<dim>(1e-4); // beyond the first breaks
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    control.stress_given[k] = k != dim - 1;
+  const auto trial = rve.trial(control);
+  ASSERT_TRUE(trial.in_equilibrium);
+  const auto forces = link_forces(rve.network(), trial.state);
+  Unknowns borne = Unknowns::Zero(rve.network().n_unknowns());
+  double largest = 0.0;
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    {
+      add_forces(rve.network().links()[k], forces[k], borne);
+      largest = std::max(largest, forces[k].norm());
+    }
+  ASSERT_GT(rve.network().conditions()->pieces().front().size(), 2u);
+  for (const auto& pair : rve.network().conditions()->pieces().front())
+    EXPECT_LT(borne.segment<dim>(n_motions<dim> * Eigen::Index(pair.image)).norm(), 1e-7 * largest);
+}
+
+TYPED_TEST(Boundaries, KeepTangentAndBalancesBeyondTheFirstCrack)
+{
+  constexpr int dim = TypeParam::value;
+  constexpr EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
+  for (const Boundary& boundary : all_boundaries<dim>())
+    {
+      SCOPED_TRACE(name(boundary));
+      // Without friction a slipping segment is as the tangent takes it.
+      RepresentativeVolume<dim> rve = small_rve<dim>(1, sharp, 0.0, boundary);
+      const double first = rve.network().first_break(axial<dim>(1.0)).factor;
+      ASSERT_GT(strain_to(rve, axial<dim>((dim == 2 ? 1.2 : 1.8) * first), 10), 2u);
+      const Voigt<dim> here = rve.state().strain + axial<dim>(-2e-4) + uneven<dim>(3e-5); // pressed back
+      const auto centre = rve.trial(here, Bonds::frozen, true);
+      ASSERT_TRUE(centre.in_equilibrium);
+      Stiffness<dim> differences;
+      constexpr double step = 1e-9; // no face opens, closes or begins to slide
+      for (int k = 0; k < n_voigt<dim>; ++k)
+        {
+          const Voigt<dim> change = step * Voigt<dim>::Unit(k);
+          const auto plus = rve.trial(Voigt<dim>(here + change), Bonds::frozen);
+          const auto minus = rve.trial(Voigt<dim>(here - change), Bonds::frozen);
+          ASSERT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
+          differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
+        }
+      EXPECT_LT(relative(differences, centre.tangent->value), 1e-6);
+      rve.accept(rve.trial(here, Bonds::frozen));
+      Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp);
+      const DirectSolution<dim> direct(rve.network(), equilibrium.link_tangents(), equilibrium.conditions());
+      EXPECT_LT(relative(equilibrium.tangent(), direct.stiffness), 1e-7);
+    }
+}
+
+template <int dim>
+PathRun<dim> pulled_under(const Boundary& boundary)
+{
+  Control<dim> control;
+  control.stress_given.fill(true);
+  control.stress_given[dim - 1] = false;
+  control.strain[dim - 1] = 3e-4;
+  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>(), Tensor<dim>::Identity(), boundary),
+          {{control, true}},
+          {}};
+}
+
+TYPED_TEST(Boundaries, KeepHillAndMandelAndTheEnergyThroughTheFall)
+{
+  constexpr int dim = TypeParam::value;
+  for (const Boundary& boundary : all_boundaries<dim>())
+    {
+      SCOPED_TRACE(name(boundary));
+      PathRun<dim> run = pulled_under<dim>(boundary);
+      while (!run.has_ended())
+        run.advance();
+      EXPECT_EQ(run.record().failure, "");
+      EXPECT_GT(run.record().cracks.size(), 5u);
+      double highest = 0.0;
+      for (const auto& sample : run.record().samples)
+        {
+          highest = std::max(highest, sample.stress[dim - 1]);
+          EXPECT_LT(sample.hill_mandel_residual, 1e-5); // ten times the final tolerance
+          EXPECT_LT(sample.energy_imbalance(), 1e-3);
+          if (sample.stress[dim - 1] > 0.1 * highest)
+            {
+              EXPECT_LT(sample.boundary_stress_error, 1e-5);
+            }
+        }
+    }
+}
+
+// A grain at a side that has lost its joints bears nothing, and the others of its piece bear its share.
+TYPED_TEST(Boundaries, LetGoOfGrainsThatNothingHolds)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network = network_under<dim>({.kind = BoundaryKind::minimal_kinematic});
+  const auto& pieces = network.conditions()->pieces();
+  ASSERT_EQ(pieces.size(), std::size_t(dim));
+  const std::uint32_t loose = pieces.front().front().image;
+  const auto holds = [&](const std::uint32_t joint) {
+    return network.links()[joint].grain_1 != loose && network.links()[joint].grain_2 != loose;
+  };
+  const auto left = network.conditions()->that_bear(network.links(), network.n_joints(), network.n_grains(), holds);
+  ASSERT_EQ(left.pieces().size(), pieces.size());
+  ASSERT_EQ(left.pieces().front().size(), pieces.front().size() - 1);
+  double whole = 0.0;
+  for (std::size_t k = 0; k < left.pieces().front().size(); ++k)
+    {
+      const auto& pair = left.pieces().front()[k];
+      EXPECT_EQ(pair.image, pieces.front()[k + 1].image);
+      EXPECT_NEAR(pair.share * (1.0 - std::abs(pieces.front().front().share)), pieces.front()[k + 1].share, 1e-12);
+      whole += std::abs(pair.share);
+    }
+  EXPECT_NEAR(whole, 1.0, 1e-12);
+  for (std::size_t p = 1; p < pieces.size(); ++p)
+    EXPECT_EQ(left.pieces()[p].size(), pieces[p].size());
+
+  // A body in two halves bears nothing from side to side: no pair has both of its grains in one of them.
+  const auto nothing_holds = [](std::uint32_t) { return false; };
+  EXPECT_TRUE(
+    network.conditions()->that_bear(network.links(), network.n_joints(), network.n_grains(), nothing_holds).are_none());
+}
+
+TYPED_TEST(Boundaries, TakenUpGiveTheBitsOfTheUnbrokenRun)
+{
+  constexpr int dim = TypeParam::value;
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const Boundary boundary{.kind = BoundaryKind::weakly_periodic, .n_pieces = 2};
+  PathRun<dim> whole = pulled_under<dim>(boundary);
+  while (!whole.has_ended())
+    whole.advance();
+  PathRun<dim> broken = pulled_under<dim>(boundary);
+  for (unsigned int k = 0; !broken.has_ended(); ++k)
+    {
+      broken.advance();
+      if (k % 7 == 3)
+        {
+          broken.write_checkpoint(file, "the same");
+          PathRun<dim> next = pulled_under<dim>(boundary);
+          next.read_checkpoint(file, "the same");
+          broken = next;
+        }
+    }
+  EXPECT_GT(whole.record().cracks.size(), 5u);
+  EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
+  EXPECT_EQ(broken.rve().state().stress, whole.rve().state().stress);
 }
 } // namespace
 } // namespace feldspar

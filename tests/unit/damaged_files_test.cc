@@ -166,14 +166,14 @@ TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfRvesAreRefused)
   expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
 
   const auto rve_file = folder.path() / "volume.h5";
-  write_rve<2>(specimen, run.rve().state(), rve_file);
+  write_rve<2>(specimen, {}, run.rve().state(), rve_file);
   expect_all_refused(rve_file, [&] { read_rve_state<2>(rve_file, *network); });
 
   // States that are whole but not of this network.
   const auto refusal_of = [&](const std::function<void(NetworkState<2>&)>& change) {
     NetworkState<2> state = run.rve().state();
     change(state);
-    write_rve<2>(specimen, state, rve_file);
+    write_rve<2>(specimen, {}, state, rve_file);
     return refusal([&] { read_rve_state<2>(rve_file, *network); });
   };
   EXPECT_EQ(refusal_of([](NetworkState<2>&) {}), "");

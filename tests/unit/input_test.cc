@@ -149,6 +149,9 @@ subsection Representative volume
   set Final tolerance = 1e-8
   set Break rule = only worst
   set Most iterations = 50
+  set Boundary = weakly periodic
+  set Traction pieces = 7
+  set Free axis = z
 end
 subsection Sample
   set Material = Mohr-Coulomb
@@ -378,6 +381,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.equilibrium.event_tolerance, 1e-4);
   EXPECT_EQ(input.equilibrium.final_tolerance, 1e-8);
   EXPECT_EQ(input.equilibrium.break_rule, BreakRule::only_worst);
+  EXPECT_EQ(input.boundary, (Boundary{.kind = BoundaryKind::weakly_periodic, .n_pieces = 7, .free_axis = 2}));
   EXPECT_EQ(input.sample.material, "Mohr-Coulomb");
   EXPECT_EQ(input.sample.mesh_file, (folder.path() / "sample.msh").string());
   EXPECT_EQ(input.sample.mesh_unit, MeshUnit::millimetre);

@@ -41,12 +41,12 @@ Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge 
 
 template <int dim = 2>
 RepresentativeVolume<dim> small_rve(const std::uint64_t seed = 1, const EquilibriumParameters& parameters = {},
-                                    const double friction = 0.5)
+                                    const double friction = 0.5, const Boundary& boundary = {})
 {
   Specimen<dim> specimen = periodic_specimen<dim>(seed);
   specimen.joints.friction = friction;
   specimen.particle_contact.friction = friction;
-  return {std::make_shared<const Network<dim>>(specimen), parameters};
+  return {std::make_shared<const Network<dim>>(specimen, Tensor<dim>::Identity(), boundary), parameters};
 }
 
 /// Along the last axis.
@@ -100,11 +100,18 @@ double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<E
 }
 
 /// Condensation by a dense factor with full pivoting, from the links' stiffnesses alone: shares neither iterations nor
-/// preconditioner with what it checks. Where grains float the motions of least norm are taken.
+/// preconditioner with what it checks. Where grains float the motions of least norm are taken; they lie in the kernel of
+/// what the boundary does not admit.
 template <int dim>
 struct DirectSolution
 {
   DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses)
+    : DirectSolution(of, link_stiffnesses, *of.conditions())
+  {
+  }
+
+  DirectSolution(const Network<dim>& of, const std::vector<JointStiffness<dim>>& link_stiffnesses,
+                 const BoundaryConditions<dim>& conditions)
     : network(of)
   {
     constexpr int n_strains = n_voigt<dim>;
@@ -119,11 +126,44 @@ struct DirectSolution
         all.col(c) = column;
       }
     const Eigen::Index n_own = n - n_strains;
-    motions =
-      all.topLeftCorner(n_own, n_own).completeOrthogonalDecomposition().solve(-all.topRightCorner(n_own, n_strains));
+    const Eigen::MatrixXd kernel = admitted(conditions, n_own);
+    const Eigen::MatrixXd of_admitted = kernel.transpose() * all.topLeftCorner(n_own, n_own) * kernel;
+    motions = kernel * of_admitted.completeOrthogonalDecomposition().solve(-kernel.transpose() *
+                                                                           all.topRightCorner(n_own, n_strains));
     stiffness = (all.bottomRightCorner(n_strains, n_strains) + all.bottomLeftCorner(n_strains, n_own) * motions) /
                 network.volume();
     affine_stiffness = all.bottomRightCorner(n_strains, n_strains) / network.volume();
+  }
+
+  /// A basis of the motions that the boundary admits.
+  Eigen::MatrixXd admitted(const BoundaryConditions<dim>& conditions, const Eigen::Index n_own) const
+  {
+    if (conditions.are_none())
+      return Eigen::MatrixXd::Identity(n_own, n_own);
+    std::vector<Eigen::VectorXd> not_admitted;
+    const auto moved = [&](const std::uint32_t grain, const int motion) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Unit(n_own, n_motions<dim> * Eigen::Index(grain) + motion);
+    };
+    for (int c = 0; c < dim; ++c)
+      {
+        for (const std::uint32_t grain : conditions.held())
+          not_admitted.push_back(moved(grain, c));
+        for (const auto& piece : conditions.pieces())
+          {
+            not_admitted.push_back(Eigen::VectorXd::Zero(n_own));
+            for (const auto& pair : piece)
+              not_admitted.back() += pair.share * (moved(pair.image, c) - moved(pair.owner, c));
+          }
+      }
+    if (network.boundary().kind != BoundaryKind::edge)
+      for (const auto& piece : conditions.pieces())
+        for (const auto& pair : piece)
+          for (int turn = dim; turn < n_motions<dim>; ++turn)
+            not_admitted.push_back(moved(pair.image, turn) - moved(pair.owner, turn));
+    Eigen::MatrixXd rows(Eigen::Index(not_admitted.size()), n_own);
+    for (std::size_t k = 0; k < not_admitted.size(); ++k)
+      rows.row(Eigen::Index(k)) = not_admitted[k].transpose();
+    return rows.fullPivLu().kernel();
   }
 
   /// Grains and strain under a strain.

@@ -140,7 +140,7 @@ TEST(GrainMaterial, TheWorkOfThePlatensIsStoredLostAndSetFree)
 {
   EquilibriumParameters equilibrium;
   equilibrium.final_tolerance = 1e-6;
-  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  std::vector<Realisation<2>> realisations;
   for (const std::uint64_t seed : {1, 2})
     realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen<2>(seed, 0.014)));
   const auto mesh = fem::plane_sample(MPI_COMM_WORLD, 0.012, 0.024, {1, 2}, 0);
@@ -251,7 +251,7 @@ TEST(GrainMaterial, CracksAreFieldsInTheAxesOfTheSample)
 // Each point draws by itself: the same seed deals the same whatever the order, another seed otherwise.
 TEST(GrainMaterial, RvesAreDealtByTheSeed)
 {
-  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  std::vector<Realisation<2>> realisations;
   for (const std::uint64_t seed : {1, 2, 3})
     realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
   const auto dealt = [&](const std::uint64_t seed, const unsigned int q) {
@@ -278,7 +278,7 @@ TEST(GrainMaterial, RvesAreDealtByTheSeed)
 // another orientation. In turn: with as many realisations as points (or elements) each is dealt once.
 TEST(GrainMaterial, RvesAreDealtToElementsAndInTurn)
 {
-  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  std::vector<Realisation<2>> realisations;
   for (std::uint64_t seed = 1; seed <= 8; ++seed)
     realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
   using Dealt = std::pair<const Network<2>*, double>;
@@ -313,20 +313,56 @@ TEST(GrainMaterial, RvesAreDealtToElementsAndInTurn)
   EXPECT_EQ(dealt(in_turn, 2, 0, 3), dealt(in_turn, 2, 0, 0));
 }
 
+// Elements on a free side have edges, open along its normal and never turned; others have periodic cells as before.
+TEST(GrainMaterial, ElementsOnFreeSidesHaveEdges)
+{
+  const auto edges = realisation(periodic_specimen(), {.kind = BoundaryKind::edge});
+  const auto material = grain_material<2>({edges}, {});
+  const auto mesh = fem::plane_sample(MPI_COMM_WORLD, 0.036, 0.024, {3, 2}, 0);
+  const fem::Solid<2> sample(mesh, {}, material);
+  const auto usual = grain_material<2>({edges.inside}, {});
+  std::size_t n_edges = 0;
+  for (std::size_t i = 0; i < sample.material_points().size(); ++i)
+    {
+      const fem::PointPlace& place = sample.places()[i];
+      const auto& grains = dynamic_cast<const GrainPoint<2>&>(sample.material_points()[i]);
+      const bool outside = place.position[0] < 0.012 || place.position[0] > 0.024;
+      if (outside)
+        {
+          EXPECT_EQ(grains.rve().network().boundary(), (Boundary{.kind = BoundaryKind::edge, .free_axis = 0}));
+          EXPECT_EQ(grains.orientation(), (Tensor<2>::Identity()));
+          ++n_edges;
+        }
+      else
+        {
+          const auto same = usual.make_point(place);
+          EXPECT_EQ(&grains.rve().network(), edges.inside.get());
+          EXPECT_EQ(grains.orientation(), dynamic_cast<const GrainPoint<2>&>(*same).orientation());
+        }
+    }
+  EXPECT_EQ(n_edges, 4u * 4u); // two of three columns, two rows, four points each
+
+  // A side that leans by 30 degrees: the first axis of the cell is its normal.
+  const auto leaning = material.make_point({"0_0:", 0, 0, {0.0, 0.0}, 0.01, {std::sqrt(0.75), 0.5}});
+  const Vector<2> first = dynamic_cast<const GrainPoint<2>&>(*leaning).orientation().col(0);
+  EXPECT_NEAR(first[0], std::sqrt(0.75), 1e-12);
+  EXPECT_NEAR(first[1], 0.5, 1e-12);
+}
+
 // Weak cells change nothing else: each of their points has the twin of the RVE that it had without them, in the same
 // axes, and the twin is the same network with bonds of that share of their strengths.
 TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
 {
   constexpr double share = 0.8;
-  std::vector<std::shared_ptr<const Network<2>>> realisations;
+  std::vector<Realisation<2>> realisations;
   WeakCells<2> weak{{"1_0:"}, {}};
   for (const std::uint64_t seed : {1, 2})
     {
       const Specimen<2> specimen = periodic_specimen(seed);
       realisations.push_back(std::make_shared<const Network<2>>(specimen));
       weak.twins.push_back(std::make_shared<const Network<2>>(weakened<2>(specimen, share)));
-      const Network<2>& usual = *realisations.back();
-      const Network<2>& twin = *weak.twins.back();
+      const Network<2>& usual = *realisations.back().inside;
+      const Network<2>& twin = *weak.twins.back().inside;
       EXPECT_EQ(twin.intact_stiffness(), usual.intact_stiffness());
       for (std::uint32_t k = 0; k < usual.n_segments(); ++k)
         {
@@ -355,7 +391,7 @@ TEST(GrainMaterial, WeakCellsGetTheTwinsOfTheirRves)
         const Network<2>* expected = usual;
         if (cell == "1_0:")
           {
-            expected = weak.twins[usual == realisations[0].get() ? 0 : 1].get();
+            expected = weak.twins[usual == realisations[0].inside.get() ? 0 : 1].inside.get();
             twins_used.insert(expected);
           }
         EXPECT_EQ(&grains_of(with).rve().network(), expected);

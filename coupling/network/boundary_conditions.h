@@ -1,0 +1,75 @@
+#pragma once
+
+#include "coupling/network/link.h"
+
+#include <Eigen/Cholesky>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+/// The boundary of a cell as conditions on the motions of its grains; docs/theory.md §9.6.
+namespace feldspar
+{
+/// What a boundary asks of the motions u of grains beside the affine ones: B u = 0, and no displacement of the grains that it
+/// holds. All motions of a network go through these conditions; forces that do no work on such motions are borne by the
+/// boundary.
+template <int dim>
+class BoundaryConditions
+{
+public:
+  /// A grain and its image on the other side.
+  struct Pair
+  {
+    std::uint32_t image, owner;
+    double share; ///< of the traction of its piece, negative on a lower side; of a piece the sizes add up to 1
+  };
+  /// The shares of its displacements add up to nothing.
+  using Piece = std::vector<Pair>;
+
+  BoundaryConditions() = default;
+  /// `turn_alike`: the two of a pair also have the same rotation.
+  BoundaryConditions(std::vector<Piece> pieces, bool turn_alike, std::vector<std::uint32_t> held);
+
+  bool are_none() const { return all_pieces.empty() && held_grains.empty(); }
+  const std::vector<Piece>& pieces() const { return all_pieces; }
+  const std::vector<std::uint32_t>& held() const { return held_grains; }
+
+  /// That a piece or a hold acts on.
+  std::vector<std::uint32_t> grains() const;
+
+  /// Less the pairs of which the two are not in one fragment any more, by the joints that hold, the first of the links:
+  /// nothing holds one against the traction on the other. The others of their piece take their share.
+  BoundaryConditions that_bear(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains,
+                               const std::function<bool(std::uint32_t joint)>& holds) const;
+
+  /// Motions less what the conditions do not admit; forces less what the boundary bears. The orthogonal projection.
+  void project(Eigen::VectorXd& motions_or_forces) const;
+
+  /// B u.
+  Eigen::VectorXd violations(const Eigen::VectorXd& motions) const;
+  /// Bᵀ λ; λ are the tractions of the pieces, component by component [N], then the couples of the pairs [N m].
+  void add_reactions(const Eigen::VectorXd& multipliers, double factor, Eigen::VectorXd& forces) const;
+  Eigen::Index n_multipliers() const { return Eigen::Index(rows.size()); }
+  /// λ that bears most of these forces, by least squares.
+  Eigen::VectorXd multipliers(const Eigen::VectorXd& forces) const;
+  Vector<dim> traction(const Eigen::VectorXd& multipliers, const std::size_t piece) const
+  {
+    return multipliers.segment<dim>(dim * Eigen::Index(piece));
+  }
+
+private:
+  struct Entry
+  {
+    Eigen::Index motion;
+    double value;
+  };
+
+  std::vector<Piece> all_pieces;
+  bool pairs_turn_alike = false;
+  std::vector<std::uint32_t> held_grains;
+  std::vector<std::vector<Entry>> rows; ///< of B
+  Eigen::LDLT<Eigen::MatrixXd> gram;    ///< B Bᵀ
+};
+} // namespace feldspar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "coupling/network/network.h"
+
+#include <memory>
+#include <utility>
+
+namespace feldspar
+{
+/// A packing as points of a sample get it.
+template <int dim>
+struct Realisation
+{
+  Realisation(std::shared_ptr<const Network<dim>> of_all)
+    : inside(of_all)
+    , at_side(std::move(of_all))
+  {
+  }
+  Realisation(std::shared_ptr<const Network<dim>> of_inner_points,
+              std::shared_ptr<const Network<dim>> of_points_at_sides)
+    : inside(std::move(of_inner_points))
+    , at_side(std::move(of_points_at_sides))
+  {
+  }
+
+  std::shared_ptr<const Network<dim>> inside;
+  std::shared_ptr<const Network<dim>> at_side; ///< of elements on a free side; an edge, or as inside
+};
+
+/// Under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.
+template <int dim>
+Realisation<dim> realisation(const Specimen<dim>& specimen, const Boundary& boundary);
+} // namespace feldspar
