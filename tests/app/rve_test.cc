@@ -344,7 +344,8 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve", small_cell + free_sides + held + "  set Boundary = edge\n  set Free axis = z\nend\n", "",
          "bad.prm: Representative volume/Free axis = z: in two dimensions it is x or y");
   expect("rve", small_cell + free_sides + held + "  set Boundary = rigid\nend\n", "",
-         "bad.prm:10: Representative volume/Boundary = rigid: must be one of: ");
+         "bad.prm:10: Representative volume/Boundary = rigid: must be periodic or minimal kinematic or weakly "
+         "periodic or edge or affine");
   expect("rve", small_cell + free_sides + held + "  set Traction pieces = 0\nend\n", "",
          "bad.prm:10: Representative volume/Traction pieces = 0: must be an integer in [1, 1000]");
   expect("rve",
