@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Runs the plate with a hole and counts its cracks by place; without names only the tables and the figure are made anew.
+
+    python3 examples/plate-with-hole/study.py FELDSPAR [NAME ...]
+
+NAME is sample, sample-edges (edge cells at free sides) or grains, or all. results/NAME.json is the summary of the run with
+`crack_density`: for each stage of stages.csv the length of cracks over area [m/m²] by ring about the hole and by sector
+from the direction across the load, all four quadrants together. Prints the tables of the README and draws
+../../docs/figures/plate-with-hole.png (gnuplot).
+"""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+import mesh
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+RESULTS = os.path.join(HERE, "results")
+FIGURE = os.path.join(HERE, "../../docs/figures/plate-with-hole.png")
+RUNS = {
+    "sample": ("multiscale", "sample", []),
+    "sample-edges": ("multiscale", "sample", ["--set", "Representative volume/Boundary = edge"]),
+    "grains": ("lab", "grains", []),
+}
+RINGS_MM = (50.0, 62.5, 75.0, 100.0, 125.0, 150.0, 200.0)
+SECTORS_DEG = (0.0, 22.5, 45.0, 67.5, 90.0)
+CELL_M2 = 0.025**2
+SEED = 1
+
+
+def points_of_mesh():
+    """The quadrature points of plate.msh with their areas: x, y [m], area [m²]. Two by two Gauss points an element."""
+    gauss = 1.0 / math.sqrt(3.0)
+    points = []
+    for ring in range(mesh.OUTWARD):
+        for ray in range(mesh.AROUND):
+            corners = [mesh.node(ray + i, ring + j) for j, i in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            for a in (-gauss, gauss):
+                for b in (-gauss, gauss):
+                    shape = [0.25 * (1 + s * a) * (1 + t * b) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+                    of_a = [0.25 * s * (1 + t * b) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+                    of_b = [0.25 * t * (1 + s * a) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+                    total = lambda weights, k: sum(w * corner[k] for w, corner in zip(weights, corners))
+                    area = abs(total(of_a, 0) * total(of_b, 1) - total(of_a, 1) * total(of_b, 0))
+                    points.append((total(shape, 0) / 1e3, total(shape, 1) / 1e3, area / 1e6))
+    return points
+
+
+def bin_of(x, y):
+    """Ring and sector of a place [m], or None."""
+    across, along = abs(1e3 * x - 0.5 * mesh.SIDE), abs(1e3 * y - 0.5 * mesh.SIDE)
+    distance, angle = math.hypot(across, along), math.degrees(math.atan2(along, across))
+    ring = sum(distance >= edge for edge in RINGS_MM) - 1
+    sector = min(sum(angle >= edge for edge in SECTORS_DEG) - 1, len(SECTORS_DEG) - 2)
+    # A hole of grains has no sharp wall, and one of straight elements lies a little within the circle.
+    ring = max(ring, 0)
+    return (ring, sector) if ring < len(RINGS_MM) - 1 else None
+
+
+def stages():
+    with open(os.path.join(HERE, "stages.csv"), encoding="utf-8") as file:
+        return [float(row["axial_stress_Pa"]) for row in csv.DictReader(file)]
+
+
+def crack_density(out, of_points):
+    """By stage, ring and sector. A crack of a sample stands for those of its point's area; the mean over the points."""
+    name = f"own_loading_seed_{SEED}"
+    with open(os.path.join(out, "curves", name + ".csv"), encoding="utf-8") as file:
+        curve = [(float(row["axial_strain"]), float(row["axial_stress_Pa"])) for row in csv.DictReader(file)]
+    with open(os.path.join(out, "cracks.csv"), encoding="utf-8") as file:
+        cracks = [
+            (float(row["axial_strain"]), float(row["x_m"]), float(row["y_m"]), float(row["size_m"]))
+            for row in csv.DictReader(file)
+        ]
+    n_rings, n_sectors = len(RINGS_MM) - 1, len(SECTORS_DEG) - 1
+    area = [[0.0] * n_sectors for _ in range(n_rings)]
+    weight = {}
+    for x, y, of_point in points_of_mesh() if of_points else []:
+        place = bin_of(x, y)
+        if place:
+            area[place[0]][place[1]] += of_point
+        weight[round(x, 6), round(y, 6)] = of_point / CELL_M2
+    if not of_points:
+        for ring in range(n_rings):
+            whole = math.pi * (RINGS_MM[ring + 1] ** 2 - RINGS_MM[ring] ** 2) / 1e6
+            area[ring] = [whole / n_sectors] * n_sectors
+    densities = {}
+    for stage in stages():
+        until = max((strain for strain, stress in curve if stress <= 1.0001 * stage), default=0.0)
+        length = [[0.0] * n_sectors for _ in range(n_rings)]
+        for strain, x, y, size in cracks:
+            place = bin_of(x, y)
+            if strain <= until and place:
+                length[place[0]][place[1]] += size * (weight[round(x, 6), round(y, 6)] if of_points else 1.0)
+        densities[f"{stage / 1e6:g} MPa"] = [
+            [length[ring][sector] / area[ring][sector] for sector in range(n_sectors)] for ring in range(n_rings)
+        ]
+    return densities
+
+
+def run(feldspar, name):
+    command, of_input, settings = RUNS[name]
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "out")
+        arguments = [feldspar, command, os.path.join(HERE, of_input + ".prm"), "--output", out, *settings]
+        outcome = subprocess.run(arguments, check=False)
+        if outcome.returncode != 0:
+            sys.exit(f"{name}: exit code {outcome.returncode}")
+        keep(name, out)
+
+
+def keep(name, out):
+    with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    for key in ("ensemble", "fits", "verdict"):
+        summary.pop(key, None)
+    summary["crack_density"] = crack_density(out, of_points=name != "grains")
+    os.makedirs(RESULTS, exist_ok=True)
+    with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
+        file.write(json.dumps(summary, indent=2) + "\n")
+
+
+def results(name):
+    path = os.path.join(RESULTS, name + ".json")
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def ring_areas():
+    return [math.pi * (b**2 - a**2) / 1e6 for a, b in zip(RINGS_MM, RINGS_MM[1:])]
+
+
+def whole_length(density):
+    """Of the cracks up to RINGS_MM[-1] [m]."""
+    return sum(area * sum(row) / len(row) for area, row in zip(ring_areas(), density))
+
+
+def mean_place(density):
+    """Of the length of cracks: distance from the middle of the hole [mm], angle from the direction across the load [deg]."""
+    distance = angle = total = 0.0
+    for (near, far), area, row in zip(zip(RINGS_MM, RINGS_MM[1:]), ring_areas(), density):
+        for low, high, value in zip(SECTORS_DEG, SECTORS_DEG[1:], row):
+            share = value * area / len(row)
+            distance += share * 0.5 * (near + far)
+            angle += share * 0.5 * (low + high)
+            total += share
+    return distance / total, angle / total
+
+
+def print_tables():
+    names = [name for name in RUNS if results(name)]
+    print("| σ_1 [MPa] | body | cracks within 200 mm [m] | mean distance [mm] | mean angle [deg] |\n|---|---|---|---|---|")
+    for stage in stages():
+        for name in names:
+            density = results(name)["crack_density"][f"{stage / 1e6:g} MPa"]
+            distance, angle = mean_place(density) if whole_length(density) > 0.0 else (math.nan, math.nan)
+            print(f"| {stage / 1e6:g} | {name} | {whole_length(density):.3f} | {distance:.0f} | {angle:.0f} |")
+    print()
+    for name in names:
+        for stage in (f"{stage / 1e6:g} MPa" for stage in stages()[-2:]):
+            print(f"{name}, {stage}: cracks [m/m²] by ring (rows) and sector")
+            print("| distance [mm] | " + " | ".join(f"{a:g}–{b:g}°" for a, b in zip(SECTORS_DEG, SECTORS_DEG[1:])) + " |")
+            print("|---|---|---|---|---|")
+            for near, far, row in zip(RINGS_MM, RINGS_MM[1:], results(name)["crack_density"][stage]):
+                print(f"| {near:g}–{far:g} | " + " | ".join(f"{value:.1f}" for value in row) + " |")
+            print()
+
+
+def main():
+    feldspar = os.path.realpath(sys.argv[1])
+    names = sys.argv[2:]
+    if names == ["all"]:
+        names = list(RUNS)
+    if names:
+        subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), feldspar], check=True)
+    for name in names:
+        run(feldspar, name)
+    print_tables()
+
+
+if __name__ == "__main__":
+    main()
