@@ -3,9 +3,9 @@
 
     python3 examples/multiscale-and-grains/study.py FELDSPAR [NAME ...]
 
-NAME is that of an input here, or all. results/NAME.json is the summary of its run; for the paths of RVEs it also has
-the course after the peak (after_peak), read off the curves. Prints the tables of the README and draws
-../../docs/figures/multiscale-and-grains.png (gnuplot).
+NAME is an experiment of EXPERIMENTS, or all. results/NAME.json is the summary of its run; for turned cells it also has
+the course after the peak (after_peak), read off the curves, and of cells by their boundaries only what is told of them
+(TOLD_OF_CELLS). Prints the tables of the README and draws ../../docs/figures/multiscale-and-grains.png (gnuplot).
 """
 
 import csv
@@ -22,16 +22,53 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 RESULTS = os.path.join(HERE, "results")
 FIGURE = os.path.join(HERE, "../../docs/figures/multiscale-and-grains.png")
-COMMANDS = {
-    "laboratory": "lab",
-    "sample": "multiscale",
-    "cored": "lab",
-    "rate": "lab",
-    "same-cells-grains": "lab",
-    "same-cells-sample": "multiscale",
-    "angles-tension": "rve",
-    "angles-compression": "rve",
+
+
+class Experiment:
+    """An input of this folder and what it is run for: `runs` has the entries that are set anew, one tuple a run."""
+
+    def __init__(self, command, name, runs=((),)):
+        self.command = command
+        self.input = os.path.join(HERE, name + ".prm")
+        self.runs = runs
+
+
+def with_seeds(first, last, *entries):
+    """Samples take minutes each: one run a seed can be kept by itself."""
+    return tuple((f"Seeds/Seeds = {seed}", *entries) for seed in range(first, last + 1))
+
+
+SIZES_MM = (12.5, 18.0, 25.0, 36.0)  # of cells by their boundaries; those of 36 mm are only pulled
+BOUNDARIES = ("minimal kinematic", "weakly periodic", "edge", "periodic", "affine")
+N_POINTS = 32  # of a sample of 2 x 4 elements
+UNTURNED = "Sample/Orientation = fixed"
+
+
+def at_boundary(boundary):
+    return f"Representative volume/Boundary = {boundary}"
+
+
+EXPERIMENTS = {
+    "laboratory": Experiment("lab", "laboratory"),
+    "sample": Experiment("multiscale", "sample", with_seeds(1, 10)),
+    "cored": Experiment("lab", "cored"),
+    "rate": Experiment("lab", "rate"),
+    "same-cells-grains": Experiment("lab", "same-cells-grains"),
+    "same-cells-sample": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2)),
+    "angles-tension": Experiment("rve", "angles-tension"),
+    "angles-compression": Experiment("rve", "angles-compression"),
+    "sample-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, UNTURNED)),
+    "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
+for way, sizes in (("tension", SIZES_MM), ("compression", SIZES_MM[:3])):
+    for size in sizes:
+        EXPERIMENTS[f"boundaries-{way}-{size:g}-mm"] = Experiment(
+            "rve", f"boundaries-{way}", ((f"Specimen/Width = {size:g} mm", f"Specimen/Height = {size:g} mm"),)
+        )
+for boundary in BOUNDARIES[:3]:
+    EXPERIMENTS["same-cells-sample-" + boundary.replace(" ", "-")] = Experiment(
+        "multiscale", "same-cells-sample", with_seeds(1, 1, at_boundary(boundary))
+    )
 
 
 def after_peak(rve, curve):
@@ -53,21 +90,37 @@ def after_peak(rve, curve):
     }
 
 
-def seeds_of(name):
-    """Of samples, which take minutes each: so that they can be run and kept one by one."""
-    with open(os.path.join(HERE, name + ".prm"), encoding="utf-8") as file:
-        first, last = re.search(r"set Seeds *= *(\d+)\.\.(\d+)", file.read()).groups()
-    return range(int(first), int(last) + 1)
+TOLD_OF_CELLS = (
+    "name",
+    "seed",
+    "variant",
+    "boundary",
+    "n_grains",
+    "n_joints",
+    "porosity",
+    "cell_m",
+    "stiffness_Pa",
+    "youngs_modulus_Pa",
+    "highest_stress",
+    "lowest_stress",
+    "at_end",
+    "increments",
+    "ended_early",
+    "energy_imbalance",
+    "hill_mandel_residual",
+    "wall_time_s",
+)
 
 
 def run(feldspar, name):
-    command = COMMANDS[name]
+    experiment = EXPERIMENTS[name]
     with tempfile.TemporaryDirectory() as folder:
         outs = []
-        for settings in [["--set", f"Seeds/Seeds = {k}"] for k in seeds_of(name)] if command == "multiscale" else [[]]:
+        for entries in experiment.runs:
             outs.append(os.path.join(folder, f"out-{len(outs)}"))
+            settings = [word for entry in entries for word in ("--set", entry)]
             outcome = subprocess.run(
-                [feldspar, command, os.path.join(HERE, name + ".prm"), "--output", outs[-1], "--quiet", *settings],
+                [feldspar, experiment.command, experiment.input, "--output", outs[-1], "--quiet", *settings],
                 check=False,
             )
             if outcome.returncode not in (0, 2):  # a path or test that ended early is a result too
@@ -76,24 +129,27 @@ def run(feldspar, name):
 
 
 def keep(name, outs):
-    """The summaries of result folders as results/NAME.json: that of the first, with the tests of all."""
+    """The summaries of result folders as results/NAME.json: that of the first, with the tests or paths of all."""
     summaries = []
     for out in outs:
         with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
             summaries.append(json.load(file))
     summary = summaries[0]
-    if COMMANDS[name] == "multiscale":
+    command = EXPERIMENTS[name].command
+    if command == "multiscale":
         tests = [test for one in summaries for test in one["tests"] if not test["interrupted"]]
         summary["tests"] = sorted(tests, key=lambda test: (test["seed"], test["kind"]))
         for of_first in ("ensemble", "fits", "verdict"):
             summary.pop(of_first, None)
-    if COMMANDS[name] == "rve":
+    if name.startswith("angles"):
         summary["after_peak"] = []
         for rve in summary["rves"]:
             with open(os.path.join(outs[0], "curves", rve["name"] + ".csv"), encoding="utf-8") as file:
                 curve = list(csv.DictReader(file))
             if rve["at_end"]["strain_yy"] != 0.0:  # else it found no equilibrium at its first increment
                 summary["after_peak"].append(after_peak(rve, curve))
+    if name.startswith("boundaries"):
+        summary["rves"] = [{key: rve[key] for key in TOLD_OF_CELLS if key in rve} for rve in summary["rves"]]
     with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
         file.write(json.dumps(summary, indent=2) + "\n")
 
@@ -195,6 +251,37 @@ def print_bodies():
     print()
 
 
+SAME_CELLS = (("grains side by side, 1/s", "same-cells-grains"), ("periodic", "same-cells-sample")) + tuple(
+    (boundary, "same-cells-sample-" + boundary.replace(" ", "-")) for boundary in BOUNDARIES[:3]
+)
+
+
+def print_same_cells():
+    """Values of the single seeds; the time of one point's response from all its iterations and cascades."""
+    print("| body | σ_t [MPa] | UCS [MPa] | σ_ci [MPa] | E_0 [GPa] | energy, at most off by | a response takes [ms] |")
+    print("|---|---|---|---|---|---|---|")
+    for label, name in SAME_CELLS:
+        crushed = tests_of(name, "uniaxial_compression")
+        if not crushed:
+            continue
+        listed = lambda values, decimals: ", ".join(f"{value:.{decimals}f}" for value in values)
+        cells = [
+            label,
+            listed(peaks(name, "direct_tension"), 1),
+            listed(peaks(name, "uniaxial_compression"), 0),
+            listed([test["crack_initiation_stress_Pa"] / 1e6 for test in crushed], 0),
+            listed([test["youngs_modulus_initial_Pa"] / 1e9 for test in crushed], 1),
+            f"{100 * max(test['energy_imbalance_over_work'] for test in crushed):.1f} %",
+        ]
+        times = []
+        for test in crushed:
+            if "solver_work" in test:
+                work = test["solver_work"]
+                times.append(1e3 * work["seconds_in_points"] / ((work["iterations"] + work["cascades"]) * N_POINTS))
+        print(f"| {' | '.join(cells + [listed(times, 0) or '–'])} |")
+    print()
+
+
 def of_angle(name, key):
     """By angle, one value a packing."""
     summary = results(name)
@@ -216,6 +303,52 @@ def print_angles():
     for angle in sorted(tables[0][0]):
         cells = [shown([v / scale for v in table.get(angle, [])], decimals) for table, scale, decimals in tables]
         print(f"| {angle} | {' | '.join(cells)} |")
+    print()
+
+
+def cells_of(way, size, boundary):
+    """By seed."""
+    summary = results(f"boundaries-{way}-{size:g}-mm")
+    return {rve["seed"]: rve for rve in (summary["rves"] if summary else []) if rve["boundary"].startswith(boundary)}
+
+
+def strengths_of(way, size, boundary):
+    """By seed, along the axis [MPa]."""
+    key, sign = ("highest_stress", 1e-6) if way == "tension" else ("lowest_stress", -1e-6)
+    return {seed: sign * rve[key]["yy"]["stress_Pa"] for seed, rve in cells_of(way, size, boundary).items()}
+
+
+def print_boundaries():
+    """The bracket: a row a size and boundary, means over the packings; then how it narrows and where it fails."""
+    print("| edge [mm] | boundary | E [GPa] | σ_t [MPa] | UCS [MPa] | pressed to the end |\n|---|---|---|---|---|---|")
+    moduli = {}
+    for size in SIZES_MM:
+        for boundary in BOUNDARIES:
+            pulled, pressed = (cells_of(way, size, boundary) for way in ("tension", "compression"))
+            moduli[size, boundary] = [rve["youngs_modulus_Pa"] / 1e9 for rve in pulled.values()]
+            cells = [
+                f"{size:g}",
+                boundary,
+                shown(moduli[size, boundary], 1),
+                shown(list(strengths_of("tension", size, boundary).values()), 1),
+                shown(list(strengths_of("compression", size, boundary).values()), 0),
+                f"{sum('ended_early' not in rve for rve in pressed.values())} of {len(pressed)}" if pressed else "–",
+            ]
+            print(f"| {' | '.join(cells)} |")
+    print()
+    for size in SIZES_MM:
+        mean = {boundary: statistics.mean(moduli[size, boundary] or [math.nan]) for boundary in BOUNDARIES}
+        width = (mean["affine"] - mean["minimal kinematic"]) / mean["periodic"]
+        print(f"bracket of E over E, {size:g} mm: {100 * width:.1f} %, times the edge {width * size:.2f} mm")
+    for way in ("tension", "compression"):
+        for below, above in (("minimal kinematic", "periodic"), ("periodic", "affine")):
+            pairs = [
+                (strength, strengths_of(way, size, above)[seed])
+                for size in SIZES_MM
+                for seed, strength in strengths_of(way, size, below).items()
+            ]
+            wrong = sum(one > other for one, other in pairs)
+            print(f"{way}: {below} stronger than {above} in {wrong} of {len(pairs)} packings")
     print()
 
 
@@ -272,7 +405,7 @@ def main():
     feldspar = os.path.realpath(sys.argv[1])
     names = sys.argv[2:]
     if names == ["all"]:
-        names = list(COMMANDS)
+        names = list(EXPERIMENTS)
     if names:
         subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), feldspar], check=True)
     for name in names:
@@ -292,10 +425,9 @@ def main():
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
-    for name in ("same-cells-grains", "same-cells-sample"):
-        for kind in ("direct_tension", "uniaxial_compression"):
-            print(f"{name}, {kind}: " + ", ".join(f"{value:.1f}" for value in peaks(name, kind)))
+    print_same_cells()
     print_angles()
+    print_boundaries()
     draw()
 
 

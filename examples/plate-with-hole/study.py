@@ -5,7 +5,8 @@
 
 NAME is sample, sample-edges (edge cells at free sides) or grains, or all. results/NAME.json is the summary of the run with
 `crack_density`: for each stage of stages.csv the length of cracks over area [m/m²] by ring about the hole and by sector
-from the direction across the load, all four quadrants together. Prints the tables of the README and draws
+from the direction across the load, all four quadrants together, and `map`, the same at the last stage by place: at the
+points of the mesh, or in squares of 10 mm. Prints the tables of the README and draws
 ../../docs/figures/plate-with-hole.png (gnuplot).
 """
 
@@ -31,6 +32,10 @@ RINGS_MM = (50.0, 62.5, 75.0, 100.0, 125.0, 150.0, 200.0)
 SECTORS_DEG = (0.0, 22.5, 45.0, 67.5, 90.0)
 CELL_M2 = 0.025**2
 SEED = 1
+
+
+def ring_areas():
+    return [math.pi * (b**2 - a**2) / 1e6 for a, b in zip(RINGS_MM, RINGS_MM[1:])]
 
 
 def points_of_mesh():
@@ -67,40 +72,59 @@ def stages():
         return [float(row["axial_stress_Pa"]) for row in csv.DictReader(file)]
 
 
-def crack_density(out, of_points):
-    """By stage, ring and sector. A crack of a sample stands for those of its point's area; the mean over the points."""
+def cracks_by_stage(out):
+    """Of each stage its name and the cracks until its end: x, y, length [m]."""
     name = f"own_loading_seed_{SEED}"
     with open(os.path.join(out, "curves", name + ".csv"), encoding="utf-8") as file:
         curve = [(float(row["axial_strain"]), float(row["axial_stress_Pa"])) for row in csv.DictReader(file)]
     with open(os.path.join(out, "cracks.csv"), encoding="utf-8") as file:
-        cracks = [
-            (float(row["axial_strain"]), float(row["x_m"]), float(row["y_m"]), float(row["size_m"]))
-            for row in csv.DictReader(file)
-        ]
-    n_rings, n_sectors = len(RINGS_MM) - 1, len(SECTORS_DEG) - 1
-    area = [[0.0] * n_sectors for _ in range(n_rings)]
-    weight = {}
-    for x, y, of_point in points_of_mesh() if of_points else []:
-        place = bin_of(x, y)
-        if place:
-            area[place[0]][place[1]] += of_point
-        weight[round(x, 6), round(y, 6)] = of_point / CELL_M2
-    if not of_points:
-        for ring in range(n_rings):
-            whole = math.pi * (RINGS_MM[ring + 1] ** 2 - RINGS_MM[ring] ** 2) / 1e6
-            area[ring] = [whole / n_sectors] * n_sectors
-    densities = {}
+        keys = ("axial_strain", "x_m", "y_m", "size_m")
+        cracks = [[float(row[key]) for key in keys] for row in csv.DictReader(file)]
     for stage in stages():
-        until = max((strain for strain, stress in curve if stress <= 1.0001 * stage), default=0.0)
-        length = [[0.0] * n_sectors for _ in range(n_rings)]
-        for strain, x, y, size in cracks:
-            place = bin_of(x, y)
-            if strain <= until and place:
-                length[place[0]][place[1]] += size * (weight[round(x, 6), round(y, 6)] if of_points else 1.0)
-        densities[f"{stage / 1e6:g} MPa"] = [
-            [length[ring][sector] / area[ring][sector] for sector in range(n_sectors)] for ring in range(n_rings)
-        ]
-    return densities
+        # The platens of the last stage stop where its stress is passed; that of grains swings by a thousandth.
+        until = max((strain for strain, stress in curve if stress <= 1.001 * stage), default=0.0)
+        yield f"{stage / 1e6:g} MPa", [crack[1:] for crack in cracks if crack[0] <= until]
+
+
+class Patches:
+    """The places over whose area cracks are counted: the points of a mesh, each with the area of its cell, or any."""
+
+    def __init__(self, of_points):
+        self.points = points_of_mesh() if of_points else []
+        self.share = {(round(x, 6), round(y, 6)): area / CELL_M2 for x, y, area in self.points}
+        n_sectors = len(SECTORS_DEG) - 1
+        if of_points:
+            self.area = [[0.0] * n_sectors for _ in RINGS_MM[1:]]
+            for x, y, area in self.points:
+                place = bin_of(x, y)
+                if place:
+                    self.area[place[0]][place[1]] += area
+        else:
+            self.area = [[area / n_sectors] * n_sectors for area in ring_areas()]
+
+    def length_of(self, crack):
+        """What a crack stands for [m]."""
+        x, y, length = crack
+        return length * self.share[round(x, 6), round(y, 6)] if self.share else length
+
+    def by_ring_and_sector(self, cracks):
+        length = [[0.0] * len(row) for row in self.area]
+        for crack in cracks:
+            place = bin_of(*crack[:2])
+            if place:
+                length[place[0]][place[1]] += self.length_of(crack)
+        return [[one / area for one, area in zip(*rows)] for rows in zip(length, self.area)]
+
+    def map(self, cracks):
+        """Where there are cracks: x, y [mm], m/m²."""
+        density = {}
+        for x, y, length in cracks:
+            if self.share:
+                place, area = (round(1e3 * x, 2), round(1e3 * y, 2)), CELL_M2
+            else:
+                place, area = (10 * int(100 * x) + 5, 10 * int(100 * y) + 5), 1e-4
+            density[place] = density.get(place, 0.0) + length / area
+        return [[*place, round(value, 1)] for place, value in sorted(density.items())]
 
 
 def run(feldspar, name):
@@ -119,10 +143,16 @@ def keep(name, out):
         summary = json.load(file)
     for key in ("ensemble", "fits", "verdict"):
         summary.pop(key, None)
-    summary["crack_density"] = crack_density(out, of_points=name != "grains")
+    patches = Patches(of_points=name != "grains")
+    by_stage = dict(cracks_by_stage(out))
+    summary["crack_density"] = {stage: patches.by_ring_and_sector(cracks) for stage, cracks in by_stage.items()}
+    summary["map"] = patches.map(list(by_stage.values())[-1])
     os.makedirs(RESULTS, exist_ok=True)
     with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps(summary, indent=2) + "\n")
+        places = summary.pop("map")
+        text = json.dumps(summary, indent=2)
+        rows = ",\n".join("    " + json.dumps(row) for row in places)
+        file.write(text[: text.rindex("\n}")] + f',\n  "map": [\n{rows}\n  ]\n}}\n')
 
 
 def results(name):
@@ -131,10 +161,6 @@ def results(name):
         return None
     with open(path, encoding="utf-8") as file:
         return json.load(file)
-
-
-def ring_areas():
-    return [math.pi * (b**2 - a**2) / 1e6 for a, b in zip(RINGS_MM, RINGS_MM[1:])]
 
 
 def whole_length(density):
@@ -173,6 +199,34 @@ def print_tables():
             print()
 
 
+def draw():
+    """Where the cracks are at the last stage, over log of their length per area."""
+    titles = {"sample": "finite elements with cells of grains", "grains": "93 000 grains"}
+    names = [name for name in titles if results(name)]
+    script = [
+        f'set terminal pngcairo size {520 * len(names) + 80},520 font "sans,11"',
+        f'set output "{FIGURE}"',
+        f"set multiplot layout 1,{len(names)}",
+        "set size ratio -1",
+        "set xrange [0:500]",
+        "set yrange [0:500]",
+        'set xlabel "x [mm]"',
+        'set ylabel "y [mm]"',
+        'set cblabel "cracks [m/m²]"',
+        "set logscale cb",
+        "set cbrange [3:1000]",
+        'set palette defined (0 "#fde0c0", 1 "#e06010", 2 "#601060")',
+        "set object circle at 250,250 size 50 fc rgb 'black' fs empty border lw 1.5",
+        "unset key",
+    ]
+    for name in names:
+        rows = results(name)["map"]
+        script += [f"$map_{len(script)} << EOD", *(" ".join(map(str, row)) for row in rows if row[2] >= 3.0), "EOD"]
+        block = [line.split()[0] for line in script if line.startswith("$map_")][-1]
+        script += [f'set title "{titles[name]}, 120 MPa along y"', f"plot {block} using 1:2:3 with points pt 7 ps 0.8 lc palette"]
+    subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, cwd=HERE, check=True)
+
+
 def main():
     feldspar = os.path.realpath(sys.argv[1])
     names = sys.argv[2:]
@@ -183,6 +237,7 @@ def main():
     for name in names:
         run(feldspar, name)
     print_tables()
+    draw()
 
 
 if __name__ == "__main__":
