@@ -430,6 +430,8 @@ end
       EXPECT_NEAR(table.number(table.place("peak_stress_Pa")), peak, 1e-9 * peak); // ten digits
     }
   EXPECT_FALSE(table.next());
+  EXPECT_TRUE(content(folder.path() / "out/tables/comparison.csv")
+                .starts_with("source,kind,Flat joint/Bond tensile strength [MPa],property,unit,mean,"));
 }
 
 // A core is tested like any specimen, to the same bits for any number of threads; what it is stands in the results, in
