@@ -116,6 +116,11 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   EXPECT_GE(n_images, 25); // 4 tests shown with 4 curves and 2 maps each, and the envelopes
   EXPECT_EQ(count(words, "class=\"absent\""), 0u);
   EXPECT_EQ(count(words, "{{"), 0u);
+  // What a slider shows has a caption of its own beside that of the printed map.
+  const std::size_t n_sliders = count(words, R"({"what":"cracks",)");
+  EXPECT_GE(n_sliders, 4u);
+  EXPECT_EQ(count(words, "<span class=\"of-live\">"), n_sliders);
+  EXPECT_EQ(count(words, "<span class=\"of-picture\">"), n_sliders);
   holds(words, {"Test granite: model and rock", "Is the model the rock?", "Not in every respect: 1 of 2 properties",
                 "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
                 "Only 2 specimens", "a model", "made up", "Width"});
@@ -628,6 +633,7 @@ void expect_shown_in_a_browser(const fs::path& page)
   const std::string alive = Browser::show(page, "--window-size=1280,2500 --virtual-time-budget=5000 --dump-dom").output;
   EXPECT_NE(alive.find("<figure class=\"live\"><div class=\"stage\">"), std::string::npos);
   EXPECT_NE(alive.find("<canvas"), std::string::npos);
+  EXPECT_NE(alive.find("<div class=\"key\"><button type=\"button\""), std::string::npos); // of words, which break lines
 
   // Tables scroll in their places. The probe replaces the policy, which forbids scripts; a window of the browser is never
   // as narrow as a phone, a frame in it is.
