@@ -1,3 +1,4 @@
+#include "app/commands/check_input.h"
 #include "app/commands/commands.h"
 #include "app/commands/manual.h"
 #include "app/input/nearest_name.h"
@@ -154,6 +155,10 @@ private:
     command.add_option("SECTION", parameters.section, "only this one, or the entries that have this word");
     CLI::Option* const check = command.add_option("--check", parameters.check, "only check this input file");
     check->type_name("INPUT");
+    command.add_option("--for", parameters.check_for, "whether this command takes it (default: say which do)")
+      ->type_name("COMMAND")
+      ->check(CLI::IsMember(commands_with_input()).description(""))
+      ->needs(check);
     add_settings(command, parameters.settings)->needs(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
@@ -218,7 +223,7 @@ private:
           {"report", "feldspar report granite slate --reference rock.json\n"
                      "  feldspar report granite --curve core.csv"},
           {"parameters", "feldspar parameters Tests\n  feldspar parameters friction\n"
-                         "  feldspar parameters --check granite.prm"}})
+                         "  feldspar parameters --check granite.prm --for lab"}})
       app.get_subcommand(command)->footer(fmt::format("Examples:\n  {}", example));
   }
 

@@ -4,7 +4,6 @@
 #include "base/whole_file.h"
 #include "report/pictures/lab_pictures.h"
 #include "report/sections/sections.h"
-#include "report/sections/test_tables.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"
 
@@ -110,14 +109,13 @@ void keep_pictures_of_single_tests(const std::vector<Series>& all, PictureBook& 
   book.keep_as_files(overview_picture(all.front()));
 }
 
-void write_tables(const Page& page, const Findings& findings, const std::filesystem::path& folder)
+void write_tables(const Page& page, const std::filesystem::path& folder)
 {
   for (const auto& section : page.sections)
     for (const auto& block : section.blocks)
       for (const auto* tables : {&block.tables, &block.tables_as_files})
         for (const auto& table : *tables)
-          write_whole_file(folder / (table.name + ".csv"),
-                           as_csv(table.name == "tests" ? test_table(findings, true) : table));
+          write_whole_file(folder / (table.name + ".csv"), as_csv(table));
 }
 } // namespace
 
@@ -138,7 +136,7 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const std::string not_drawn = book.draw_into(figures, page, is_over);
   if (!not_drawn.empty())
     page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + not_drawn);
-  write_tables(page, findings, folder / result_file::tables);
+  write_tables(page, folder / result_file::tables);
   write_page(page, folder / result_file::page, figures);
 
   std::vector<std::string> missing;

@@ -19,7 +19,7 @@ struct GrainPicture
   std::array<double, 3> position; ///< at the end [m]
   double radius;                  ///< [m]
   std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
-  std::uint32_t mineral = 0;      ///< number of the mineral grain it is a part of, from 1; 0: of none
+  std::uint32_t mineral = 0;      ///< number of the mineral grain or clump it is a part of, from 1; 0: of none
 };
 
 /// The grains at one row of the curve.

@@ -22,6 +22,9 @@ int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);
 
+/// What `feldspar contact` writes: the response of the joint to its path, as CSV. Throws InputError.
+std::string contact_response(const Input& input, const std::filesystem::path& input_file);
+
 struct ReportOptions
 {
   std::vector<std::filesystem::path> result_folders;
@@ -38,6 +41,7 @@ struct ParametersOptions
 {
   std::string section; ///< empty: all
   std::optional<std::filesystem::path> check;
+  std::string check_for;             ///< the command that the input is checked for; empty: all
   std::vector<std::string> settings; ///< of the input to be checked, as CommonOptions has them
   bool markdown = false;
 };

@@ -178,13 +178,18 @@ std::string response(const Input& input)
 }
 } // namespace
 
+std::string contact_response(const Input& input, const std::filesystem::path& input_file)
+{
+  if (input.contact.path_file.empty())
+    throw InputError(
+      fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string()));
+  return input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
+}
+
 int run_contact(const CommonOptions& options)
 {
   const Input input = read_input(options.input, {}, options.settings);
-  if (input.contact.path_file.empty())
-    throw InputError(
-      fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", options.input.string()));
-  const std::string table = input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
+  const std::string table = contact_response(input, options.input);
   const OutputFolder folder(options.output, options.input, options.force);
   const FolderLock lock(folder.path());
   write_whole_file(folder.path() / "contact.csv", table);

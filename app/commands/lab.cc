@@ -107,17 +107,8 @@ RunEnd test_alone(const Run& run, Progress& progress)
   const auto orders = specimen_orders(all_variants);
   check_memory_of_tests(all_variants, orders);
   const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
-  for (const auto& specimen : specimens)
-    if (specimen.periodic)
-      throw InputError(fmt::format("{}: Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen "
-                                   "between walls (feldspar rve takes a cell)",
-                                   input_file.string()));
-
-  if (!input.specimen.specimen_file.empty()) // it brought its own shape
-    with_name_of(input_file, [&] {
-      for (const Variant& variant : all_variants)
-        check_on_body(variant.input, dim == 2 ? Body::plane_box : specimens.front().round ? Body::cylinder : Body::box);
-    });
+  if (!input.specimen.specimen_file.empty())
+    with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });
 
   // Break it.
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);

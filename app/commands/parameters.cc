@@ -1,12 +1,10 @@
+#include "app/commands/check_input.h"
 #include "app/commands/commands.h"
-#include "app/input/input.h"
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
-#include "dem/lab/protocols/protocols.h"
-#include "results/folder/reference.h"
 
 #include <fmt/format.h>
 
@@ -66,9 +64,7 @@ int run_parameters(const ParametersOptions& options)
 {
   if (options.check)
     {
-      if (const Input input = read_input(*options.check, {}, options.settings); !input.reference_file.empty())
-        read_reference(input.reference_file, test_kinds());
-      print_result("{}: OK\n", options.check->string());
+      check_input(*options.check, options.settings, options.check_for);
       return 0;
     }
   if (!options.section.empty() && entry_names(options.section).empty())

@@ -131,18 +131,8 @@ FinishedRve<dim> run_rve(const Variant& variant, const std::string& name, const 
   std::optional<NetworkState<dim>> start; // an RVE out of a sample goes on from where it stands there
   if (const std::string& file = input.specimen.specimen_file; !file.empty())
     start = read_rve_state(file, *network);
-  if (start && input.strain_path.cell_angle != 0.0)
-    throw InputError(fmt::format("Strain path/Cell angle: {} is an RVE in the state it has in its sample, which is "
-                                 "in the axes of its cell; set Cell angle = 0 deg",
-                                 input.specimen.specimen_file));
-  if (start && !input.flaws.all().empty())
-    throw InputError(fmt::format("Flaws: {} is an RVE in the state it has in its sample, and takes none; put them into "
-                                 "the RVE of the sample",
-                                 input.specimen.specimen_file));
-  if (start && input.strain_path.solver == PathSolver::explicit_dynamics)
-    throw InputError(fmt::format("Strain path/Solver = explicit: {} is an RVE in the state it has in its sample, and "
-                                 "explicit dynamics begin at rest; set Solver = event by event",
-                                 input.specimen.specimen_file));
+  if (start)
+    check_rve_out_of_sample(input);
   if (input.strain_path.solver == PathSolver::explicit_dynamics)
     return finish(go_path(
       [&] {
@@ -226,11 +216,10 @@ RunEnd strain_alone(const Run& run, Progress& progress)
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
   const auto specimens = provide_specimens<dim>(all_variants, orders, run.folder, progress);
-  for (const auto& specimen : specimens)
-    if (!specimen.periodic)
-      throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; a representative volume "
-                                   "needs a periodic cell (feldspar lab takes walls)",
-                                   run.input_file.string()));
+  with_name_of(run.input_file, [&] {
+    for (const auto& specimen : specimens)
+      check_cell(specimen, "a representative volume");
+  });
 
   // Strain it.
   std::filesystem::create_directories(run.folder / "checkpoints");

@@ -3,6 +3,7 @@
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
+#include "coupling/rve/rve_file.h"
 #include "coupling/sample/continua/continua.h"
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_parameters.h"
@@ -14,7 +15,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -53,8 +53,8 @@ void check_boundary(const Input& input)
     refuse("Representative volume/Free axis = z: in two dimensions it is x or y");
 }
 
-/// The size of a sample whose input can be run.
-SampleSize checked_sample(const Input& input)
+/// All of a sample but its mesh.
+void check_sample(const Input& input)
 {
   const bool has_grains = input.sample.has_grains();
   const SampleGeometry geometry = input.sample.geometry;
@@ -105,6 +105,11 @@ SampleSize checked_sample(const Input& input)
     refuse(fmt::format("Sample/Elements across = {}, Elements along = {}: some {:.0e} cells; more than {:.0e} are not "
                        "meshed",
                        input.sample.elements_across, input.sample.elements_along, n, most_cells));
+}
+
+/// The size of a sample that can be run by so many processes.
+SampleSize checked_size(const Input& input)
+{
   const SampleSize size = measure(input.sample);
   if (const std::uint64_t most = size.n_cells; ranks::number() > most)
     refuse(fmt::format("{} processes for a sample of {} cells: each needs one; start at most {}, and give them more "
@@ -180,6 +185,54 @@ void check_specimen_and_tests(const Input& input)
                          *intermediate_stress / 1e6, confinement / 1e6));
 }
 
+template <int dim>
+void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen)
+{
+  if (specimen.periodic)
+    refuse("Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen between walls (feldspar rve "
+           "takes a cell)");
+  check_on_body(input, dim == 2 ? Body::plane_box : specimen.round ? Body::cylinder : Body::box);
+}
+
+template <int dim>
+void check_cell(const Specimen<dim>& specimen, const std::string_view needed_by)
+{
+  if (!specimen.periodic)
+    refuse(fmt::format("Specimen/Specimen file: is a specimen between walls; {} needs a periodic cell (feldspar lab "
+                       "takes walls)",
+                       needed_by));
+}
+
+template <int dim>
+void check_intact(const Input& input, const Network<dim>& network)
+{
+  const std::string& file = input.specimen.specimen_file;
+  if (!file.empty() && read_rve_state(file, network))
+    refuse(
+      fmt::format("Specimen/Specimen file = {}: is an RVE in the state it had in a sample, and a sample begins with "
+                  "intact ones; feldspar rve goes on from that state",
+                  file));
+}
+
+void check_rve_out_of_sample(const Input& input)
+{
+  const std::string& file = input.specimen.specimen_file;
+  if (input.strain_path.cell_angle != 0.0)
+    refuse(
+      fmt::format("Strain path/Cell angle: {} is an RVE in the state it has in its sample, which is in the axes of "
+                  "its cell; set Cell angle = 0 deg",
+                  file));
+  if (!input.flaws.all().empty())
+    refuse(
+      fmt::format("Flaws: {} is an RVE in the state it has in its sample, and takes none; put them into the RVE of "
+                  "the sample",
+                  file));
+  if (input.strain_path.solver == PathSolver::explicit_dynamics)
+    refuse(fmt::format("Strain path/Solver = explicit: {} is an RVE in the state it has in its sample, and explicit "
+                       "dynamics begin at rest; set Solver = event by event",
+                       file));
+}
+
 void check_laboratory_input(const Input& input, const std::filesystem::path& input_file)
 {
   with_name_of(input_file, [&] {
@@ -220,14 +273,27 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
       path_legs<3>(variant.input.strain_path);
 }
 
-std::vector<std::string> check_sample_input(const Input& input, const std::filesystem::path& input_file)
+void check_sample_entries(const Input& input, const std::filesystem::path& input_file)
 {
   check_reference(input);
+  with_name_of(input_file, [&] { check_sample(input); });
+}
+
+std::vector<std::string> check_sample_input(const Input& input, const std::filesystem::path& input_file)
+{
+  check_sample_entries(input, input_file);
   SampleSize size{};
-  with_name_of(input_file, [&] { size = checked_sample(input); });
+  with_name_of(input_file, [&] { size = checked_size(input); });
   std::vector<std::string> remarks = remarks_on_elements(input, size);
   for (std::string& remark : remarks_on_flaws(input))
     remarks.push_back(std::move(remark));
   return remarks;
 }
+
+template void check_specimen_of_file<2>(const Input&, const Specimen<2>&);
+template void check_specimen_of_file<3>(const Input&, const Specimen<3>&);
+template void check_intact<2>(const Input&, const Network<2>&);
+template void check_intact<3>(const Input&, const Network<3>&);
+template void check_cell<2>(const Specimen<2>&, std::string_view);
+template void check_cell<3>(const Specimen<3>&, std::string_view);
 } // namespace feldspar

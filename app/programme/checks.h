@@ -2,10 +2,13 @@
 
 #include "app/input/input.h"
 #include "app/input/parameter_table.h"
+#include "coupling/network/network.h"
+#include "dem/specimen/specimen.h"
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Inputs that a command cannot run: all that can be told before any work. Each function throws InputError, with the
@@ -21,12 +24,30 @@ void check_on_body(const Input& input, Body body);
 /// A specimen that grains can be tested on in the laboratory, and tests that can be made on it.
 void check_specimen_and_tests(const Input& input);
 
+/// A specimen out of a file, which brought its own shape, for `feldspar lab`.
+template <int dim>
+void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen);
+
+/// A specimen as the representative volume of `needed_by`: a cell that repeats itself.
+template <int dim>
+void check_cell(const Specimen<dim>& specimen, std::string_view needed_by);
+
+/// Refuses, for a sample, an RVE that stands where it stood in another: a sample begins with intact ones.
+template <int dim>
+void check_intact(const Input& input, const Network<dim>& network);
+
+/// Refuses what an RVE cannot take that stands where it stood in its sample.
+void check_rve_out_of_sample(const Input& input);
+
 /// For `feldspar lab`.
 void check_laboratory_input(const Input& input, const std::filesystem::path& input_file);
 
 /// For `feldspar rve`.
 void check_rve_input(const Input& input, const std::filesystem::path& input_file);
 
-/// For `feldspar multiscale`. Collective; returns remarks that a user should know.
+/// For `feldspar multiscale`, as far as no mesh is needed.
+void check_sample_entries(const Input& input, const std::filesystem::path& input_file);
+
+/// For `feldspar multiscale`, all of it. MPI is up. Collective; returns remarks that a user should know.
 std::vector<std::string> check_sample_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar

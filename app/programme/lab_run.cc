@@ -120,7 +120,9 @@ TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
   record.kind = planned.test.kind;
   record.confining_pressure = planned.test.confining_pressure;
   record.seed = planned.specimen->seed;
-  record.size = in_space<dim>(planned.specimen->size);
+  const auto& body_size = protocol_of(record.kind).body_size<dim>();
+  record.size =
+    in_space<dim>(body_size ? (*body_size)(*planned.specimen, planned.variant->input.tests) : planned.specimen->size);
   record.specimen = planned.specimen->report;
   record.bulk_density = planned.specimen->bulk_density;
   record.interrupted = true;

@@ -1,12 +1,12 @@
 #include "app/programme/multiscale_run.h"
 
+#include "app/programme/checks.h"
 #include "app/programme/point_rves.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"
 #include "app/run/run_record.h"
 #include "base/input_error.h"
-#include "coupling/rve/rve_file.h"
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/grain_material.h"
 #include "coupling/sample/ranks.h"
@@ -84,20 +84,12 @@ std::vector<Rock> make_rocks(const Input& input, const std::filesystem::path& in
   std::vector<Rock> rocks;
   for (std::size_t k = 0; k < specimens.size(); ++k)
     {
-      if (!specimens[k].periodic)
-        throw InputError(fmt::format("{}: Specimen/Specimen file: is a specimen between walls; the RVE at a point "
-                                     "needs a periodic cell (feldspar lab takes walls)",
-                                     input_file.string()));
+      with_name_of(input_file, [&] { check_cell(specimens[k], "the RVE at a point"); });
       if (k % input.sample.n_realisations == 0)
         rocks.push_back({input.seeds[rocks.size()], Packings<dim>()});
       auto& packings = std::get<Packings<dim>>(rocks.back().packings);
       packings.realisations.push_back(realisation(specimens[k], input.boundary));
-      if (const std::string& file = input.specimen.specimen_file;
-          !file.empty() && read_rve_state(file, *packings.realisations.back().inside))
-        throw InputError(
-          fmt::format("{}: Specimen/Specimen file = {}: is an RVE in the state it had in a sample, and a "
-                      "sample begins with intact ones; feldspar rve goes on from that state",
-                      input_file.string(), file));
+      with_name_of(input_file, [&] { check_intact(input, *packings.realisations.back().inside); });
       packings.specimens.push_back(std::move(specimens[k]));
       ++packings.n_packed;
     }

@@ -73,7 +73,8 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   std::filesystem::create_directories(folder / result_file::fields);
   for (const auto& test : tests)
     if (test.record.body == TestBody::grains) // a sample writes its fields step by step
-      write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields);
+      write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields,
+                   test.record.specimen.n_clumps > 0 ? "clump" : "mineral_grain");
   if (!reference_file.empty())
     std::filesystem::copy_file(reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);

@@ -109,7 +109,23 @@ Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted)
                                  wanted.specimen_file, law));
   return specimen;
 }
+
+/// What the input has beside grains and joints.
+template <int dim>
+Specimen<dim> with_flaws_and_clumps(Specimen<dim> specimen, const Input& input)
+{
+  put_in_flaws(specimen, input.flaws.all(), input.smooth_joint);
+  put_in_mineral_grains(specimen, input.mineral_grains, input.smooth_joint);
+  put_in_clumps(specimen, input.clumps);
+  return specimen;
+}
 } // namespace
+
+template <int dim>
+Specimen<dim> specimen_of_file(const Input& input)
+{
+  return with_flaws_and_clumps(read_finished_specimen<dim>(input.specimen), input);
+}
 
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
 {
@@ -174,13 +190,11 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
           board.say(fmt::format("{}; making it anew", error.what()));
         }
     specimens[k] = input.specimen.specimen_file.empty()
-                     ? make_specimen<dim>(
-                         input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
-                         [](std::string_view, double) {}, step)
-                     : read_finished_specimen<dim>(input.specimen);
-    put_in_flaws(specimens[k], input.flaws.all(), input.smooth_joint);
-    put_in_mineral_grains(specimens[k], input.mineral_grains, input.smooth_joint);
-    put_in_clumps(specimens[k], input.clumps);
+                     ? with_flaws_and_clumps(make_specimen<dim>(
+                                               input.specimen, joint_parameters(input), input.particle_contact,
+                                               orders[k].seed, [](std::string_view, double) {}, step),
+                                             input)
+                     : specimen_of_file<dim>(input);
     write_specimen(specimens[k], file);
     board.finish(k);
   });
@@ -245,6 +259,8 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   return text;
 }
 
+template Specimen<2> specimen_of_file<2>(const Input&);
+template Specimen<3> specimen_of_file<3>(const Input&);
 template std::string describe<2>(const std::vector<Flaw<2>>&);
 template std::string describe<3>(const std::vector<Flaw<3>>&);
 template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

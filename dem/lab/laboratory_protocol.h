@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/vector.h"
 #include "results/kinds.h"
 
 #include <optional>
@@ -19,6 +20,10 @@ struct SetUpTest;
 template <int dim>
 using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure, const TestParameters&,
                                  const DynamicsParameters&);
+
+/// The size of the body that a test cuts out of a specimen [m].
+template <int dim>
+using BodySize = Vector<dim> (*)(const Specimen<dim>&, const TestParameters&);
 
 /// The strain at the peak by that of another test, for the time left while the curve itself shows too little.
 struct PeakForecast
@@ -45,6 +50,8 @@ struct LaboratoryProtocol
   // Optional instead of null: the sanitizers' null checks keep an address from being compared in a constant.
   std::optional<SetUp<2>> set_up_2d = {}; ///< none where the test is not made in the plane
   std::optional<SetUp<3>> set_up_3d = {};
+  std::optional<BodySize<2>> body_size_2d = {}; ///< none where the specimen itself is tested
+  std::optional<BodySize<3>> body_size_3d = {};
 
   template <int dim>
   const std::optional<SetUp<dim>>& set_up() const
@@ -53,6 +60,15 @@ struct LaboratoryProtocol
       return set_up_2d;
     else
       return set_up_3d;
+  }
+
+  template <int dim>
+  const std::optional<BodySize<dim>>& body_size() const
+  {
+    if constexpr (dim == 2)
+      return body_size_2d;
+    else
+      return body_size_3d;
   }
 };
 

@@ -31,6 +31,7 @@ struct ChartLine
   std::string colour = {};    ///< #rrggbb
   double width = 2.2;         ///< [px]
   int dashes = 1;             ///< as gnuplot counts them: 1 is solid
+  int mark = 7;               ///< as gnuplot counts them: 7 is a disc
   bool to_the_right = false;  ///< on the axis there
   std::vector<std::array<double, 2>> points = {};
 };

@@ -56,9 +56,19 @@ std::string crack_story(const FinishedTest& test)
                      crack.centroid[0] / milli, crack.centroid[axis] / milli, -crack.normal[axis] * crack.size / milli,
                      crack.normal[0] * crack.size / milli, crack.kind == CrackKind::shear ? 1 : 0, row - kept.begin());
     }
+  std::string flaws;
+  for (const auto& flaw : test.appearance.flaws)
+    {
+      std::string outline;
+      for (const auto& point : flaw.outline)
+        fmt::format_to(std::back_inserter(outline), "{}[{:.4g},{:.4g}]", outline.empty() ? "" : ",", point[0] / milli,
+                       point[axis] / milli);
+      fmt::format_to(std::back_inserter(flaws), R"({}{{"open":{},"outline":[{}]}})", flaws.empty() ? "" : ",",
+                     flaw.open, outline);
+    }
   return fmt::format(R"({{"what":"cracks","across":"x [mm]","up":"{} [mm]","strain":{},"stress":{},)"
-                     R"("rows":[{}],"grains":[{}],"cracks":[{}]}})",
+                     R"("rows":[{}],"grains":[{}],"flaws":[{}],"cracks":[{}]}})",
                      in_space ? 'z' : 'y', live::text(std::string(record.kind.channel.strain_name) + " [10⁻³]"),
-                     live::text(std::string(record.kind.channel.name) + " [MPa]"), rows, circles, cracks);
+                     live::text(std::string(record.kind.channel.name) + " [MPa]"), rows, circles, flaws, cracks);
 }
 } // namespace feldspar

@@ -159,6 +159,7 @@ public:
     n_bytes += has_room ? picture.live.size() : 0;
     result.set("alternative", picture.alternative);
     result.set("caption", picture.caption);
+    set_unless_empty(result, "live_caption", has_room ? picture.live_caption : "");
     result.set("width", std::to_string(picture.width));
     result.set("height", std::to_string(picture.height));
     result.set("wide", data(picture.width >= wide_picture));

@@ -2,6 +2,9 @@
 // other. Without it, and on paper, the page has its pictures. All texts go through the canvas or textContent.
 "use strict";
 (() => {
+  // As gnuplot counts them.
+  const marks = {1: "cross", 4: "rect", 5: "rect", 6: "circle", 7: "circle", 8: "triangle", 12: "rectRot", 13: "rectRot"};
+  const openMarks = [4, 6, 8, 12];
   const dashes = {1: [], 2: [8, 5], 3: [2, 4], 4: [9, 4, 2, 4], 5: [9, 4, 2, 4, 2, 4]};
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const theme = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -17,23 +20,25 @@
 
   function dataset(line) {
     const colour = shade(line.colour);
-    const marks = line.kind === "marks";
+    const isMarks = line.kind === "marks";
+    const isOpen = isMarks && openMarks.includes(line.mark);
     const area = line.kind === "area";
     return {
       label: line.label,
       goesWith: line.goes_with,
       // A gap is null there.
       data: line.points.map(point => ({x: point ? point[0] : NaN, y: point ? point[1] : NaN})),
-      showLine: !marks,
+      showLine: !isMarks,
       fill: area ? "shape" : false,
       stepped: line.kind === "steps" ? "middle" : false,
       borderColor: line.goes_with && line.width < 1 ? colour + "88" : colour,
-      backgroundColor: area ? colour + "2e" : colour,
+      backgroundColor: area ? colour + "2e" : isOpen ? "transparent" : colour,
       borderWidth: area ? 0 : line.width,
       borderDash: dashes[line.dashes] || [],
-      pointStyle: marks ? "circle" : "line",
-      pointRadius: marks ? 4 : 0,
-      pointHoverRadius: marks ? 6 : area || line.kind === "bars" ? 0 : 3,
+      pointStyle: isMarks ? marks[line.mark] : "line",
+      pointBorderWidth: 1.5,
+      pointRadius: isMarks ? 4.5 : 0,
+      pointHoverRadius: isMarks ? 6.5 : area || line.kind === "bars" ? 0 : 3,
       pointHitRadius: area || line.kind === "bars" ? 0 : 6,
       silent: area || line.kind === "bars",
       yAxisID: line.right ? "right" : "y",
@@ -41,13 +46,16 @@
     };
   }
 
-  // What stands for a line in the key: itself, as Chart.js draws neither dashes nor round points there.
+  // What stands for a line in the key: itself.
   function sample(of) {
+    const pixels = devicePixelRatio || 1;
     const canvas = document.createElement("canvas");
-    canvas.width = 32;
-    canvas.height = 12;
+    canvas.width = 32 * pixels;
+    canvas.height = 12 * pixels;
     const pen = canvas.getContext("2d");
-    pen.strokeStyle = pen.fillStyle = of.borderColor;
+    pen.scale(pixels, pixels);
+    pen.strokeStyle = of.borderColor;
+    pen.fillStyle = of.backgroundColor;
     if (of.showLine) {
       pen.setLineDash(of.borderDash);
       pen.lineWidth = of.borderWidth;
@@ -55,10 +63,33 @@
       pen.lineTo(32, 6);
       pen.stroke();
     } else {
-      pen.arc(16, 6, 4, 0, 2 * Math.PI);
-      pen.fill();
+      pen.lineWidth = of.pointBorderWidth;
+      Chart.helpers.drawPoint(pen, {pointStyle: of.pointStyle, radius: 4.5, rotation: 0, borderWidth: 1.5}, 16, 6);
     }
     return canvas;
+  }
+
+  // Beside the canvas, so that its words break where the screen is narrow.
+  function key(figure, plot) {
+    const list = element("div", figure.stage, {className: "key"});
+    const all = plot.data.datasets;
+    all.forEach((line, k) => {
+      if (line.goesWith)
+        return;
+      const entry = element("button", list, {type: "button"});
+      entry.append(sample(line), element("span", entry, {textContent: line.label}));
+      entry.setAttribute("aria-pressed", "true");
+      // What goes with a line comes and goes with it.
+      entry.onclick = () => {
+        const shown = !plot.isDatasetVisible(k);
+        all.forEach((one, n) => {
+          if (n === k || one.goesWith === line.label)
+            plot.setDatasetVisibility(n, shown);
+        });
+        entry.setAttribute("aria-pressed", String(shown));
+        plot.update();
+      };
+    });
   }
 
   function axis(title, position, fromZero) {
@@ -75,7 +106,7 @@
 
   function chart(figure, data) {
     const box = element("div", figure.stage, {className: "chart"});
-    box.style.aspectRatio = matchMedia("(max-width: 40rem)").matches ? "1 / 1.05" : figure.ratio;
+    box.style.aspectRatio = matchMedia("(max-width: 40rem)").matches ? "1 / 0.95" : "3 / 2";
     const canvas = element("canvas", box);
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", figure.alternative);
@@ -92,28 +123,7 @@
         interaction: {mode: "nearest", intersect: false, axis: "xy"},
         scales,
         plugins: {
-          legend: {
-            position: "bottom",
-            labels: {
-              color: theme("--text"),
-              usePointStyle: true,
-              pointStyleWidth: 32,
-              generateLabels: plot => plot.data.datasets.map((one, k) => ({
-                text: one.label, datasetIndex: k, hidden: !plot.isDatasetVisible(k), fontColor: theme("--text"),
-                pointStyle: sample(one), lineWidth: 0,
-              })).filter(item => !plot.data.datasets[item.datasetIndex].goesWith),
-            },
-            // What goes with a line comes and goes with it.
-            onClick: (event, item, legend) => {
-              const all = legend.chart.data.datasets;
-              const shown = legend.chart.isDatasetVisible(item.datasetIndex);
-              all.forEach((one, k) => {
-                if (k === item.datasetIndex || one.goesWith === item.text)
-                  legend.chart.setDatasetVisibility(k, !shown);
-              });
-              legend.chart.update();
-            },
-          },
+          legend: {display: false},
           tooltip: {
             filter: item => !item.dataset.silent,
             callbacks: {
@@ -131,15 +141,7 @@
         },
       },
     });
-    // A long key takes no room from the axes.
-    const wanted = Math.max(200, 0.58 * plot.width);
-    const area = plot.chartArea.bottom - plot.chartArea.top;
-    if (area < wanted) {
-      box.style.aspectRatio = "auto";
-      box.style.maxHeight = "none";
-      box.style.height = `${plot.height - area + wanted}px`;
-      plot.resize();
-    }
+    key(figure, plot);
     if (data.equal) {
       const equalise = () => {
         const {width, height} = plot.chartArea;
@@ -205,6 +207,13 @@
       pen.globalAlpha = 1;
       pen.fillStyle = theme("--text");
       pen.strokeStyle = theme("--text");
+      for (const flaw of data.flaws) {
+        pen.lineWidth = flaw.open ? 1.2 : 3;
+        pen.beginPath();
+        for (const [u, v] of flaw.outline)
+          pen.lineTo(x(u), y(v));
+        pen.stroke();
+      }
       pen.lineWidth = 1;
       pen.font = "12px system-ui, sans-serif";
       const step = [1, 2, 5, 10, 20, 50, 100, 200].find(one => (high[1] - low[1]) / one <= 8) || 500;
@@ -255,7 +264,6 @@
     const frame = source.closest("figure");
     const image = frame.querySelector("img");
     const figure = {
-      ratio: image ? `${image.getAttribute("width")} / ${image.getAttribute("height")}` : "4 / 3",
       alternative: image ? image.alt : "",
       stage: null,
       kept: undefined,

@@ -40,8 +40,8 @@ std::string as_csv(const std::vector<std::string>& cells)
 
 std::string as_csv(const Table& table)
 {
-  std::string text = as_csv(table.header);
-  for (const auto& row : table.rows)
+  std::string text = as_csv(table.file ? table.file->header : table.header);
+  for (const auto& row : table.file ? table.file->rows : table.rows)
     text += as_csv(row);
   return text;
 }

@@ -1,17 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace feldspar
 {
-/// A table as the page shows it and as a CSV file has it.
+/// Rows for a data frame: no two columns of one name, a number a cell, nothing in the cell of what is not known.
+struct DataFrame
+{
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A table as the page shows it; its CSV file has the same unless it has a form of its own.
 struct Table
 {
   std::string name; ///< of its file
   std::string caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows; ///< the first cell of each is its heading
+  std::optional<DataFrame> file = std::nullopt;
 };
 
 /// Comma-separated, quoted where needed. A text that a spreadsheet would take for a formula begins with an apostrophe

@@ -84,7 +84,8 @@ public:
         ChartLine marks{.kind = ChartLine::Kind::marks,
                         .label = label,
                         .goes_with = is_second ? label : "",
-                        .colour = colour(series, n)};
+                        .colour = colour(series, n),
+                        .mark = point_type(series)};
         ChartLine bars{.kind = ChartLine::Kind::bars,
                        .label = label,
                        .goes_with = label,
@@ -106,7 +107,7 @@ public:
         if (rows.empty())
           continue;
         const std::string block = add_data(rows);
-        const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", point_type(series), colour(series, n));
+        const std::string looks = fmt::format("pt {} ps 0.8 lw 1.4 lc rgb '{}'", marks.mark, marks.colour);
         later.push_back(fmt::format("{} using 1:2:3 with {} {} {}", block, tension ? "xerrorbars" : "yerrorbars", looks,
                                     key.entry(is_second ? "" : label)));
         of_page.push_back(std::move(bars));
@@ -130,13 +131,14 @@ public:
       }
     if (rows.empty())
       return;
-    const std::string block = add_data(rows);
-    first.push_back(fmt::format("{} using 1:2 with lines lw 1.2 dt 3 lc rgb '{}' notitle", block, line.colour));
-    later.push_back(fmt::format("{} using 1:2:3 with yerrorbars pt {} ps 0.8 lw 1.2 lc rgb '{}' {}", block,
-                                point_type(series) - 1, line.colour, key.entry(label)));
     ChartLine marks = line;
     marks.kind = ChartLine::Kind::marks;
     marks.goes_with = label;
+    marks.mark = point_type(series) - 1;
+    const std::string block = add_data(rows);
+    first.push_back(fmt::format("{} using 1:2 with lines lw 1.2 dt 3 lc rgb '{}' notitle", block, line.colour));
+    later.push_back(fmt::format("{} using 1:2:3 with yerrorbars pt {} ps 0.8 lw 1.2 lc rgb '{}' {}", block, marks.mark,
+                                line.colour, key.entry(label)));
     of_page.push_back(std::move(line));
     of_page.push_back(std::move(marks));
   }
@@ -187,8 +189,9 @@ public:
       const double high = value->high.value_or(middle);
       const std::string block = add_data(tension ? fmt::format("{} 0 {} {}\n", -middle, -high, -low)
                                                  : fmt::format("0 {} {} {}\n", middle, low, high));
-      later.push_back(fmt::format("{} using 1:2:3:4 with {} pt 8 ps 1.1 lw 2.2 lc rgb '{}' {}", block,
-                                  tension ? "xerrorbars" : "yerrorbars", black, key.entry(is_second ? "" : label)));
+      later.push_back(fmt::format("{} using 1:2:3:4 with {} pt {} ps 1.1 lw 2.2 lc rgb '{}' {}", block,
+                                  tension ? "xerrorbars" : "yerrorbars", mark_of_experiment, black,
+                                  key.entry(is_second ? "" : label)));
       const auto at = [&](const double strength) {
         return tension ? std::array{-strength, 0.0} : std::array{0.0, strength};
       };
@@ -201,14 +204,15 @@ public:
                          .label = label,
                          .goes_with = is_second ? label : "",
                          .colour = black,
+                         .mark = mark_of_experiment,
                          .points = {at(middle)}});
       is_second = true;
       take_in(tension ? -high * mega : 0.0, tension ? 0.0 : high * mega);
     };
     draw_range("uniaxial_compressive_strength_MPa", false);
     draw_range("tensile_strength_MPa", true);
-    draw_strengths(reference.experiment, "pt 8 ps 1.1 lw 1.6", black);
-    draw_strengths(reference.model, "pt 4 ps 0.9 lw 1.2", grey);
+    draw_strengths(reference.experiment, mark_of_experiment, "ps 1.1 lw 1.6", black);
+    draw_strengths(reference.model, mark_of_model, "ps 0.9 lw 1.2", grey);
   }
 
   /// What a source prints without its points, from its beginning to the end of the plot, which must be known.
@@ -297,11 +301,13 @@ public:
 private:
   static constexpr const char* x_label = "confinement σ₃ [MPa], compression positive";
   static constexpr const char* y_label = "strength σ₁ [MPa]";
+  static constexpr int mark_of_experiment = 8; // open triangle
+  static constexpr int mark_of_model = 4;      // open square
 
-  void draw_strengths(const ReferenceSource& source, const std::string& looks, const char* of_colour)
+  void draw_strengths(const ReferenceSource& source, const int mark, const std::string& looks, const char* of_colour)
   {
     std::string rows;
-    ChartLine marks{.kind = ChartLine::Kind::marks, .label = source.label, .colour = of_colour};
+    ChartLine marks{.kind = ChartLine::Kind::marks, .label = source.label, .colour = of_colour, .mark = mark};
     for (const auto& point : source.strengths())
       {
         fmt::format_to(std::back_inserter(rows), "{} {}\n", point.sigma_3 / mega, point.sigma_1 / mega);
@@ -310,8 +316,8 @@ private:
       }
     if (rows.empty())
       return;
-    later.push_back(fmt::format("{} using 1:2 with points {} lc rgb '{}' {}", add_data(rows), looks, of_colour,
-                                key.entry(source.label)));
+    later.push_back(fmt::format("{} using 1:2 with points pt {} {} lc rgb '{}' {}", add_data(rows), mark, looks,
+                                of_colour, key.entry(source.label)));
     of_page.push_back(std::move(marks));
   }
 

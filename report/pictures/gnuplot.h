@@ -28,6 +28,7 @@ struct Picture
   DrawnBy drawn_by = DrawnBy::gnuplot;
   std::string script;    ///< data and what draws it
   std::string live = {}; ///< what the page's script shows in its place, JSON (report/live); empty: only the picture
+  std::string live_caption = {}; ///< of what is shown in its place; empty: the same caption
 
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }

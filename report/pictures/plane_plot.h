@@ -20,8 +20,7 @@ public:
   {
   }
 
-  /// mark: of gnuplot, for points.
-  void add(ChartLine line, const int mark = 7)
+  void add(ChartLine line)
   {
     if (line.points.empty())
       return;
@@ -32,8 +31,8 @@ public:
     const std::string title = key.entry(line.goes_with.empty() ? line.label : "");
     plots += n ? ", \\\n" : "plot ";
     if (line.kind == ChartLine::Kind::marks)
-      plots +=
-        fmt::format("$data{} using 1:2 with points pt {} ps 0.8 lw 1.4 lc rgb '{}' {}", n, mark, line.colour, title);
+      plots += fmt::format("$data{} using 1:2 with points pt {} ps 0.8 lw 1.4 lc rgb '{}' {}", n, line.mark,
+                           line.colour, title);
     else
       plots += fmt::format("$data{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", n, line.width, line.dashes,
                            line.colour, title);

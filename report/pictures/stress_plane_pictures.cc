@@ -127,13 +127,13 @@ std::vector<Picture> mohr_picture(const Series& series, const std::size_t which,
         }
       plotted.add(std::move(line));
     }
-  ChartLine sheared{.kind = ChartLine::Kind::marks, .label = "direct shear tests", .colour = of_colour};
+  ChartLine sheared{.kind = ChartLine::Kind::marks, .label = "direct shear tests", .colour = of_colour, .mark = 1};
   for (const auto& test : series.tests)
     if (test.record.kind.pressure_acts_across && test.results.peak_stress.value &&
         test.results.normal_stress_at_peak.value)
       sheared.points.push_back(
         {*test.results.normal_stress_at_peak.value / mega, *test.results.peak_stress.value / mega});
-  plotted.add(std::move(sheared), 1);
+  plotted.add(std::move(sheared));
   const double reach = 1.03 * highest / mega;
   return {
     {.name = "mohr_" + name_for_files(series),
@@ -160,7 +160,10 @@ std::vector<Picture> p_q_picture(const std::vector<Series>& all, const std::vect
     {
       const StrengthData& data = envelopes[n].data;
       any_compression |= !data.points.empty();
-      ChartLine marks{.kind = ChartLine::Kind::marks, .label = all[n].label, .colour = colour(all[n], n)};
+      ChartLine marks{.kind = ChartLine::Kind::marks,
+                      .label = all[n].label,
+                      .colour = colour(all[n], n),
+                      .mark = point_type(all[n])};
       const auto of_state = [](const double sigma_3, const double sigma_1) {
         return std::array{(sigma_1 + 2.0 * sigma_3) / 3.0 / mega, (sigma_1 - sigma_3) / mega};
       };
@@ -179,7 +182,7 @@ std::vector<Picture> p_q_picture(const std::vector<Series>& all, const std::vect
             line.points.push_back(of_state(sigma_3, fit->sigma_1(sigma_3)));
           plotted.add(std::move(line));
         }
-      plotted.add(std::move(marks), point_type(all[n]));
+      plotted.add(std::move(marks));
       ChartLine residual{.label = all[n].label + ": residual", .colour = colour(all[n], n), .width = 1.2, .dashes = 3};
       for (const auto& point : residual_points(all[n]))
         residual.points.push_back(of_state(point.sigma_3, point.sigma_1));

@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "report/pictures/plot_style.h"
+#include "report/sections/comparison_frame.h"
 #include "report/sections/text.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
@@ -11,10 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -49,53 +46,6 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
       append(line, ours);
     }
   return line;
-}
-
-/// The cost of a series: means over its specimens.
-struct Cost
-{
-  Statistics grains;
-  Statistics time; ///< sum of the times of a specimen's tests, each on one core [s]
-};
-
-std::optional<Cost> cost_of(const Series& series)
-{
-  std::map<std::uint64_t, std::pair<double, double>> of_seed;
-  for (const auto& test : series.tests)
-    if (test.record.specimen.n_grains > 0)
-      {
-        auto& [grains, time] = of_seed[test.record.seed];
-        grains = double(test.record.specimen.n_grains);
-        time += test.bookkeeping.wall_time;
-      }
-  std::vector<double> grains, times;
-  for (const auto& [seed, cost] : of_seed)
-    {
-      grains.push_back(cost.first);
-      times.push_back(cost.second);
-    }
-  const auto of_grains = statistics(grains);
-  const auto of_times = statistics(times);
-  if (!of_grains || !of_times)
-    return std::nullopt;
-  return Cost{*of_grains, *of_times};
-}
-
-bool has_model(const Findings& findings)
-{
-  return std::any_of(findings.all.begin(), findings.all.end(),
-                     [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
-}
-
-/// Measured curves have tables of their own beside the model, if there is one.
-std::vector<std::size_t> compared_series(const Findings& findings)
-{
-  const bool any_model = has_model(findings);
-  std::vector<std::size_t> compared;
-  for (std::size_t n = 0; n < findings.all.size(); ++n)
-    if (!any_model || findings.all[n].kind != SeriesKind::laboratory_curve)
-      compared.push_back(n);
-  return compared;
 }
 
 /// Of these series, by their names, in the order in which they come.
@@ -135,7 +85,8 @@ Table comparison_of_many(const Findings& findings)
               "Model and rock. ± is the standard deviation over the seeds. Range: does our mean lie in that of the "
               "experiments?",
               {"series"},
-              {}};
+              {},
+              comparison_frame(findings)};
   std::vector<std::string> experiment, other_model;
   if (findings.reference)
     {
@@ -182,8 +133,8 @@ Table comparison_of_many(const Findings& findings)
 
 Table comparison_table(const Findings& findings)
 {
-  const bool any_model = has_model(findings);
   const std::vector<std::size_t> compared = compared_series(findings);
+  const bool any_model = findings.all[compared.front()].kind != SeriesKind::laboratory_curve;
   const std::vector<std::string> properties = properties_of(findings, compared);
   const bool one = compared.size() == 1;
 
@@ -191,7 +142,8 @@ Table comparison_table(const Findings& findings)
               "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
               "Student's t. Range: does our mean lie in that of the experiments?",
               {"property"},
-              {}};
+              {},
+              comparison_frame(findings)};
   // Of one series the model stands beside the rock; of several each is held against the rock, which comes first.
   std::vector<std::string> rock;
   if (findings.reference)

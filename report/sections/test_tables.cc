@@ -43,8 +43,7 @@ Table strength_table(const Findings& findings)
   return table;
 }
 
-/// Every figure of every test in SI; the page shows the most wanted, the file has all.
-Table test_table(const Findings& findings, const bool all_figures)
+Table test_table(const Findings& findings)
 {
   static const std::set<std::string_view> wanted{"peak_stress_Pa",
                                                  "strain_at_peak",
@@ -57,22 +56,31 @@ Table test_table(const Findings& findings, const bool all_figures)
                                                  "n_shear_cracks",
                                                  "energy_imbalance_over_work",
                                                  "wall_time_s"};
-  Table table{"tests", "Every test, SI; the file has every figure of summary.json", {"test", "series", "seed"}, {}};
+  Table table{"tests",
+              "Every test, SI; the file has every figure of summary.json",
+              {"test", "series", "seed"},
+              {},
+              DataFrame{{"test", "series", "seed"}, {}}};
   for (const auto& entry : result_table())
-    if (all_figures || wanted.contains(entry.name))
-      table.header.emplace_back(entry.name);
+    {
+      table.file->header.emplace_back(entry.name);
+      if (wanted.contains(entry.name))
+        table.header.emplace_back(entry.name);
+    }
   for (const auto& series : findings.all)
     for (const auto& test : series.tests)
       {
         std::vector<std::string> row{test.name, series.label, fmt::format("{}", test.record.seed)};
+        std::vector<std::string> all = row;
         for (const auto& entry : result_table())
-          if (all_figures || wanted.contains(entry.name))
-            {
-              const Figure figure = entry.value(test);
-              row.push_back(!figure.value ? (all_figures ? "" : none)
-                                          : fmt::format("{:.{}g}", *figure.value, all_figures ? 10 : 4));
-            }
-        table.rows.push_back(row);
+          {
+            const Figure figure = entry.value(test);
+            all.push_back(figure.value ? fmt::format("{:.10g}", *figure.value) : "");
+            if (wanted.contains(entry.name))
+              row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
+          }
+        table.rows.push_back(std::move(row));
+        table.file->rows.push_back(std::move(all));
       }
   return table;
 }

@@ -11,6 +11,6 @@ Table strength_table(const Findings& findings);
 /// How the specimens came out, one a line; of seeds of which a test was made.
 Table specimen_table(const Series& series);
 
-/// Figures of every test in SI: all of them, or those that are looked at most.
-Table test_table(const Findings& findings, bool all_figures);
+/// Figures of every test in SI: the page shows those that are looked at most, the file has all.
+Table test_table(const Findings& findings);
 } // namespace feldspar

@@ -140,7 +140,7 @@ PageSection trust_section(const Findings& findings)
       append(section.blocks, evidence(findings, n));
   PageBlock tests;
   tests.folded = "Every test";
-  tests.tables = {strength_table(findings), test_table(findings, false)};
+  tests.tables = {strength_table(findings), test_table(findings)};
   section.blocks.push_back(tests);
   return section;
 }

@@ -26,7 +26,19 @@ Points places(const Snapshot& snapshot)
   return points;
 }
 
-VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains)
+/// Number of the group of each grain, from 1; 0 of grains in none. Empty where no grain is in one.
+std::vector<std::uint32_t> groups_of(const std::vector<GrainPicture>& grains)
+{
+  std::vector<std::uint32_t> groups;
+  for (const auto& grain : grains)
+    groups.push_back(grain.mineral);
+  return std::all_of(groups.begin(), groups.end(), [](const std::uint32_t group) { return group == 0; })
+           ? std::vector<std::uint32_t>()
+           : groups;
+}
+
+VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains,
+                      const std::string& group)
 {
   const Points now = places(snapshot);
   Points displacement = now;
@@ -49,6 +61,8 @@ VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::
     }
   data.count("fragment", snapshot.fragment);
   data.count("n_broken_segments", snapshot.n_broken_segments);
+  if (const auto groups = groups_of(grains); !groups.empty())
+    data.count(group, groups);
   return data;
 }
 
@@ -142,7 +156,7 @@ Render(view)
 } // namespace
 
 void write_fields(const std::string& name, const TestKind& kind, const std::vector<Crack>& cracks,
-                  const TestAppearance& appearance, const std::filesystem::path& folder)
+                  const TestAppearance& appearance, const std::filesystem::path& folder, const std::string& group)
 {
   if (appearance.snapshots.empty())
     return;
@@ -164,7 +178,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
         series.push_back({time, fmt::format("{}/{}_{:03}.vtp", name, what, k)});
         data.write(folder / series.back().file);
       };
-      keep(grains_at(snapshot, start, appearance.grains_at_end), "grains", of_grains);
+      keep(grains_at(snapshot, start, appearance.grains_at_end, group), "grains", of_grains);
       if (!cracks.empty())
         keep(cracks_until(snapshot, cracks, in_space), "cracks", of_cracks);
     }

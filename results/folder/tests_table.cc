@@ -2,10 +2,10 @@
 
 #include "base/whole_file.h"
 #include "results/runs/result_table.h"
+#include "results/varied_columns.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,43 +24,25 @@ std::string cell(const std::string& text)
   quoted += '"';
   return quoted;
 }
-
-/// The unit in which all tests have an entry; none where they differ, or where it is no number.
-std::optional<std::string> common_unit(const std::vector<FinishedTest>& tests, const std::size_t entry)
-{
-  std::optional<std::string> unit;
-  for (const auto& test : tests)
-    {
-      const auto number = number_of(test.settings.at(entry));
-      if (!number || (unit && *unit != number->unit))
-        return std::nullopt;
-      unit = number->unit;
-    }
-  return unit;
-}
 } // namespace
 
 void write_tests(const std::vector<FinishedTest>& tests, const std::filesystem::path& file)
 {
-  const std::size_t n_entries = tests.empty() ? 0 : tests.front().settings.size();
-  std::vector<std::optional<std::string>> units;
+  std::vector<std::vector<VariantSetting>> settings;
+  for (const auto& test : tests)
+    settings.push_back(test.settings);
+  const std::vector<VariedColumn> varied = varied_columns(settings);
   std::string text = "name,kind,seed";
-  for (std::size_t k = 0; k < n_entries; ++k)
-    {
-      units.push_back(common_unit(tests, k));
-      const std::string& entry = tests.front().settings[k].entry;
-      text +=
-        fmt::format(",{}", cell(units[k] && !units[k]->empty() ? fmt::format("{} [{}]", entry, *units[k]) : entry));
-    }
+  for (const VariedColumn& column : varied)
+    text += fmt::format(",{}", cell(column.heading()));
   for (const ResultEntry& entry : result_table())
     text += fmt::format(",{}", entry.name);
   text += "\n";
   for (const auto& test : tests)
     {
       text += fmt::format("{},{},{}", cell(test.name), test.record.kind.name, test.record.seed);
-      for (std::size_t k = 0; k < n_entries; ++k)
-        text += units[k] ? fmt::format(",{}", number_of(test.settings[k])->value)
-                         : fmt::format(",{}", cell(test.settings[k].value));
+      for (const VariedColumn& column : varied)
+        text += fmt::format(",{}", cell(column.cell(test.settings)));
       for (const ResultEntry& entry : result_table())
         {
           const Figure figure = entry.value(test);

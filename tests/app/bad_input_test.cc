@@ -165,6 +165,80 @@ TEST(BadFile, IsToldInOneLine)
     expect_mistake(folder, command, "rock.json:2:1: is not valid JSON");
 }
 
+// What passes a check must not be refused at once: of each command an input that it refuses before any work, and the same
+// line by the check.
+TEST(Check, RefusesWhatItsCommandRefusesAtOnce)
+{
+  const TemporaryFolder folder;
+  folder.write("cell.prm",
+               "subsection Specimen\n  set Shape = periodic\n  set Width = 8 mm\n  set Height = 8 mm\nend\n");
+  ASSERT_EQ(run_feldspar(folder.path(), "specimen cell.prm --output cell --quiet").exit_code, 0);
+  const std::string cell = "subsection Specimen\n  set Specimen file = cell/specimen.h5\nend\n";
+  struct Refused
+  {
+    const char* command;
+    std::string input;
+    const char* why;
+  };
+  const std::vector<Refused> all{
+    {"lab", "subsection Tests\n  set Lateral boundary = membrane\nend\n", "Tests/Lateral boundary = membrane: goes "},
+    {"lab", cell, "Specimen/Specimen file: is a periodic cell; "},
+    {"lab", "subsection Specimen\n  set Dimension = 3\n  set Specimen file = cell/specimen.h5\nend\n",
+     "cell/specimen.h5: "},
+    {"rve", "", "Specimen/Shape = box: a representative volume needs Shape = periodic"},
+    {"rve", cell, "Strain path/File: is missing; "},
+    {"multiscale",
+     cell +
+       "subsection Sample\n  set Realisations = 1\n  set Elements across = 5000\n  set Elements along = 5000\nend\n",
+     "Sample/Elements across = 5000, "},
+    {"calibrate", "", "Report/Reference file: is needed; "},
+    {"contact", "", "Contact path/File: is missing; "},
+    {"specimen", "subsection Specimen\n  set Specimen file = cell/specimen.h5\n  set Joint law = parallel bond\nend\n",
+     "Specimen/Joint law = parallel bond: the joints of "}};
+  for (const auto& [command, input, why] : all)
+    {
+      folder.write("in.prm", input);
+      const std::string words = std::string(command) + " in.prm --output never --quiet";
+      const Outcome run = run_feldspar(folder.path(), words);
+      const Outcome check = run_feldspar(folder.path(), std::string("parameters --check in.prm --for ") + command);
+      EXPECT_EQ(run.exit_code, 2) << words;
+      EXPECT_NE(run.error.find(why), std::string::npos) << words << ": " << run.error;
+      EXPECT_EQ(check.exit_code, 2) << words;
+      EXPECT_EQ(check.error, run.error);
+      EXPECT_EQ(check.output, "");
+    }
+}
+
+TEST(Check, SaysWhichCommandsTakeAnInput)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", "");
+  const Outcome rock = run_feldspar(folder.path(), "parameters --check rock.prm");
+  EXPECT_EQ(rock.exit_code, 0) << rock.error;
+  EXPECT_EQ(rock.output.find("rock.prm: OK for feldspar lab, specimen\n"), 0u) << rock.output;
+  EXPECT_NE(rock.output.find("\n  not for feldspar rve: Specimen/Shape = box: "), std::string::npos) << rock.output;
+  EXPECT_EQ(run_feldspar(folder.path(), "parameters --check rock.prm --for lab").output,
+            "rock.prm: OK for feldspar lab\n");
+  EXPECT_EQ(run_feldspar(folder.path(), "parameters --check rock.prm --for slab").exit_code, 2);
+
+  // A membrane in the plane: grains can be packed, and that is all.
+  folder.write("plane.prm", "subsection Tests\n  set Lateral boundary = membrane\nend\n");
+  const Outcome plane = run_feldspar(folder.path(), "parameters --check plane.prm");
+  EXPECT_EQ(plane.exit_code, 2);
+  EXPECT_EQ(plane.error, "feldspar: plane.prm: no command that tests rock takes it; the reasons stand above\n");
+  EXPECT_NE(plane.output.find("  not for feldspar lab: Tests/Lateral boundary = membrane: "), std::string::npos)
+    << plane.output;
+
+  // Elements larger than the cell that softens for them are a remark of the run, too.
+  folder.write("sample.prm",
+               "subsection Specimen\n  set Shape = periodic\n  set Width = 8 mm\n  set Height = 8 mm\nend\n"
+               "subsection Sample\n  set Width = 50 mm\n  set Height = 100 mm\n  set Elements across = 2\n"
+               "  set Elements along = 4\nend\n");
+  const Outcome sample = run_feldspar(folder.path(), "parameters --check sample.prm --for multiscale");
+  EXPECT_EQ(sample.exit_code, 0) << sample.error;
+  EXPECT_NE(sample.output.find("are larger than the RVE of "), std::string::npos) << sample.output;
+}
+
 TEST(BadCommandLine, IsToldInOneLine)
 {
   const TemporaryFolder folder;

@@ -72,8 +72,12 @@ std::vector<Piece> read_time_series(const fs::path& file)
 }
 
 /// These files hold what the test left behind, as its tables do, in single precision.
-void expect_grains(const std::vector<Piece>& series, const FinishedTest& test)
+void expect_grains(const std::vector<Piece>& series, const FinishedTest& test, const std::string& group)
 {
+  std::set<std::string> names{"axial_strain_percent", "axial_stress_Pa", "displacement_m", "fragment",
+                              "n_broken_segments",    "radius_m",        "stress_Pa"};
+  if (!group.empty())
+    names.insert(group);
   const auto& grains = test.appearance.grains_at_end;
   const auto& last_row = test.record.curve.back();
   ASSERT_GE(series.size(), 2u);
@@ -84,8 +88,7 @@ void expect_grains(const std::vector<Piece>& series, const FinishedTest& test)
       const Piece& at_time = series[k];
       ASSERT_EQ(at_time.points.size(), 3 * grains.size());
       EXPECT_EQ(at_time.n_cells, grains.size());
-      EXPECT_EQ(at_time.names(), (std::set<std::string>{"axial_strain_percent", "axial_stress_Pa", "displacement_m",
-                                                        "fragment", "n_broken_segments", "radius_m", "stress_Pa"}));
+      EXPECT_EQ(at_time.names(), names);
       EXPECT_EQ(at_time.n_components.at("stress_Pa"), 9u); // a tensor
       EXPECT_EQ(at_time.arrays.at("axial_strain_percent"), std::vector{at_time.time});
       EXPECT_TRUE(k == 0 || at_time.time > series[k - 1].time);
@@ -101,6 +104,10 @@ void expect_grains(const std::vector<Piece>& series, const FinishedTest& test)
               EXPECT_NEAR(place - displacement, grain.start[c], single * (std::abs(place) + std::abs(displacement)));
             }
           EXPECT_EQ(stress[9 * i + 1], stress[9 * i + 3]);
+          if (!group.empty())
+            {
+              EXPECT_EQ(at_time.arrays.at(group)[i], grain.mineral);
+            }
         }
     }
   // The mean over grains of the same weight would not be the stress of the test, but has its sign and size.
@@ -203,8 +210,9 @@ GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render 
     fmt::format("opens {0}_grains.pvd\ncolours POINTS fragment\nopens {0}_cracks.pvd\ncolours CELLS is_shear\n", name));
 }
 
-/// Runs rock.prm.
-void expect_fields(const TemporaryFolder& folder, const std::size_t least, const std::size_t most)
+/// Runs rock.prm. `group`: what its groups of grains are called, if there are any.
+void expect_fields(const TemporaryFolder& folder, const std::size_t least, const std::size_t most,
+                   const std::string& group = "")
 {
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
@@ -217,7 +225,7 @@ void expect_fields(const TemporaryFolder& folder, const std::size_t least, const
       const auto grains = read_time_series(out / "fields" / (test.name + "_grains.pvd"));
       EXPECT_GE(grains.size(), least);
       EXPECT_LE(grains.size(), most);
-      expect_grains(grains, test);
+      expect_grains(grains, test, group);
       expect_cracks(read_time_series(out / "fields" / (test.name + "_cracks.pvd")), test.record);
       expect_script(out / "fields", test.name);
     }
@@ -236,6 +244,62 @@ subsection Tests
 end
 )");
   expect_fields(folder, 16, 32);
+}
+
+// Each clump is one body: its grains keep their distances, which they would not with the numbers of other grains.
+TEST(FieldFiles, OfClumpsHaveTheNumbersOfTheirGroups)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width = 14 mm
+  set Height = 28 mm
+end
+subsection Clumps
+  set Diameter = 4 mm
+end
+subsection Tests
+  set List = uniaxial_compression
+  set Stop stress over peak = 0.7
+end
+)");
+  expect_fields(folder, 16, 32, "clump");
+  const auto grains = read_time_series(folder.path() / "out/fields/uniaxial_compression_seed_1_grains.pvd");
+  const auto& groups = grains.back().arrays.at("clump");
+  std::size_t n_pairs = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (groups[i] == groups[k])
+        {
+          const auto distance = [&](const Piece& at_time) {
+            return std::hypot(at_time.points[3 * i] - at_time.points[3 * k],
+                              at_time.points[3 * i + 1] - at_time.points[3 * k + 1]);
+          };
+          EXPECT_NEAR(distance(grains.back()), distance(grains.front()), 10.0 * single * 0.028);
+          ++n_pairs;
+        }
+  EXPECT_GT(n_pairs, groups.size() / 2);
+}
+
+// As grains/ has them.
+TEST(FieldFiles, OfMineralGrainsHaveTheirNumbers)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", R"(subsection Specimen
+  set Width = 14 mm
+  set Height = 28 mm
+end
+subsection Mineral grains
+  set Mean size = 5 mm
+end
+subsection Smooth joint
+  set Tensile strength = 10 MPa
+  set Cohesion = 80 MPa
+end
+subsection Tests
+  set List = direct_tension
+end
+)");
+  expect_fields(folder, 3, 32, "mineral_grain");
 }
 
 TEST(FieldFiles, OfATestInSpaceAreReadByVtk)

@@ -430,6 +430,8 @@ end
       EXPECT_NEAR(table.number(table.place("peak_stress_Pa")), peak, 1e-9 * peak); // ten digits
     }
   EXPECT_FALSE(table.next());
+  EXPECT_TRUE(content(folder.path() / "out/tables/comparison.csv")
+                .starts_with("source,kind,Flat joint/Bond tensile strength [MPa],property,unit,mean,"));
 }
 
 // A core is tested like any specimen, to the same bits for any number of threads; what it is stands in the results, in
@@ -637,10 +639,15 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
   const TemporaryFolder folder;
   folder.write("rock.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 30 mm\nend\n"
                            "subsection Tests\n  set List = brazilian\nend\n"
-                           "subsection Seeds\n  set Seeds = 2\nend\n"); // one with grains where it is loaded
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
+                           "subsection Seeds\n  set Seeds = 1, 2\nend\n");
+  // The disc of the first seed has no grain where it is loaded; it would have been as large.
+  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 2);
   const auto json = summary(folder.path() / "out");
-  EXPECT_EQ(json["tests"][0]["size_m"], nlohmann::json({0.02, 0.02, 0}));
+  ASSERT_EQ(json["tests"].size(), 2u);
+  EXPECT_NE(json["tests"][0]["failure"].get<std::string>().find("has no grain where it is loaded"), std::string::npos);
+  EXPECT_TRUE(json["tests"][1]["peak_stress_Pa"].is_number());
+  for (const auto& test : json["tests"])
+    EXPECT_EQ(test["size_m"], nlohmann::json({0.02, 0.02, 0})) << test["name"];
   // Its grains lie in a circle of 10 mm about the middle of this size.
   std::istringstream grains(content(folder.path() / "out/grains/brazilian_seed_2.csv"));
   std::string row;

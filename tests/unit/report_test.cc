@@ -783,6 +783,9 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
   EXPECT_NE(map.script.find("$first using 1:2:3 with labels"), std::string::npos);
   EXPECT_NE(map.script.find("$later with vectors"), std::string::npos) << "other segments of it break after initiation";
   EXPECT_NE(map.caption.find("numbers: the order in which the first joints broke"), std::string::npos) << map.caption;
+  // Under the slider nothing is numbered, and there is one map instead of several.
+  EXPECT_EQ(map.live_caption.find("numbers"), std::string::npos) << map.live_caption;
+  EXPECT_NE(map.live_caption.find("broken up to the place of the slider"), std::string::npos) << map.live_caption;
 }
 
 TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
@@ -807,6 +810,11 @@ TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
   const auto with_groups = nlohmann::json::parse(crack_story(grouped));
   EXPECT_EQ(with_groups["grains"][0], nlohmann::json::parse(R"([10.0, 20.0, 0.62, "#c3d6e6"])"));
   EXPECT_EQ(with_groups["grains"][1].size(), 3u);
+
+  FinishedTest flawed = test;
+  flawed.appearance.flaws.push_back({"slot", true, {{0.002, 0.004, 0.0}, {0.006, 0.008, 0.0}}});
+  EXPECT_EQ(nlohmann::json::parse(crack_story(flawed))["flaws"],
+            nlohmann::json::parse(R"([{"open": true, "outline": [[2.0, 4.0], [6.0, 8.0]]}])"));
 
   FinishedTest without = test;
   without.record.cracks.clear();

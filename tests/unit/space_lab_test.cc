@@ -1,5 +1,6 @@
 // Laboratory tests on cylinders.
 
+#include "base/input_error.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
@@ -10,7 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace feldspar
 {
@@ -160,6 +164,61 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
   EXPECT_LT(record.specimen.n_grains, specimen.grains.size());
   for (const auto& grain : outcome.appearance.grains_at_end)
     EXPECT_LT(std::abs(grain.position[1] - 0.0025), 0.0026);
+}
+
+/// The protocols whose body, cut out of a specimen of this size, is as large as they say, by name.
+std::vector<std::string> cut_as_said(const double width, const double height)
+{
+  SpecimenParameters wanted;
+  wanted.width = width;
+  wanted.height = height;
+  FlatJointParameters joint;
+  joint.coordination_number = 4.2;
+  std::vector<std::string> names;
+  for (const LaboratoryProtocol* const protocol : laboratory_protocols())
+    if (const auto& size = protocol->body_size<2>())
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) // not every disc has grains where it is loaded
+        try
+          {
+            const auto specimen = make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+            const TestParameters parameters;
+            const auto test = (*protocol->set_up<2>())(specimen, 0.0, parameters, {});
+            EXPECT_LT((test.dynamics.specimen().size - (*size)(specimen, parameters)).norm(), 1e-15)
+              << protocol->kind.name;
+            names.emplace_back(protocol->kind.name);
+            break;
+          }
+        catch (const InputError&)
+          {
+          }
+  return names;
+}
+
+// What a test that cannot be made would have been made on stands in its record.
+TEST(BodySize, IsThatOfTheBodyThatIsCut)
+{
+  const std::vector<std::string> all{"brazilian", "three_point_bending", "semicircular_bending"};
+  EXPECT_EQ(cut_as_said(0.020, 0.030), all);
+  EXPECT_EQ(cut_as_said(0.030, 0.020), all);
+}
+
+// In space: of a core a disc and a half disc lie on their sides, a beam is cut out of boxes alone.
+TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
+{
+  const auto core = small_cylinder();
+  const TestParameters wanted;
+  const auto& size = *brazilian.body_size<3>();
+  const auto disc = (*brazilian.set_up<3>())(core, 0.0, wanted, {});
+  EXPECT_LT((disc.dynamics.specimen().size - size(core, wanted)).norm(), 1e-15);
+  const Vector<3> half = (*semicircular_bending.body_size<3>())(core, wanted);
+  EXPECT_NEAR(half[0], 8e-3, 1e-15);
+  EXPECT_NEAR(half[1], 8e-3 * wanted.brazilian_length_ratio, 1e-15);
+  EXPECT_NEAR(half[2], 4e-3, 1e-15);
+  const auto box = small_cylinder(1, 1.0, "box");
+  const Vector<3> beam = (*three_point_bending.body_size<3>())(box, wanted);
+  EXPECT_NEAR(beam[0], 12e-3, 1e-15); // its height lies down
+  EXPECT_NEAR(beam[1], 8e-3, 1e-15);
+  EXPECT_NEAR(beam[2], 12e-3 / 4.4, 1e-15);
 }
 
 TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,14 +21,26 @@ namespace
 /// the few grains that stand out crushes those and nothing else.
 constexpr double loaded_half_angle = 10.0 * std::numbers::pi / 180.0;
 
+/// Of the disc: as wide as the specimen, or as a core lies on its side; in space of the length that is wanted.
+template <int dim>
+Vector<dim> disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
+{
+  if constexpr (dim == 2)
+    return Vector<2>::Constant(specimen.size.minCoeff());
+  else
+    {
+      const double diameter = specimen.size[0];
+      return {diameter, std::min(wanted.brazilian_length_ratio * diameter, specimen.size[2]), diameter};
+    }
+}
+
 /// The grains that lie within a circle as wide as the specimen about its middle (wholly, unless the circle is the
 /// specimen's own side), in space from the middle of its length, with the joints between them; in the box of the disc.
 template <int dim>
-Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, const double length)
+Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
 {
-  Vector<dim> size = Vector<dim>::Constant(diameter);
-  if constexpr (dim == 3)
-    size[1] = length;
+  const double diameter = size[0];
+  const double length = dim == 2 ? specimen.thickness : size[1];
   const Vector<dim> corner = 0.5 * (specimen.size - size);
   std::vector<bool> kept(specimen.grains.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
@@ -52,15 +65,33 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const double diameter, con
   return disc;
 }
 
+/// As it lies between the platens: of a core on its side, of a plane box with its longer side upright. Where a wall touches
+/// the rim of the disc no grain lies wholly within it, which is where the disc is to be loaded.
+template <int dim>
+Specimen<dim> placed(const Specimen<dim>& specimen)
+{
+  return dim == 2 && specimen.size[0] > specimen.size[1] ? quarter_turned(specimen) : laid_on_side(specimen);
+}
+
+/// For a disc that has no grain where it is loaded.
+template <int dim>
+std::string remedy(const Specimen<dim>& specimen)
+{
+  if (dim == 3 && !specimen.round)
+    return "take Specimen/Shape = cylinder, whose walls are the rim of the disc";
+  const bool is_square = dim == 2 && specimen.size[0] == specimen.size[1];
+  return fmt::format("make the specimen {}, the grains smaller (Specimen/Minimum radius), or take another seed",
+                     is_square ? "higher than wide" : "wider");
+}
+
 template <int dim>
 SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                 const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  const Specimen<dim> lying = laid_on_side(specimen);
-  const double diameter = dim == 2 ? lying.size.minCoeff() : lying.size[0];
-  const double length = dim == 2 ? lying.thickness : std::min(wanted.brazilian_length_ratio * diameter, lying.size[1]);
-  const Specimen<dim> disc = cut_disc(lying, diameter, length);
+  const Specimen<dim> disc = cut_disc<dim>(placed(specimen), disc_size(specimen, wanted));
+  const double diameter = disc.size[0];
+  const double length = dim == 2 ? disc.thickness : disc.size[1];
   // A pad of grains at either end, one grain deep, is held as by a stiff cushion and moved as one.
   const double half_width = 0.5 * diameter * std::sin(loaded_half_angle);
   const double inner_face = 0.5 * diameter * std::cos(loaded_half_angle) - 2.0 * specimen.report.mean_radius;
@@ -74,8 +105,8 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confinin
   if (lower_pad.empty() || upper_pad.empty())
     throw InputError(fmt::format(
       "Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no grain where it is "
-      "loaded; make the specimen wider, the grains smaller (Specimen/Minimum radius), or take another seed",
-      1e3 * diameter, disc.report.resolution));
+      "loaded; {}",
+      1e3 * diameter, disc.report.resolution, remedy(specimen)));
 
   SetUpTest<dim> test{Dynamics<dim>(disc, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.brazilian_strain_rate);
@@ -108,5 +139,7 @@ constinit const LaboratoryProtocol brazilian = complete({
   .takes_cylinders = true,
   .set_up_2d = set_up_brazilian<2>,
   .set_up_3d = set_up_brazilian<3>,
+  .body_size_2d = disc_size<2>,
+  .body_size_3d = disc_size<3>,
 });
 } // namespace feldspar

@@ -21,17 +21,29 @@ double shape_factor(const double notch_ratio)
   return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * notch_ratio + (1.071 + 34.401 * s) * notch_ratio * notch_ratio;
 }
 
+/// Of the half disc, as long as wide and half as high; a core lies on its side, so that the half disc is cut across it.
+template <int dim>
+Vector<dim> half_disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
+{
+  constexpr int axis = dim - 1;
+  const double radius = specimen.round ? 0.5 * specimen.size[0] : std::min(0.5 * specimen.size[0], specimen.size[axis]);
+  Vector<dim> size = Vector<dim>::Constant(2.0 * radius);
+  size[axis] = radius;
+  if constexpr (dim == 3)
+    size[1] =
+      specimen.round ? std::min(wanted.brazilian_length_ratio * 2.0 * radius, specimen.size[2]) : specimen.size[1];
+  return size;
+}
+
 template <int dim>
 SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  // A core lies on its side, so that the half disc is cut across it.
+  const Vector<dim> size = half_disc_size(specimen, wanted);
   Specimen<dim> whole = specimen.round ? laid_on_side(specimen) : specimen;
-  const double radius = specimen.round ? 0.5 * whole.size[0] : std::min(0.5 * whole.size[0], whole.size[axis]);
-  const double breadth = dim == 2      ? whole.thickness
-                         : whole.round ? std::min(wanted.brazilian_length_ratio * 2.0 * radius, whole.size[1])
-                                       : whole.size[1];
+  const double radius = size[axis];
+  const double breadth = dim == 2 ? whole.thickness : size[1];
   Vector<dim> base = 0.5 * whole.size; // the middle of the flat side
   base[axis] -= whole.round ? 0.0 : 0.5 * radius;
   std::vector<bool> kept(whole.grains.size());
@@ -46,10 +58,6 @@ SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double
         }
       kept[i] = within && from_base.norm() <= radius;
     }
-  Vector<dim> size = Vector<dim>::Constant(2.0 * radius);
-  size[axis] = radius;
-  if constexpr (dim == 3)
-    size[1] = breadth;
   Vector<dim> corner = base - 0.5 * size;
   corner[axis] = base[axis];
   Specimen<dim> half_disc = shifted<dim>(part_of(std::move(whole), kept), -corner, size);
@@ -81,5 +89,7 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
   .takes_cylinders = true,
   .set_up_2d = set_up_semicircular_bending<2>,
   .set_up_3d = set_up_semicircular_bending<3>,
+  .body_size_2d = half_disc_size<2>,
+  .body_size_3d = half_disc_size<3>,
 });
 } // namespace feldspar

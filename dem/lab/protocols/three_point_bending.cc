@@ -21,22 +21,30 @@ double intensity(const double a)
          (2.0 * (1.0 + 2.0 * a) * std::pow(1.0 - a, 1.5));
 }
 
+/// Of the beam, which the longer side of the specimen is as long as.
+template <int dim>
+Vector<dim> beam_size(const Specimen<dim>& specimen, const TestParameters& /*wanted*/)
+{
+  constexpr int axis = dim - 1;
+  Vector<dim> size = specimen.size;
+  size[0] = std::max(specimen.size[0], specimen.size[axis]);
+  size[axis] = std::min({specimen.size[0], specimen.size[axis], size[0] / length_over_depth});
+  return size;
+}
+
 template <int dim>
 SetUpTest<dim> set_up_three_point_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  // Its longer side is the beam's length.
   Specimen<dim> beam = specimen.size[0] >= specimen.size[axis] ? specimen : quarter_turned(specimen);
-  const double length = beam.size[0];
-  const double depth = std::min(beam.size[axis], length / length_over_depth);
+  const Vector<dim> size = beam_size(specimen, wanted);
+  const double depth = size[axis];
   const double base = 0.5 * (beam.size[axis] - depth);
   std::vector<bool> kept(beam.grains.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
     kept[i] = beam.grains.position[axis][i] >= base && beam.grains.position[axis][i] <= base + depth;
   beam = part_of(std::move(beam), kept);
-  Vector<dim> size = beam.size;
-  size[axis] = depth;
   beam = shifted<dim>(std::move(beam), -base * Vector<dim>::Unit(axis), size);
 
   const double breadth = dim == 2 ? beam.thickness : beam.size[1];
@@ -67,5 +75,7 @@ constinit const LaboratoryProtocol three_point_bending = complete({
   .forecast = {PeakForecast::With::tension, 4.0},
   .set_up_2d = set_up_three_point_bending<2>,
   .set_up_3d = set_up_three_point_bending<3>,
+  .body_size_2d = beam_size<2>,
+  .body_size_3d = beam_size<3>,
 });
 } // namespace feldspar

@@ -151,6 +151,8 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
            .vector = false,
            .script = data + map_set_up(frame, record) +
                      fmt::format("set multiplot layout {},{}\n{}unset multiplot\n", rows, columns, plots),
-           .live = crack_story(test)}};
+           .live = crack_story(test),
+           .live_caption = fmt::format("{}, {}: segments broken up to the place of the slider{}", title, seed_of(test),
+                                       in_space ? ", seen from the front through the whole body" : "")}};
 }
 } // namespace feldspar
