@@ -176,7 +176,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
     specimens[k] = input.specimen.specimen_file.empty()
                      ? make_specimen<dim>(
                          input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
-                         [](std::string_view, double) {}, step)
+                         [](std::string_view, double) {}, step, end_if_interrupted)
                      : read_finished_specimen<dim>(input.specimen);
     put_in_flaws(specimens[k], input.flaws.all(), input.smooth_joint);
     put_in_mineral_grains(specimens[k], input.mineral_grains, input.smooth_joint);
