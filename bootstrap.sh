@@ -3,7 +3,8 @@
 #
 #   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains and as finite elements with grains
 #                            inside, both in one report; ends with its path
-#   ./bootstrap.sh test      packages, build by clang under the sanitizers and its unit tests, release build by gcc, all tests
+#   ./bootstrap.sh test      packages, build by clang under the sanitizers, its unit tests and a minute of fuzzing, release
+#                            build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
 #   ./bootstrap.sh install   the same, and feldspar on the path (/usr/local; another place: install DIR)
 #   ./bootstrap.sh package   a Debian package for any processor with AVX2, faster on those with AVX-512; ends with its path
@@ -150,6 +151,8 @@ run_all_tests()
   need_packages "${build_packages[@]}" "${test_packages[@]}"
   build asan
   run_tests asan
+  say "fuzzing"
+  scripts/fuzz.sh 60
   if [[ -n "${CI:-}" ]]; then
     check_format
     check_lint

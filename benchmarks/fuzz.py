@@ -5,7 +5,7 @@
     python3 benchmarks/fuzz.py 600 rock variants          # ten minutes over these two
     python3 benchmarks/fuzz.py 600 rock --file FILE       # the same into FILE
 
-The run itself is scripts/fuzz.sh, which builds the preset `fuzz` of this work tree. A work tree with changes is refused,
+The run itself is scripts/fuzz.sh, which builds the preset `asan` of this work tree. A work tree with changes is refused,
 for the figures name a commit. All readers in a file are of one run of one build: a run over some of them needs --file.
 """
 
@@ -59,7 +59,7 @@ def main():
             sys.exit(f"reader {reader}: build/fuzz/{reader}.log has no number of inputs")
         results[reader] = {"inputs": inputs, "found": len(re.findall(r"^artifact_prefix=", log, re.MULTILINE))}
     result = {
-        "feldspar_version": compare.version(os.path.join(ROOT, "build", "fuzz")),
+        "feldspar_version": compare.version(os.path.join(ROOT, "build", "asan")),
         "date": datetime.date.today().isoformat(),
         "machine": compare.processor(),
         "sanitizers": "address, undefined",

@@ -2,11 +2,13 @@
 # Readers of files from outside under libFuzzer and the sanitizers (clang), one after the other on one core.
 #
 #   scripts/fuzz.sh                      an hour over all readers
-#   scripts/fuzz.sh SECONDS [READER...]  so long in all, over these readers
+#   scripts/fuzz.sh SECONDS [READER...]  so long in all, over these readers; in the continuous integration a minute
 #
 # Inputs that are new to the code are kept in build/fuzz/corpus/READER, from where a later call goes on. What a reader
-# takes badly is left in build/fuzz/found; copied to tests/fuzz/corpus/READER it is read again by every build
-# (fuzz_replay_tests).
+# takes badly is left in build/fuzz/found and shown at the end as base64, for a machine that is gone afterwards; copied to
+# tests/fuzz/corpus/READER it is read again by every build (fuzz_replay_tests). The random numbers begin with a seed that
+# is the first digits of the commit: another one begins elsewhere, the same one in a fresh folder tries the same inputs
+# again, as far as the time lets it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,26 +20,36 @@ if ((${#readers[@]} == 0)); then
     readers+=("$(basename "$folder")")
   done
 fi
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --parallel "$(nproc)"
+cmake --preset asan >/dev/null
+cmake --build --preset asan --target fuzz_readers --parallel "$(nproc)"
+seed=$((16#$(git rev-parse --verify --quiet HEAD | cut -c 1-7 || echo 1)))
 
 memory=/dev/shm # files that are read once
 [[ -w $memory ]] || memory=${TMPDIR:-/tmp}
 mkdir -p build/fuzz/found
 # HDF5 and MPI keep what they have made until the end.
 export TMPDIR=$memory ASAN_OPTIONS=detect_leaks=0
+seconds_each=$(((seconds + ${#readers[@]} - 1) / ${#readers[@]}))
 bad=0
 for reader in "${readers[@]}"; do
   mkdir -p "build/fuzz/corpus/$reader"
   log=build/fuzz/$reader.log
   verdict="nothing found"
-  FELDSPAR_FUZZED_READER=$reader build/fuzz/tests/fuzz/fuzz_readers -max_total_time=$((seconds / ${#readers[@]})) \
+  FELDSPAR_FUZZED_READER=$reader build/asan/tests/fuzz/fuzz_readers -max_total_time=$seconds_each -seed=$seed \
     -timeout=60 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
     "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
     verdict="FOUND: see $log and build/fuzz/found"
     bad=1
   }
   inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
-  printf '%-12s %9s inputs  %s\n' "$reader" "${inputs:-?}" "$verdict"
+  printf '%-17s %9s inputs  %s\n' "$reader" "${inputs:-?}" "$verdict"
+  if [[ $verdict == FOUND* ]]; then
+    tail --lines=40 "$log"
+    sed -n 's/.*Test unit written to //p' "$log" | while read -r found; do
+      printf '%s:\n' "$found"
+      base64 "$found"
+    done
+  fi
 done
+((!bad)) || echo "seed $seed, of the commit"
 exit $bad

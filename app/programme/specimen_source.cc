@@ -189,12 +189,13 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
         {
           board.say(fmt::format("{}; making it anew", error.what()));
         }
-    specimens[k] = input.specimen.specimen_file.empty()
-                     ? with_flaws_and_clumps(make_specimen<dim>(
-                                               input.specimen, joint_parameters(input), input.particle_contact,
-                                               orders[k].seed, [](std::string_view, double) {}, step),
-                                             input)
-                     : specimen_of_file<dim>(input);
+    specimens[k] =
+      input.specimen.specimen_file.empty()
+        ? with_flaws_and_clumps(make_specimen<dim>(
+                                  input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
+                                  [](std::string_view, double) {}, step, end_if_interrupted),
+                                input)
+        : specimen_of_file<dim>(input);
     write_specimen(specimens[k], file);
     board.finish(k);
   });

@@ -147,9 +147,12 @@ void Dynamics<dim>::start()
 {
   number_joints();
   find_contacts();
+  check();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
   update_contacts(0.0);
+  check();
   choose_time_step();
+  check();
   previous_dt = 0.0; // the first kick is half a step
   position_at_start = bodies().position;
   watch.begin_at(steps);
@@ -217,7 +220,7 @@ void Dynamics<dim>::find_contacts()
   check_motion(); // the search could not place what stands nowhere
   if (body.periodic)
     images.add_within(watch.skin(), body.grains);
-  touches.search(body, images, joints_of, watch.skin(), zero_force, ledger);
+  touches.search(body, images, joints_of, watch.skin(), zero_force, ledger, check);
   wall_set.search(body, images.n_own(), watch.skin(), zero_force, ledger);
   watch.note_search(body.grains);
 }

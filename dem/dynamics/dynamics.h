@@ -17,6 +17,7 @@
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,10 @@ public:
   std::size_t add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity);
   /// Body acceleration [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }
+
+  /// Called within a step too where contacts are looked for, which takes seconds for millions of grains. After what it throws
+  /// nothing can be done with this object any more.
+  void set_check(std::function<void()> within_a_step) { check = std::move(within_a_step); }
 
   /// In a periodic body the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
   /// counts as boundary work.
@@ -128,6 +133,7 @@ private:
   ZeroForce zero_force;
   Vector<dim> gravity = Vector<dim>::Zero();
   Components<dim> applied_force; ///< [N]; empty where none is
+  std::function<void()> check = [] {};
 
   Images<dim> images;
   RigidGroups<dim> groups;

@@ -66,15 +66,20 @@ void Touches<dim>::number(const Images<dim>& images)
 
 template <int dim>
 void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of,
-                          const double skin, const ZeroForce zero_force, EnergyLedger& ledger)
+                          const double skin, const ZeroForce zero_force, EnergyLedger& ledger,
+                          const std::function<void()>& check)
 {
   const auto& grains = body.grains;
   const auto& joints = body.joints;
   std::vector<Touch<dim>> found;
   std::vector<std::uint32_t> jointed_to(grains.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
-  for (const auto& [one, two] : pairs_within(grains, skin))
+  constexpr std::size_t pairs_between_checks = 100000;
+  std::size_t n_looked_at = 0;
+  for (const auto& [one, two] : pairs_within(grains, skin, check))
     {
+      if (n_looked_at++ % pairs_between_checks == 0)
+        check();
       if (!images.pair_counts(one, two))
         continue;
       if (one != marked)
@@ -111,6 +116,7 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
         ledger.slip_of_lost_contacts += touch.slip_energy;
     }
   touches = std::move(found);
+  check();
   number(images);
 }
 

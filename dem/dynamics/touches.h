@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace feldspar
@@ -55,9 +56,9 @@ public:
   /// Numbers of those that touch, ascending.
   const std::vector<std::uint32_t>& touching() const { return touching_ones; }
 
-  /// Notes the pairs within `skin` [m]; those with a face are told by the joints.
+  /// Notes the pairs within `skin` [m]; those with a face are told by the joints. `check` as of pairs_within().
   void search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of, double skin,
-              ZeroForce zero_force, EnergyLedger& ledger);
+              ZeroForce zero_force, EnergyLedger& ledger, const std::function<void()>& check);
   /// A pair that has lost its face; number() before the next update().
   void add(const Touch<dim>& touch);
   void number(const Images<dim>& images);

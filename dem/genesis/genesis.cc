@@ -85,7 +85,7 @@ void place_in_box(Specimen<dim>& specimen, const std::vector<double>& radii, Com
 /// Grains thrown in at random, let calm down without friction, then scaled until the mean stress is reached.
 template <int dim>
 void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const GenesisMonitor& monitor,
-          const std::function<void()>& check)
+          const std::function<void()>& check, const std::function<void()>& check_within)
 {
   const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
@@ -114,13 +114,14 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
   if (wanted.packed_by_descent)
     {
       const auto packing =
-        pack_by_descent(loose, wanted.packing_stress_ratio * specimen.particle_contact.modulus, check);
+        pack_by_descent(loose, wanted.packing_stress_ratio * specimen.particle_contact.modulus, check, check_within);
       specimen.report.packing_stress = packing.stress;
       specimen.report.radius_multiplier = packing.multiplier;
       place_in_box<dim>(specimen, loose.grains.radius, loose.grains.position);
       return;
     }
   Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
+  dynamics.set_check(check_within);
   for (int axis = specimen.round ? dim - 1 : 0; axis < dim; ++axis)
     if (!specimen.repeats(axis))
       {
@@ -194,13 +195,13 @@ void sort_in_space(Grains<dim>& grains)
 } // namespace
 
 template <int dim>
-void install_joints(Specimen<dim>& specimen, const JointParameters& wanted)
+void install_joints(Specimen<dim>& specimen, const JointParameters& wanted, const std::function<void()>& check)
 {
   specimen.joints.law = JointLaws::make<dim>(wanted, specimen.particle_contact);
   std::visit(
     [&]<typename Law, typename Parameters>(const Law& law, const Parameters& parameters) {
       if constexpr (std::same_as<typename Law::Parameters, Parameters>)
-        install_joints(specimen, law, parameters);
+        install_joints(specimen, law, parameters, check);
     },
     specimen.joints.law, wanted);
 }
@@ -208,7 +209,8 @@ void install_joints(Specimen<dim>& specimen, const JointParameters& wanted)
 template <int dim>
 Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParameters& joint,
                             const ParticleContactParameters& particle_contact, const std::uint64_t seed,
-                            const GenesisMonitor& monitor, const std::function<void()>& check)
+                            const GenesisMonitor& monitor, const std::function<void()>& check,
+                            const std::function<void()>& check_within)
 {
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
@@ -225,13 +227,14 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
   if (wanted.packing_file.empty())
-    pack(specimen, wanted, monitor, check);
+    pack(specimen, wanted, monitor, check, check_within);
   else
-    specimen.grains = read_packing<dim>(wanted);
+    specimen.grains = read_packing<dim>(wanted, check_within);
+  check_within();
   sort_in_space(specimen.grains);
   const double porosity = 1.0 - specimen.grains.volume(specimen.thickness) / specimen.volume();
   specimen.grains.set_density(wanted.bulk_density / (1.0 - porosity), specimen.thickness);
-  install_joints(specimen, joint);
+  install_joints(specimen, joint, check_within);
   if (!wanted.is_cored())
     return specimen;
   std::array<unsigned int, dim> n_cells;
@@ -243,10 +246,10 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointParameters&,
                                       const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
-                                      const std::function<void()>&);
+                                      const std::function<void()>&, const std::function<void()>&);
 template Specimen<3> make_specimen<3>(const SpecimenParameters&, const JointParameters&,
                                       const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
-                                      const std::function<void()>&);
-template void install_joints<2>(Specimen<2>&, const JointParameters&);
-template void install_joints<3>(Specimen<3>&, const JointParameters&);
+                                      const std::function<void()>&, const std::function<void()>&);
+template void install_joints<2>(Specimen<2>&, const JointParameters&, const std::function<void()>&);
+template void install_joints<3>(Specimen<3>&, const JointParameters&, const std::function<void()>&);
 } // namespace feldspar

@@ -16,14 +16,17 @@ using GenesisMonitor = std::function<void(std::string_view stage, double fractio
 
 /// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs joints; docs/theory.md
 /// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
-/// `check` is called at every step of the packing and may throw to end it.
+/// `check` is called at every step of the packing, `check_within` within steps and between all parts of genesis too, which
+/// take seconds for millions of grains. Both may throw to end it.
 template <int dim>
 Specimen<dim> make_specimen(
   const SpecimenParameters& wanted, const JointParameters& joint, const ParticleContactParameters& particle_contact,
-  std::uint64_t seed, const GenesisMonitor& monitor, const std::function<void()>& check = [] {});
+  std::uint64_t seed, const GenesisMonitor& monitor, const std::function<void()>& check = [] {},
+  const std::function<void()>& check_within = [] {});
 
 /// Joints of the law that the parameters are of, stress free, between the grains of a specimen that has none; fills in
-/// its report.
+/// its report. `check` as of pairs_within().
 template <int dim>
-void install_joints(Specimen<dim>& specimen, const JointParameters& joint);
+void install_joints(
+  Specimen<dim>& specimen, const JointParameters& joint, const std::function<void()>& check = [] {});
 } // namespace feldspar

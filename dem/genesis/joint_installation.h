@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -40,14 +41,15 @@ struct PairGap
 
 /// All pairs that could get a joint, by gap.
 template <int dim>
-std::vector<PairGap<dim>> pair_gaps(const Specimen<dim>& specimen, const double largest_gap)
+std::vector<PairGap<dim>> pair_gaps(
+  const Specimen<dim>& specimen, const double largest_gap, const std::function<void()>& check = [] {})
 {
   const auto images = specimen.periodic ? images_within(specimen.grains, specimen.cell(), largest_gap)
                                         : std::vector<PeriodicImage<dim>>();
   const std::size_t n_own = specimen.grains.size();
   const Grains<dim> grains = with_images(specimen.grains, images, specimen.cell());
   std::vector<PairGap<dim>> gaps;
-  for (const auto& [first, second] : pairs_within(grains, largest_gap))
+  for (const auto& [first, second] : pairs_within(grains, largest_gap, check))
     {
       if (first >= n_own || (second >= n_own && !counts(first, images[second - n_own])))
         continue;
@@ -55,6 +57,7 @@ std::vector<PairGap<dim>> pair_gaps(const Specimen<dim>& specimen, const double 
       gaps.push_back({branch.norm() - grains.radius[first] - grains.radius[second], first,
                       second < n_own ? PeriodicImage<dim>{second, {}} : images[second - n_own], branch});
     }
+  check();
   std::sort(gaps.begin(), gaps.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {
     return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
   });
@@ -135,13 +138,15 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
 /// Joints of the law, stress free, between the grains of a specimen that has none; fills in its report. The law itself
 /// is not put into the specimen.
 template <int dim, JointLaw<dim> Law>
-void install_joints(Specimen<dim>& specimen, const Law& law, const typename Law::Parameters& wanted)
+void install_joints(
+  Specimen<dim>& specimen, const Law& law, const typename Law::Parameters& wanted,
+  const std::function<void()>& check = [] {})
 {
   using namespace installation;
   const auto& grains = specimen.grains;
   const double mean_radius = grains.mean_radius();
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
-  const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12));
+  const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12), check);
   const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius, section_of(Law::name));
   specimen.report.installation_gap_ratio = wanted.installation_gap_ratio ? *wanted.installation_gap_ratio
                                            : n > 0                       ? gaps[n - 1].gap / mean_radius
@@ -152,6 +157,7 @@ void install_joints(Specimen<dim>& specimen, const Law& law, const typename Law:
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });
 
+  check();
   auto& joints = specimen.joints;
   joints.divide(law.division(wanted), Law::n_more);
   joints.thickness = specimen.thickness;

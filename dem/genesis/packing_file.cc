@@ -46,7 +46,7 @@ std::vector<double> numbers(const std::string& line, const std::size_t n, const 
 } // namespace
 
 template <int dim>
-Grains<dim> read_packing(const SpecimenParameters& wanted)
+Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<void()>& check)
 {
   std::ifstream file(wanted.packing_file);
   if (!file)
@@ -56,8 +56,11 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
   Components<dim> positions;
   std::vector<std::size_t> line_of;
   std::string line;
+  constexpr std::size_t lines_between_checks = 10000;
   for (std::size_t n = 1; std::getline(file, line); ++n)
     {
+      if (n % lines_between_checks == 0)
+        check();
       line.erase(std::min(line.find('#'), line.size()));
       if (line.find_first_not_of(" \t\r") == std::string::npos)
         continue;
@@ -86,7 +89,7 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
 
   Grains<dim> grains;
   grains.place(radii, positions);
-  for (const auto& [one, two] : pairs_within(grains, 0.0))
+  for (const auto& [one, two] : pairs_within(grains, 0.0, check))
     {
       const double overlap = radii[one] + radii[two] - (at<dim>(positions, two) - at<dim>(positions, one)).norm();
       const double allowed = largest_overlap * std::min(radii[one], radii[two]);
@@ -99,6 +102,6 @@ Grains<dim> read_packing(const SpecimenParameters& wanted)
   return grains;
 }
 
-template Grains<2> read_packing<2>(const SpecimenParameters&);
-template Grains<3> read_packing<3>(const SpecimenParameters&);
+template Grains<2> read_packing<2>(const SpecimenParameters&, const std::function<void()>&);
+template Grains<3> read_packing<3>(const SpecimenParameters&, const std::function<void()>&);
 } // namespace feldspar

@@ -75,7 +75,7 @@ template <int dim>
 class Descent
 {
 public:
-  explicit Descent(const Specimen<dim>& loose);
+  Descent(const Specimen<dim>& loose, const std::function<void()>& check_within);
 
   /// Of all forces and, where radii grow, of what is missing of the wanted stress [Pa].
   Sums sum_forces(double wanted_stress, bool radii_grow);
@@ -96,6 +96,7 @@ private:
   void visit_walls(const Place& grain, double reach, Visitor&& visit) const;
 
   const Specimen<dim>& body;
+  const std::function<void()>& check; ///< in the search for neighbours
   std::vector<Place> grains;
   std::vector<Components> velocity;
   std::vector<Components> force;
@@ -119,8 +120,9 @@ private:
 };
 
 template <int dim>
-Descent<dim>::Descent(const Specimen<dim>& loose)
+Descent<dim>::Descent(const Specimen<dim>& loose, const std::function<void()>& check_within)
   : body(loose)
+  , check(check_within)
 {
   const auto& all = loose.grains;
   const std::size_t n = all.size();
@@ -192,7 +194,7 @@ void Descent<dim>::find_neighbours()
   const std::uint32_t same_box = box({});
   std::vector<Pair> pairs;
   first.assign(n + 1, 0);
-  for (const auto& [one, two] : pairs_within(all, skin))
+  for (const auto& [one, two] : pairs_within(all, skin, check))
     {
       if (one >= n || (two >= n && !counts(one, images[two - n])))
         continue;
@@ -388,7 +390,8 @@ enum class Stage
 } // namespace
 
 template <int dim>
-StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const std::function<void()>& check)
+StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const std::function<void()>& check,
+                              const std::function<void()>& check_within)
 {
   constexpr unsigned int n_as_drawn = 300;
   constexpr unsigned int n_to_half = 100; // iterations in which the stress is halved
@@ -399,7 +402,7 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
   constexpr double first_turn = 0.1; // share of the velocity that is turned towards the force
   constexpr unsigned int n_steps_before_faster = 5;
 
-  Descent<dim> descent(loose);
+  Descent<dim> descent(loose, check_within);
   const double dense_stress = std::max(2.0 * stress, dense_stress_ratio<dim> * loose.particle_contact.modulus);
   double wanted_stress = dense_stress;
   Stage stage = Stage::as_drawn;
@@ -464,6 +467,8 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
   return packing;
 }
 
-template StaticPacking pack_by_descent<2>(Specimen<2>&, double, const std::function<void()>&);
-template StaticPacking pack_by_descent<3>(Specimen<3>&, double, const std::function<void()>&);
+template StaticPacking pack_by_descent<2>(Specimen<2>&, double, const std::function<void()>&,
+                                          const std::function<void()>&);
+template StaticPacking pack_by_descent<3>(Specimen<3>&, double, const std::function<void()>&,
+                                          const std::function<void()>&);
 } // namespace feldspar

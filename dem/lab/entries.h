@@ -88,7 +88,7 @@ inline std::vector<Entry<TestParameters>> test_entries()
                   of_grains),
     entry::number("Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
                   "a test stops at this many times its strain at peak", varies),
-    entry::optional_number("Stop strain", &P::stop_strain, ranges::above_zero,
+    entry::optional_number("Stop strain", &P::stop_strain, {'(', 0.0, 1.0, ']'},
                            "a test stops at this axial strain, instead of the rule above", varies),
     entry::optional_number(
       "Stop stress over peak", &P::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},

@@ -100,8 +100,10 @@ struct CellGrid
 } // namespace
 
 template <int dim>
-std::vector<GrainPair> pairs_within(const Grains<dim>& grains, const double largest_gap)
+std::vector<GrainPair> pairs_within(const Grains<dim>& grains, const double largest_gap,
+                                    const std::function<void()>& check)
 {
+  constexpr std::size_t grains_between_checks = 10000; // some milliseconds
   std::vector<GrainPair> pairs;
   if (grains.size() < 2)
     return pairs;
@@ -109,6 +111,8 @@ std::vector<GrainPair> pairs_within(const Grains<dim>& grains, const double larg
   const CellGrid<dim> grid(grains, 2.0 * largest_radius + largest_gap);
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
+      if (i % grains_between_checks == 0)
+        check();
       const Vector<dim> centre = at<dim>(grains.position, i);
       const std::size_t from = pairs.size();
       grid.around(grid.coordinates(centre), [&](const std::size_t cell) {
@@ -151,8 +155,8 @@ std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains)
   return order;
 }
 
-template std::vector<GrainPair> pairs_within<2>(const Grains<2>&, double);
-template std::vector<GrainPair> pairs_within<3>(const Grains<3>&, double);
+template std::vector<GrainPair> pairs_within<2>(const Grains<2>&, double, const std::function<void()>&);
+template std::vector<GrainPair> pairs_within<3>(const Grains<3>&, double, const std::function<void()>&);
 template std::vector<std::uint32_t> spatial_order<2>(const Grains<2>&);
 template std::vector<std::uint32_t> spatial_order<3>(const Grains<3>&);
 } // namespace feldspar

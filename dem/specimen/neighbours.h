@@ -3,6 +3,7 @@
 #include "dem/storage/grains.h"
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -10,9 +11,11 @@ namespace feldspar
 {
 using GrainPair = std::pair<std::uint32_t, std::uint32_t>; ///< first < second
 
-/// Every pair whose gap (centre distance less both radii) is below `largest_gap` [m], in ascending order.
+/// Every pair whose gap (centre distance less both radii) is below `largest_gap` [m], in ascending order. `check` is called
+/// now and then, for millions of grains take seconds, and may throw to end the search.
 template <int dim>
-std::vector<GrainPair> pairs_within(const Grains<dim>& grains, double largest_gap);
+std::vector<GrainPair> pairs_within(
+  const Grains<dim>& grains, double largest_gap, const std::function<void()>& check = [] {});
 
 /// Numbers of the grains along a Z-curve: neighbours in space come near each other in memory.
 template <int dim>

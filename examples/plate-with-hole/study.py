@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Runs the plate with a hole and counts its cracks by place; without names only the tables and the figure are made anew.
+"""Runs the plate with a hole and counts its cracks by place; without names only the tables and the figure are made anew,
+with --tables the tables alone.
 
     python3 examples/plate-with-hole/study.py FELDSPAR [NAME ...]
+    python3 examples/plate-with-hole/study.py --tables
 
 NAME is sample, sample-edges (edge cells at free sides) or grains, or all. results/NAME.json is the summary of the run with
 `crack_density`: for each stage of stages.csv the length of cracks over area [m/m²] by ring about the hole and by sector
@@ -182,7 +184,8 @@ def mean_place(density):
 
 def print_tables():
     names = [name for name in RUNS if results(name)]
-    print("| σ_1 [MPa] | body | cracks within 200 mm [m] | mean distance [mm] | mean angle [deg] |\n|---|---|---|---|---|")
+    print("| σ_1 [MPa] | body | cracks within 200 mm [m] | mean distance [mm] | mean angle [deg] |")
+    print("|---|---|---|---|---|")
     for stage in stages():
         for name in names:
             density = results(name)["crack_density"][f"{stage / 1e6:g} MPa"]
@@ -190,13 +193,12 @@ def print_tables():
             print(f"| {stage / 1e6:g} | {name} | {whole_length(density):.3f} | {distance:.0f} | {angle:.0f} |")
     print()
     for name in names:
-        for stage in (f"{stage / 1e6:g} MPa" for stage in stages()[-2:]):
-            print(f"{name}, {stage}: cracks [m/m²] by ring (rows) and sector")
-            print("| distance [mm] | " + " | ".join(f"{a:g}–{b:g}°" for a, b in zip(SECTORS_DEG, SECTORS_DEG[1:])) + " |")
-            print("|---|---|---|---|---|")
-            for near, far, row in zip(RINGS_MM, RINGS_MM[1:], results(name)["crack_density"][stage]):
-                print(f"| {near:g}–{far:g} | " + " | ".join(f"{value:.1f}" for value in row) + " |")
-            print()
+        last = f"{stages()[-1] / 1e6:g} MPa"
+        print(f"| {name}, {last} | " + " | ".join(f"{a:g}–{b:g}°" for a, b in zip(SECTORS_DEG, SECTORS_DEG[1:])) + " |")
+        print("|---|---|---|---|---|")
+        for near, far, row in zip(RINGS_MM, RINGS_MM[1:], results(name)["crack_density"][last]):
+            print(f"| {near:g}–{far:g} mm | " + " | ".join(f"{value:.0f}" for value in row) + " |")
+        print()
 
 
 def draw():
@@ -228,6 +230,9 @@ def draw():
 
 
 def main():
+    if sys.argv[1:] == ["--tables"]:
+        print_tables()
+        return
     feldspar = os.path.realpath(sys.argv[1])
     names = sys.argv[2:]
     if names == ["all"]:

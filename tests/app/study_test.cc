@@ -597,6 +597,38 @@ TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
   EXPECT_TRUE(output_of("sha256sum '" + picture.string() + "'").starts_with(checksum + " "));
 }
 
+TEST(PlateWithHole, StandsInTheReadmeWithTheCommittedFigures)
+{
+  std::istringstream tables(output_of_python("examples/plate-with-hole/study.py", "--tables"));
+  const std::string readme = text_of(root / "examples/plate-with-hole/README.md");
+  std::size_t n_rows = 0;
+  for (std::string row; std::getline(tables, row);)
+    if (row.starts_with("| "))
+      {
+        EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
+        ++n_rows;
+      }
+  EXPECT_EQ(n_rows, 25u);
+}
+
+// In both bodies the wall cracks at its sides, across the load, and hardly behind them.
+TEST(PlateWithHole, CracksWhereFiniteElementsPredictIt)
+{
+  for (const char* const body : {"sample", "grains"})
+    {
+      const auto results =
+        nlohmann::json::parse(text_of(root / "examples/plate-with-hole/results" / (std::string(body) + ".json")));
+      const auto& first = results["crack_density"]["40 MPa"];
+      const auto& last = results["crack_density"]["120 MPa"];
+      const auto at = [](const nlohmann::json& densities, const int ring, const int sector) {
+        return densities[ring][sector].get<double>();
+      };
+      EXPECT_GT(at(first, 0, 0), 5.0 * at(first, 0, 3)) << body;
+      EXPECT_GT(at(last, 0, 0), 5.0 * at(last, 1, 0)) << body;
+      EXPECT_GT(at(last, 2, 2), 5.0 * at(last, 2, 0)) << body; // the arms
+    }
+}
+
 TEST(FlawedGranite, HasOneToughnessFromALengthOfTenRadiiOn)
 {
   // σ √(π a sec(π a/W)) of the four longest flaws within 10 % of its mean.
@@ -700,6 +732,7 @@ const std::map<std::string, std::string> without_piece{
   {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-triaxial-10.json", "the packing of 49 464 spheres and a test of it take minutes"},
+  {"grains.json", "the packing of 93 161 discs and a test of it take minutes"},
 };
 
 TEST(CommittedResults, OfExamplesHaveAPieceOrAReason)

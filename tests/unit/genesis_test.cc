@@ -144,6 +144,29 @@ TEST(Genesis, SaysWhichCoordinationNumbersCanBeHad)
     }
 }
 
+// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to end. Of
+// 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks between its parts.
+TEST(Genesis, CanBeEndedWithinAStep)
+{
+  struct Ended
+  {
+  };
+  SpecimenParameters wanted;
+  wanted.width = wanted.height = 0.28;
+  for (const bool by_descent : {false, true})
+    {
+      wanted.packed_by_descent = by_descent;
+      const int most_in_a_step = by_descent ? 3 : 8;
+      int n_in_step = 0;
+      const auto start = [&] { n_in_step = 0; };
+      const auto end = [&] {
+        if (++n_in_step == most_in_a_step)
+          throw Ended();
+      };
+      EXPECT_THROW(make_specimen<2>(wanted, {}, {}, 1, silent, start, end), Ended) << by_descent;
+    }
+}
+
 TEST(Neighbours, AreThoseOfEveryPairTried)
 {
   const auto specimen = small_specimen();

@@ -885,6 +885,7 @@ TEST(Input, ChecksEveryRange)
     {"Specimen", "Shape = cylinder"},
     {"Tests", "Stop strain over peak strain = 1"},
     {"Tests", "Stop strain = 0"},
+    {"Tests", "Stop strain = 1e9"},
     {"Tests", "Stop stress over peak = 1"},
     {"Seeds", "Seeds = -1"},
     {"Seeds", "Seeds = 1, 2, 1"},
