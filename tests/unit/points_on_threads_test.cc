@@ -36,7 +36,7 @@ Record<dim> strained_by_threads(const int n_threads)
   for (const std::uint64_t seed : {1, 2})
     realisations.push_back(std::make_shared<const Network<dim>>(periodic_specimen<dim>(seed)));
   const double size = std::pow(realisations.front()->volume(), 1.0 / dim);
-  const auto material = scaled_softening(grain_material<dim>(realisations, {}), size);
+  const auto material = scaled_softening(grain_material<dim>({realisations.begin(), realisations.end()}, {}), size);
   constexpr unsigned int n_points = dim == 2 ? 12 : 4;
   fem::MaterialPoints<dim> points;
   for (unsigned int k = 0; k < n_points; ++k)
