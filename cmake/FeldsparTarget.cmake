@@ -23,6 +23,9 @@ endif()
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(feldspar_settings INTERFACE -Wno-subobject-linkage -Wno-shadow)
 endif()
+if(FELDSPAR_FUZZ)
+  target_compile_options(feldspar_settings INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow>)
+endif()
 if(FELDSPAR_WARNINGS_AS_ERRORS)
   target_compile_options(feldspar_settings INTERFACE -Werror)
 endif()
@@ -33,9 +36,6 @@ if(FELDSPAR_SANITIZE)
   # looks for it when the block is freed. Of the functions of Eigen that our units and Ceres's static library both
   # instantiate the linker keeps one, and Ceres's take blocks from malloc as they are.
   target_compile_definitions(feldspar_settings INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
-endif()
-if(FELDSPAR_FUZZ)
-  target_compile_options(feldspar_settings INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # Less optimisation, a quarter less time to compile, the same bits: for targets that lead runs and write results, whose own

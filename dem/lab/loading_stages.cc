@@ -20,6 +20,11 @@ namespace
 constexpr std::array<std::string_view, 6> columns{"axial_strain",          "axial_stress_Pa",   "hold_s",
                                                   "confining_pressure_Pa", "strain_rate_per_s", "lateral_strain"};
 
+/// Beyond the stiffness of any rock [Pa].
+constexpr double largest_stress = 1e11;
+/// Twelve days [s]; grains take some 1e14 steps for it, a sample of finite elements as few as its rate says.
+constexpr double longest_hold = 1e6;
+
 void check_columns(const CsvReader& table, const std::string& file)
 {
   for (const auto& name : split_at_commas(table.header()))
@@ -33,9 +38,9 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
 {
   for (const auto& [column, stress] :
        {std::pair(columns[1], stage.axial_stress.value_or(0.0)), {columns[3], stage.confining_pressure}})
-    if (stress > 0.0 && stress < 1e3)
-      return fmt::format("{} = {:g} is less than 1 kPa; stresses of the table are in Pa, 60 MPa is 60e6", column,
-                         stress);
+    if (stress > 0.0 && (stress < 1e3 || stress > largest_stress))
+      return fmt::format("{} = {:g} is {}; stresses of the table are in Pa, 60 MPa is 60e6", column, stress,
+                         stress < 1e3 ? "less than 1 kPa" : "more than 100 GPa");
   if (stage.axial_strain && stage.axial_stress)
     return "axial_strain and axial_stress_Pa are both given; a stage ends at one of them";
   if (stage.lateral_strain && (stage.axial_strain || stage.axial_stress || stage.duration))
@@ -64,8 +69,8 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
                        *stage.axial_stress);
   if (stage.duration && stage.axial_stress && *stage.axial_stress == 0.0)
     return "axial_stress_Pa = 0 cannot be held; platens that touch nothing have no stress to follow";
-  if (stage.duration && !(*stage.duration > 0.0))
-    return fmt::format("hold_s = {:g}: must be above 0", *stage.duration);
+  if (stage.duration && !(*stage.duration > 0.0 && *stage.duration <= longest_hold))
+    return fmt::format("hold_s = {:g}: must lie in (0, {:g}]", *stage.duration, longest_hold);
   if (!(stage.confining_pressure >= 0.0))
     return fmt::format("confining_pressure_Pa = {:g}: must be at least 0; compression is positive",
                        stage.confining_pressure);

@@ -291,6 +291,13 @@ TEST(LoadingTable, IsRefusedByStageAndReason)
   EXPECT_EQ(error_of(header + ",60,,,\n"),
             "stages.csv:2: stage 1: axial_stress_Pa = 60 is less than 1 kPa; stresses of "
             "the table are in Pa, 60 MPa is 60e6");
+  EXPECT_EQ(
+    error_of(header + ",1e300,,,\n"),
+    "stages.csv:2: stage 1: axial_stress_Pa = 1e+300 is more than 100 GPa; stresses of the table are in Pa, 60 MPa "
+    "is 60e6");
+  EXPECT_EQ(error_of(header + "1e-3,,,1e12,\n").substr(0, 53), "stages.csv:2: stage 1: confining_pressure_Pa = 1e+12 ");
+  EXPECT_EQ(error_of(header + ",1e6,1e300,,\n"), "stages.csv:2: stage 1: hold_s = 1e+300: must lie in (0, 1e+06]");
+  EXPECT_EQ(error_of(header + ",1e6,0,,\n"), "stages.csv:2: stage 1: hold_s = 0: must lie in (0, 1e+06]");
   EXPECT_EQ(error_of(header + "1e-3,,,5,\n").substr(0, 49), "stages.csv:2: stage 1: confining_pressure_Pa = 5 ");
   EXPECT_EQ(error_of(header + ",,,5e6,\n"),
             "stages.csv:2: stage 1: has no target; give axial_strain, axial_stress_Pa, hold_s or lateral_strain");
