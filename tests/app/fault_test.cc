@@ -157,7 +157,9 @@ TEST(Fault, AFileSystemThatIsReadOnlyIsSaidInOneLineByEachCommand)
         EXPECT_EQ(n_lines(outcome.error), 1u) << arguments << ", " << n_changes << ": " << outcome.error;
         EXPECT_NE(outcome.error.find("Read-only file system"), std::string::npos) << arguments << outcome.error;
         if (n_changes == 0)
-          EXPECT_FALSE(fs::exists(folder.path() / "out")) << arguments;
+          {
+            EXPECT_FALSE(fs::exists(folder.path() / "out")) << arguments;
+          }
         fs::remove_all(folder.path() / "out");
       }
   // A report into the folder of its results.
