@@ -159,11 +159,12 @@ std::vector<PlannedPath> plan(const Input& input, const std::vector<Variant>& al
                               const std::vector<SpecimenOrder>& orders)
 {
   std::vector<PlannedPath> runs;
+  const auto part = [](const std::string& name) { return name.empty() ? name : '_' + name; };
   for (std::size_t v = 0; v < all_variants.size(); ++v)
     for (std::size_t s = 0; s < orders.size(); ++s)
       if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
         runs.push_back({v, s,
-                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
+                        "rve" + part(all_variants[v].name_in_files) +
                           (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
   return runs;
 }
