@@ -5,6 +5,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
+#include "app/screen/test_length.h"
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/whole_file.h"
@@ -20,6 +21,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -57,27 +59,59 @@ void write_values(const std::filesystem::path& file, const std::string& identity
   write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-/// Of several points at a time, by the tests that are done.
+/// The strain at which a test will probably end.
+double expected_end(const TestCase& test, const Input& rock)
+{
+  return expected_last_strain(expected_strain_at_peak(test, rock).value_or(0.0), rock.tests);
+}
+
+/// Of several points at a time, by the strains that their tests have come to.
 class PointBoard
 {
 public:
-  PointBoard(Progress& shown, const std::size_t n_tests)
+  PointBoard(Progress& shown, const std::vector<TestCase>& programme, const Input& input, const std::size_t n_points)
     : progress(shown)
-    , n(n_tests)
+    , points(n_points, 0.0)
+    , n_tests(programme.size() * n_points)
   {
+    for (const TestCase& test : programme)
+      costs.push_back(expected_end(test, input) / (input.tests.*protocol_of(test.kind).strain_rate));
+    left = double(n_points) * std::accumulate(costs.begin(), costs.end(), 0.0);
   }
 
-  void finish(const std::size_t n_tests)
+  /// The j-th test of the k-th point has come to this share of itself.
+  void update(const std::size_t k, const std::size_t j, const double share)
   {
     const std::lock_guard lock(showing);
-    n_done += n_tests;
-    progress.update(double(n_done) / double(n), fmt::format("{} of {} tests", n_done, n));
+    points[k] =
+      std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(j), 0.0) + std::min(share, 1.0) * costs[j];
+    n_done += share >= 1.0;
+    draw();
+  }
+
+  /// A point that an earlier run has made is no work of this one.
+  void take_up()
+  {
+    const std::lock_guard lock(showing);
+    left -= std::accumulate(costs.begin(), costs.end(), 0.0);
+    n_done += costs.size();
+    draw();
   }
 
 private:
+  void draw()
+  {
+    const double spent = std::accumulate(points.begin(), points.end(), 0.0);
+    const double fraction = left > 0.0 ? std::min(spent / left, 1.0) : double(n_done) / double(n_tests);
+    progress.update(fraction, fmt::format("{} of {} tests", n_done, n_tests));
+  }
+
   Progress& progress;
   std::mutex showing;
-  std::size_t n;
+  std::vector<double> costs;  ///< of the tests of a point, by the time that is simulated [s]
+  std::vector<double> points; ///< what has been spent on each
+  double left = 0.0;          ///< in all, but for points that were taken up
+  std::size_t n_tests;
   std::size_t n_done = 0;
 };
 } // namespace
@@ -100,7 +134,7 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
   std::filesystem::create_directories(checkpoints);
   const std::vector<TestCase> programme = test_cases(input.test_list, input.confinements);
   std::vector<TestedPoint> tested(orders.size());
-  PointBoard board(progress, orders.size() * programme.size());
+  PointBoard board(progress, programme, input, orders.size());
   for_each_job(orders.size(), [&](const std::size_t k) {
     const PointOrder& order = orders[k];
     tested[k] = {order.stage, order.number, order.seed, order.point, order.parameters, {}};
@@ -110,7 +144,7 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
     if (auto values = read_values(file, identity, responses.size()))
       {
         tested[k].values = std::move(*values);
-        board.finish(programme.size());
+        board.take_up();
         return;
       }
     end_if_interrupted();
@@ -121,14 +155,18 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
         const auto specimen = make_specimen<dim>(
           rock.specimen, rock.flat_joint, rock.particle_contact, order.seed, [](std::string_view, double) {},
           end_if_interrupted);
-        for (const TestCase& test : programme)
+        for (std::size_t j = 0; j < programme.size(); ++j)
           {
+            const TestCase& test = programme[j];
             try
               {
                 const std::string full_name = name_of(test);
                 TestOutcome outcome =
                   run_test(test, rock, specimen, Checkpoints(checkpoints, full_name, run_identity(rock, full_name)),
-                           [](const CurveSample&) {});
+                           [&](const CurveSample& row) {
+                             constexpr double most = 0.99; // until it has ended
+                             board.update(k, j, std::min(most, test.kind.strain(row) / expected_end(test, rock)));
+                           });
                 end_if_interrupted();
                 finished_tests.push_back(finished(std::move(outcome), name(test), full_name, ""));
               }
@@ -136,12 +174,13 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
               {
                 // These parameters cannot bear the test, such as its confinement: a point without that figure.
               }
-            board.finish(1);
+            board.update(k, j, 1.0);
           }
       }
     catch (const InputError&)
       {
-        board.finish(programme.size()); // no specimen can be made of them
+        for (std::size_t j = 0; j < programme.size(); ++j)
+          board.update(k, j, 1.0); // no specimen can be made of them
       }
     tested[k].values = values_of(responses, finished_tests);
     write_values(file, identity, tested[k].values);

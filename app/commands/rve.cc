@@ -49,10 +49,10 @@ public:
     progress.start("paths");
   }
 
-  void update(const std::size_t k, const double fraction, const std::string& text)
+  void update(const std::size_t k, const double fraction, const std::string& name, const std::string& text)
   {
     const std::lock_guard lock(showing);
-    entries[k] = {fraction, text};
+    entries[k] = {fraction, name, text};
     double sum = 0.0;
     std::vector<ProgressDetail> running;
     for (const auto& entry : entries)
@@ -71,12 +71,12 @@ private:
 };
 
 template <int dim>
-std::string describe(const std::string& name, const PathSample<dim>& sample)
+std::string describe(const PathSample<dim>& sample)
 {
   std::string stresses;
   for (const double component : sample.stress)
     stresses += fmt::format("{}{:.2f}", stresses.empty() ? "" : ", ", component / 1e6);
-  return fmt::format("{}: stress {} MPa, {} cracks", name, stresses, sample.n_tension_cracks + sample.n_shear_cracks);
+  return fmt::format("stress {} MPa, {} cracks", stresses, sample.n_tension_cracks + sample.n_shear_cracks);
 }
 
 /// Hears how far a path is and what its last sample was.
@@ -161,11 +161,12 @@ std::vector<PlannedPath> plan(const Input& input, const std::vector<Variant>& al
                               const std::vector<SpecimenOrder>& orders)
 {
   std::vector<PlannedPath> runs;
+  const auto part = [](const std::string& name) { return name.empty() ? name : '_' + name; };
   for (std::size_t v = 0; v < all_variants.size(); ++v)
     for (std::size_t s = 0; s < orders.size(); ++s)
       if (std::count(orders[s].variants.begin(), orders[s].variants.end(), v) > 0)
         runs.push_back({v, s,
-                        "rve" + (all_variants.size() > 1 ? fmt::format("_variant_{}", v + 1) : std::string()) +
+                        "rve" + part(all_variants[v].name_in_files) +
                           (input.seeds.size() > 1 ? fmt::format("_seed_{}", orders[s].seed) : std::string())});
   return runs;
 }
@@ -199,7 +200,7 @@ void share_out_paths(const Run& run, Progress& progress)
       if (cell.periodic)
         run_rve<dim>(all_variants[path.variant], path.name, cell, run.folder,
                      [&](const double progress_of_path, const PathSample<dim>& sample) {
-                       board.update(k, progress_of_path, describe(path.name, sample));
+                       board.update(k, progress_of_path, path.name, describe(sample));
                      });
     });
     progress.finish(fmt::format("{} of {} RVE(s)", own.size(), paths.size()));
@@ -230,7 +231,7 @@ RunEnd strain_alone(const Run& run, Progress& progress)
     const PlannedPath& path = runs[k];
     rves[k] = run_rve<dim>(all_variants[path.variant], path.name, specimens[path.specimen], run.folder,
                            [&](const double progress_of_path, const PathSample<dim>& sample) {
-                             board.update(k, progress_of_path, describe(path.name, sample));
+                             board.update(k, progress_of_path, path.name, describe(sample));
                            });
   });
   progress.finish(fmt::format("{} RVE(s)", rves.size()));

@@ -59,6 +59,7 @@ struct VariantParameters
   bool in_step =
     false;           ///< the first values of all entries, then the second, ...; else each value with each of the others
   std::string table; ///< a CSV file that has them instead: a column an entry, a row a variant; empty: none
+  bool named_by_number = false; ///< in files, as those of runs that were begun before names had values
 };
 
 /// All that an input file says. A default-constructed value is what an empty file means.
@@ -100,6 +101,7 @@ struct Variant
   std::string label; ///< Section/Entry = value, for each entry; empty where there are no variants
   Input input;
   std::vector<VariantSetting> settings = {}; ///< what differs, entry by entry
+  std::string name_in_files = {};            ///< tells it from the others; empty where there are no others
 };
 
 /// Reads and checks a .prm or .json file. A mistake in it throws InputError, one line with file, line and entry.

@@ -2,6 +2,7 @@
 #include "app/input/input_entries.h"
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
+#include "app/input/variant_names.h"
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
@@ -59,6 +60,7 @@ std::size_t n_variants(const VariantParameters& wanted)
     n = std::min(most_variants + 1, n * values.size());
   return n;
 }
+
 /// Throws InputError, which says what does not fit.
 void check_fit(const VariantParameters& wanted)
 {
@@ -81,6 +83,18 @@ void check_fit(const VariantParameters& wanted)
     }
   if (n_variants(wanted) > most_variants)
     throw InputError(fmt::format("must be at most {} variants", most_variants));
+}
+
+void name_for_files(std::vector<Variant>& all, const bool by_number)
+{
+  if (all.size() < 2)
+    return;
+  std::vector<std::vector<VariantSetting>> settings;
+  for (const Variant& variant : all)
+    settings.push_back(variant.settings);
+  const auto names = names_in_files(settings);
+  for (std::size_t v = 0; v < all.size(); ++v)
+    all[v].name_in_files = by_number ? fmt::format("variant_{}", v + 1) : names[v];
 }
 } // namespace
 
@@ -138,6 +152,7 @@ std::vector<Variant> variants(const Input& input)
         }
       all.push_back(std::move(variant));
     }
+  name_for_files(all, wanted.named_by_number);
   return all;
 }
 } // namespace feldspar

@@ -51,7 +51,8 @@ std::vector<PlannedTest<dim>> plan(const std::vector<Variant>& variants, const s
     const Variant& variant = variants[v];
     for (const TestCase& test : test_cases(variant.input.test_list, variant.input.confinements))
       {
-        const std::string group = variants.size() > 1 ? fmt::format("{}_variant_{}", name(test), v + 1) : name(test);
+        const std::string& own = variant.name_in_files;
+        const std::string group = own.empty() ? name(test) : fmt::format("{}_{}", name(test), own);
         const std::string full_name = fmt::format("{}_seed_{}", group, seed_of(orders[s], specimens[s]));
         planned.push_back({test, &variant, &specimens[s], s, group, full_name, run_identity(variant.input, full_name)});
       }

@@ -2,6 +2,7 @@
 
 #include "app/input/joint_sections.h"
 #include "app/input/parameter_table.h"
+#include "app/input/variant_names.h"
 #include "app/programme/genesis_effort.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
@@ -32,6 +33,28 @@ std::string rock(const Input& input)
     if (parameter.flags.of_specimen && has_use_for(input, parameter))
       text += fmt::format("{} = {}\n", parameter.name(), parameter.write(input));
   return text;
+}
+
+/// Each by the values that all variants on it share.
+std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
+                                        const std::vector<std::vector<std::size_t>>& of_rock)
+{
+  std::vector<std::vector<VariantSetting>> shared;
+  std::vector<std::string> by_number;
+  for (const auto& users : of_rock)
+    {
+      shared.push_back(variants[users.front()].settings);
+      for (const std::size_t user : users)
+        std::erase_if(shared.back(), [&](const VariantSetting& setting) {
+          const auto& own = variants[user].settings;
+          return std::none_of(own.begin(), own.end(), [&](const VariantSetting& other) {
+            return other.entry == setting.entry && other.value == setting.value;
+          });
+        });
+      by_number.push_back(fmt::format("variant_{}", users.front() + 1));
+    }
+  const bool any_without = std::any_of(shared.begin(), shared.end(), [](const auto& one) { return one.empty(); });
+  return any_without || variants.front().input.variants.named_by_number ? by_number : names_in_files(shared);
 }
 
 /// Tells the progress how far genesis is, by its steps and those that it will probably take.
@@ -145,12 +168,14 @@ std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
     }
 
   std::vector<SpecimenOrder> orders;
-  for (const auto& users : of_rock)
-    for (const std::uint64_t seed : variants[users.front()].input.seeds)
+  const auto names = names_of_rocks(variants, of_rock);
+  for (std::size_t r = 0; r < of_rock.size(); ++r)
+    for (const std::uint64_t seed : variants[of_rock[r].front()].input.seeds)
       {
+        const auto& users = of_rock[r];
         std::string name = "specimen";
         if (of_rock.size() > 1)
-          name += fmt::format("_variant_{}", users.front() + 1);
+          name += '_' + names[r];
         if (variants[users.front()].input.seeds.size() > 1)
           name += fmt::format("_seed_{}", seed);
         orders.push_back({users, seed, name});

@@ -15,7 +15,7 @@ struct SpecimenOrder
 {
   std::vector<std::size_t> variants; ///< numbers of those that test it, among the run's
   std::uint64_t seed;
-  std::string name; ///< of its file without ending: specimen, specimen_seed_3, specimen_variant_2_seed_3
+  std::string name; ///< of its file without ending: specimen, specimen_seed_3, specimen_friction_0.5_seed_3
 };
 
 /// One for each rock and seed: variants that differ in the tests alone share theirs.

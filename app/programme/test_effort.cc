@@ -1,6 +1,7 @@
 #include "app/programme/test_effort.h"
 
 #include "app/programme/genesis_effort.h"
+#include "app/screen/stage_length.h"
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
@@ -78,26 +79,6 @@ double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
     sum += of_one;
   return sum;
 }
-
-/// Of a loading table, as a strain at the rate of compression: its ways to strains and its holds. How far it is to a stress is
-/// not known beforehand, nor how far the lateral strain has come before a stage that it leads.
-double known_length_of_stages(const TestParameters& tests)
-{
-  double length = 0.0;
-  double at = 0.0;
-  double lateral = 0.0;
-  const auto faster = [&](const LoadingStage& stage) {
-    return stage.strain_rate.value_or(tests.compression_strain_rate) / tests.compression_strain_rate;
-  };
-  for (const LoadingStage& stage : tests.loading_stages)
-    if (stage.axial_strain)
-      length += std::abs(*stage.axial_strain - std::exchange(at, *stage.axial_strain)) / faster(stage);
-    else if (stage.lateral_strain)
-      length += std::abs(*stage.lateral_strain - std::exchange(lateral, *stage.lateral_strain)) / faster(stage);
-    else
-      length += stage.duration.value_or(0.0) * tests.compression_strain_rate;
-  return length;
-}
 } // namespace
 
 template <int dim>
@@ -115,10 +96,9 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
       const auto [known, is_new] = time_steps.try_emplace({specimen, safety}, 0.0);
       if (is_new)
         known->second = expected_time_step(*specimen, safety);
-      // A test without a forecast is left out of the time.
       const double strain =
         test->kind.follows_stages
-          ? known_length_of_stages(input->tests)
+          ? StageLength(input->tests, expected_modulus(*input)).left()
           : expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
       const double rate = input->tests.*protocol_of(test->kind).strain_rate;
       const double n_steps = known->second > 0.0 ? strain / (rate * known->second) : 0.0;

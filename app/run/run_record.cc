@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -19,6 +20,8 @@ namespace feldspar
 namespace
 {
 constexpr const char* record_name = "run.json";
+constexpr const char* by_value = "by value";
+constexpr const char* by_number = "by number";
 
 /// JSON input keeps its ending: the ending tells how to read it.
 std::filesystem::path copy_of_input(const std::filesystem::path& folder, const std::filesystem::path& input_file)
@@ -32,6 +35,7 @@ struct Contents
   std::filesystem::path input_file;
   std::filesystem::path relative_to; ///< the folder of the input
   std::vector<std::string> settings;
+  bool variants_by_value; ///< how their files are named; not in the folders of before they were
   bool complete;
 };
 
@@ -42,6 +46,7 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["input_file"] = contents.input_file.string();
   json["relative_to"] = contents.relative_to.string();
   json["settings"] = contents.settings;
+  json["variants_named"] = contents.variants_by_value ? by_value : by_number;
   json["complete"] = contents.complete;
   write_whole_file(folder / record_name, json.dump(2) + "\n");
 }
@@ -66,8 +71,12 @@ Contents read(const std::filesystem::path& folder)
         throw InputError(fmt::format("--resume {}: the settings in {} are damaged", folder.string(), record_name));
       settings = all.get<std::vector<std::string>>();
     }
-  return {json["command"].get<std::string>(), json["input_file"].get<std::string>(),
-          json["relative_to"].get<std::string>(), settings, json["complete"].get<bool>()};
+  return {json["command"].get<std::string>(),
+          json["input_file"].get<std::string>(),
+          json["relative_to"].get<std::string>(),
+          settings,
+          holds("variants_named", Type::string) && json["variants_named"] == by_value,
+          json["complete"].get<bool>()};
 }
 } // namespace
 
@@ -77,7 +86,7 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_whole_file(copy_of_input(folder, input_file), text);
-  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, false});
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false});
 }
 
 std::string run_identity(const Input& input, const std::string& part)
@@ -127,7 +136,8 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
   if (contents.command != command)
     throw InputError(
       fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
-  return {read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings),
-          contents.input_file, contents.complete};
+  Input input = read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings);
+  input.variants.named_by_number = !contents.variants_by_value;
+  return {std::move(input), contents.input_file, contents.complete};
 }
 } // namespace feldspar

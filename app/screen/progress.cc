@@ -38,6 +38,15 @@ std::string bar(const double fraction)
   return fmt::format("[{:#<{}}{:.<{}}] ", "", full, "", bar_length - full);
 }
 
+/// Its beginning and, of more use where names of several tests begin alike, its end.
+std::string shortened(const std::string& name, const std::size_t most_characters)
+{
+  if (name.size() <= most_characters)
+    return name;
+  const std::size_t at_end = 2 * most_characters / 3;
+  return fmt::format("{}…{}", name.substr(0, most_characters - at_end - 1), name.substr(name.size() - at_end));
+}
+
 std::string clock_text(const std::chrono::duration<double> time)
 {
   return fmt::format("{:%H:%M:%S}", std::chrono::duration_cast<std::chrono::seconds>(time));
@@ -75,8 +84,14 @@ void Progress::update(const double fraction, const std::string_view text, const 
   line += text;
   std::vector<std::string> lines{line};
   for (const auto& detail : details)
-    lines.push_back(
-      fmt::format("  {}{}", on_terminal ? bar(std::isnan(detail.fraction) ? 0.0 : detail.fraction) : "", detail.text));
+    {
+      const std::string start = on_terminal ? bar(std::isnan(detail.fraction) ? 0.0 : detail.fraction) : "";
+      constexpr std::size_t least = 12; // of a name
+      const std::size_t others = 4 + start.size() + detail.text.size();
+      const std::size_t width = width_of_lines(on_terminal);
+      const std::string name = shortened(detail.name, width > others + least ? width - others : least);
+      lines.push_back(fmt::format("  {}{}: {}", start, name, detail.text));
+    }
   draw(lines, false);
 }
 

@@ -10,7 +10,8 @@ namespace feldspar
 /// One of several things that run at the same time.
 struct ProgressDetail
 {
-  double fraction; ///< NaN where it cannot be known
+  double fraction;  ///< NaN where it cannot be known
+  std::string name; ///< in ASCII; shortened where the line has no room for it beside the text
   std::string text;
 };
 

@@ -12,7 +12,11 @@ TestBoard::TestBoard(Progress& shown, const std::vector<BoardTest>& planned)
   : progress(shown)
 {
   for (const BoardTest& test : planned)
-    entries.push_back({test, PeakWatch(test.test.kind.peak_rule)});
+    {
+      entries.push_back({test, PeakWatch(test.test.kind.peak_rule)});
+      if (test.test.kind.follows_stages)
+        entries.back().stages.emplace(test.input->tests, expected_modulus(*test.input));
+    }
   progress.start("tests");
 }
 
@@ -23,6 +27,8 @@ void TestBoard::update(const std::size_t k, const CurveSample& row, const std::s
   const TestKind& kind = entry.planned.test.kind;
   entry.row = row;
   entry.more = more;
+  if (entry.stages)
+    entry.stages->follow(row);
   if (entry.peak.is_highest(kind.stress(row)))
     entry.strain_at_peak = kind.strain(row);
   entry.has_left_peak = kind.stress(row) < 0.95 * entry.peak.highest;
@@ -71,6 +77,8 @@ double TestBoard::strain_at_peak(const Entry& entry) const
 
 double TestBoard::last_strain(const Entry& entry) const
 {
+  if (entry.stages)
+    return entry.stages->gone() + entry.stages->left();
   return expected_last_strain(strain_at_peak(entry), entry.planned.input->tests);
 }
 
@@ -79,7 +87,8 @@ double TestBoard::fraction(const Entry& entry) const
   if (entry.finished)
     return 1.0;
   const double last = last_strain(entry);
-  return last > 0.0 ? std::clamp(entry.planned.test.kind.strain(entry.row) / last, 0.0, 0.99) : 0.0;
+  const double gone = entry.stages ? entry.stages->gone() : entry.planned.test.kind.strain(entry.row);
+  return last > 0.0 ? std::clamp(gone / last, 0.0, 0.99) : 0.0;
 }
 
 void TestBoard::draw()
@@ -97,9 +106,9 @@ void TestBoard::draw()
       n_finished += entry.finished;
       const TestKind& kind = entry.planned.test.kind;
       if (entry.running)
-        details.push_back(
-          {share, fmt::format("{}: {:.4f} %, {:.1f} MPa{}", entry.planned.name, 100.0 * kind.strain(entry.row),
-                              kind.stress(entry.row) / 1e6, entry.more)});
+        details.push_back({share, entry.planned.name,
+                           fmt::format("{:.4f} %, {:.1f} MPa{}", 100.0 * kind.strain(entry.row),
+                                       kind.stress(entry.row) / 1e6, entry.more)});
     }
   progress.update(cost > 0.0 ? spent / cost : 0.0, fmt::format("{} of {} done", n_finished, entries.size()), details);
 }

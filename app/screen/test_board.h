@@ -2,11 +2,13 @@
 
 #include "app/input/input.h"
 #include "app/screen/progress.h"
+#include "app/screen/stage_length.h"
 #include "results/curve.h"
 #include "results/kinds.h"
 
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,7 @@ private:
   {
     BoardTest planned;
     PeakWatch peak;
+    std::optional<StageLength> stages = {}; ///< of a test that follows them
     CurveSample row{};
     std::string more = {};
     double strain_at_peak = 0.0; ///< so far

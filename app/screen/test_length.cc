@@ -5,24 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <variant>
 
 namespace feldspar
 {
+namespace
+{
+// Ratios of a specimen's figures to those of its flat joints, as Beishan granite has them
+// (examples/beishan-granite/README.md): rocks by other parameters lie within a factor of two.
+constexpr double modulus_over_bonds = 0.8;
+constexpr double tension_over_bonds = 0.4;
+constexpr double compression_over_bonds = 7.5;
+constexpr double m = 20.0; // of Hoek and Brown
+} // namespace
+
+double expected_modulus(const Input& input)
+{
+  return std::visit([](const auto& law) { return modulus_over_bonds * law.modulus; }, joint_parameters(input));
+}
+
 std::optional<double> expected_strain_at_peak(const TestCase& test, const Input& input)
 {
-  // Ratios of a specimen's figures to those of its flat joints, as Beishan granite has them
-  // (examples/beishan-granite/README.md): rocks by other parameters lie within a factor of two.
-  constexpr double modulus_over_bonds = 0.8;
-  constexpr double tension_over_bonds = 0.4;
-  constexpr double compression_over_bonds = 7.5;
-  constexpr double m = 20.0; // of Hoek and Brown
-  const auto [modulus, bonds] = std::visit(
-    [](const auto& law) {
-      return std::pair(modulus_over_bonds * law.modulus, std::max(law.bond_tensile_strength, 1e-3 * law.bond_cohesion));
-    },
-    joint_parameters(input));
+  const double modulus = expected_modulus(input);
+  const double bonds =
+    std::visit([](const auto& law) { return std::max(law.bond_tensile_strength, 1e-3 * law.bond_cohesion); },
+               joint_parameters(input));
   const double tension = tension_over_bonds * bonds / modulus;
   const double uniaxial = compression_over_bonds * bonds;
   const auto [with, factor] = protocol_of(test.kind).forecast;

@@ -7,6 +7,9 @@
 
 namespace feldspar
 {
+/// Young's modulus of the specimen, a guess by that of its bonds [Pa].
+double expected_modulus(const Input& input);
+
 /// The strain at which a test will probably peak, from the strength and modulus of its bonds: a guess, for the time left
 /// before the curve has told more. Positive in the sense of the test; none of a test whose protocol has no forecast.
 std::optional<double> expected_strain_at_peak(const TestCase& test, const Input& input);

@@ -322,6 +322,12 @@ def column(summary, group, key):
     return [test[key] for test in summary["tests"] if test["group"] == group]
 
 
+def group_of(summary, kind, variant):
+    """The tests of a kind on the n-th variant, from 0, as the groups of a summary come one after the other."""
+    groups = list(dict.fromkeys(test["group"] for test in summary["tests"] if test["kind"] == kind))
+    return groups[variant]
+
+
 def strengths(summary, group):
     """Strength and crack initiation, in MPa, over the seeds."""
     return " | ".join(
@@ -343,18 +349,19 @@ def print_flaw(summary):
     for k in range(7):
         angle = math.radians(15 * k)
         net = 1.0 - (16.0 * math.cos(angle) + 2.0 * math.sin(angle)) / 50.0
-        group = f"uniaxial_compression_variant_{k + 1}"
-        cells = [strengths(summary, group), f"{net * strength / 1e6:.1f}", strengths(closed, group)]
+        group = group_of(summary, "uniaxial_compression", k)
+        of_closed = strengths(closed, group_of(closed, "uniaxial_compression", k))
+        cells = [strengths(summary, group), f"{net * strength / 1e6:.1f}", of_closed]
         print(f"| {15 * k}° | {' | '.join(cells)} |")
-    along_the_grains = strengths(summary, "uniaxial_compression_variant_8")
+    along_the_grains = strengths(summary, group_of(summary, "uniaxial_compression", 7))
     print(f"| 45°, a closed flaw along the grains | {along_the_grains} | | | |")
 
 
 def print_two_flaws(summary):
-    print(f"| intact | {strengths(summary, 'uniaxial_compression_variant_1')} | | | | |")
+    print(f"| intact | {strengths(summary, group_of(summary, 'uniaxial_compression', 0))} | | | | |")
     for k, bridge in enumerate(BRIDGES):
-        group = f"uniaxial_compression_variant_{k + 2}"
-        rows = [row for row in summary["joining"] if row["test"].startswith(group + "_")]
+        group = group_of(summary, "uniaxial_compression", k + 1)
+        rows = [row for row in summary["joining"] if row["test"].startswith(group + "_seed_")]
         cells = []
         for n in (1, 2):
             joined = [row[f"segments_{n}"] for row in rows if row[f"segments_{n}"]]
@@ -370,8 +377,8 @@ def print_hole(summary):
     for kind, name in (("direct_tension", "tension"), ("uniaxial_compression", "compression")):
         print(f"| {name}, intact | {strengths(of_the_granite(5), kind)} | | |")
         for k, radius in enumerate((5, 8)):
-            group = f"{kind}_variant_{k + 1}"
-            rows = [row for row in summary["first_cracks"] if row["test"].startswith(group + "_")]
+            group = group_of(summary, kind, k)
+            rows = [row for row in summary["first_cracks"] if row["test"].startswith(group + "_seed_")]
             first = shown([row["first_stress_Pa"] for row in rows], 1e6, 1)
             there = ", ".join(str(row["n_of_first_ten"]) for row in rows)
             print(f"| {name}, radius {radius} mm | {strengths(summary, group)} | {first} | {there} |")
@@ -381,7 +388,7 @@ def print_flaw_length(summary):
     width = 0.150
     points = []
     for k, length in enumerate((0.0, 4.0, 8.0, 16.5, 25.0, 33.0, 49.0)):
-        peaks = column(summary, f"direct_tension_variant_{k + 1}", "peak_stress_Pa")
+        peaks = column(summary, group_of(summary, "direct_tension", k), "peak_stress_Pa")
         a = length / 2e3
         wide = math.sqrt(1.0 / math.cos(math.pi * a / width))
         toughness = shown([peak * wide * math.sqrt(math.pi * a) for peak in peaks], 1e6, 2) if length else "–"

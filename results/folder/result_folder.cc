@@ -23,7 +23,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_characters_of_name = 100; ///< of a test; pictures add to it
+constexpr std::size_t most_characters_of_name = 180; ///< of a test; pictures add to it
 
 std::optional<TestKind> kind_named(const std::string_view wanted, const std::vector<TestKind>& known)
 {

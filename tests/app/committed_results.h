@@ -34,6 +34,17 @@ inline std::string number(const nlohmann::json& value, const double scale, const
   return fmt::format("{:.{}f}", value.get<double>() / scale, decimals);
 }
 
+/// The group of the tests whose name begins so, on the n-th variant, from 1: variants come one after the other.
+inline std::string group_of(const nlohmann::json& study, const std::string& beginning, const int variant)
+{
+  std::vector<std::string> groups;
+  for (const auto& test : study["tests"])
+    if (const std::string group = test["group"];
+        group.starts_with(beginning + '_') && (groups.empty() || groups.back() != group))
+      groups.push_back(group);
+  return groups.at(std::size_t(variant - 1));
+}
+
 inline double mean_of(const nlohmann::json& study, const std::string& group, const std::string& key = "peak_stress_Pa")
 {
   return study["ensemble"][group][key]["mean"].get<double>();

@@ -71,9 +71,9 @@ TEST(Example, TheReadmeShowsTheCommittedResults)
       << test;
   const auto rate = results("rate-study");
   for (const auto& [variant, strain_rate] : {std::pair(1, "1"), {2, "0.5"}, {3, "0.25"}})
-    shown(fmt::format(
-      "| {} | {} |", strain_rate,
-      mean_and_deviation(rate, fmt::format("uniaxial_compression_variant_{}", variant), "peak_stress_Pa", 1e6, 1)));
+    shown(
+      fmt::format("| {} | {} |", strain_rate,
+                  mean_and_deviation(rate, group_of(rate, "uniaxial_compression", variant), "peak_stress_Pa", 1e6, 1)));
 }
 
 TEST(Example, TheEnsembleIsTheRock)
@@ -405,8 +405,7 @@ std::string cells_of_toughness(const nlohmann::json& study, const int variant, c
   for (const auto& [key, scale, decimals] :
        {std::tuple("fracture_toughness_Pa_sqrt_m", 1e6, 2), std::tuple("fracture_energy_J_per_m2", 1.0, 1)})
     for (const std::string& kind : kinds)
-      cells += fmt::format(
-        " {} |", mean_and_deviation(study, fmt::format("{}_variant_{}", kind, variant), key, scale, decimals));
+      cells += fmt::format(" {} |", mean_and_deviation(study, group_of(study, kind, variant), key, scale, decimals));
   return cells;
 }
 
@@ -428,7 +427,7 @@ double with_longer_notches(const nlohmann::json& study, const std::string& kind,
   double sum = 0.0;
   double n = 0.0;
   for (const auto& test : study["tests"])
-    if (test["group"] == fmt::format("{}_variant_{}", kind, variant))
+    if (test["group"] == group_of(study, kind, variant))
       {
         const double width = test["size_m"][0];
         const double depth = kind == "centre_cracked_plate" ? 0.5 * width : double(test["size_m"][1]);
@@ -483,12 +482,12 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
               continue;
             }
           if (is_large)
-            shown(fmt::format("| {} | {} |{}", radius,
-                              mean_and_deviation(body.study, fmt::format("direct_tension_variant_{}", variant),
-                                                 "peak_stress_Pa", 1e6, 1),
-                              cells_of_toughness(body.study, variant, {body.kind})));
+            shown(fmt::format(
+              "| {} | {} |{}", radius,
+              mean_and_deviation(body.study, group_of(body.study, "direct_tension", variant), "peak_stress_Pa", 1e6, 1),
+              cells_of_toughness(body.study, variant, {body.kind})));
           const double toughness =
-            mean_of(body.study, fmt::format("{}_variant_{}", body.kind, variant), "fracture_toughness_Pa_sqrt_m");
+            mean_of(body.study, group_of(body.study, body.kind, variant), "fracture_toughness_Pa_sqrt_m");
           over_root[k] += fmt::format(" {:.2f} |", toughness / 1e6 / std::sqrt(std::stod(radius)));
           longer[k] += fmt::format(" {:.2f} |", with_longer_notches(body.study, body.kind, variant));
         }
@@ -503,7 +502,7 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
   for (const double opening : {0.0, 1e-6, 2e-6, 5e-6, 10e-6})
     {
       const auto peak = [&](const char* kind) {
-        return mean_and_deviation(pressed, fmt::format("{}_variant_{}", kind, variant), "peak_stress_Pa", 1e6, 1);
+        return mean_and_deviation(pressed, group_of(pressed, kind, variant), "peak_stress_Pa", 1e6, 1);
       };
       shown(fmt::format("| {:.0f} | {:.0f} | {} | {} |{}", 1e6 * opening,
                         0.5 * strength * (opening + strength / stiffness), peak("direct_tension"),
@@ -512,7 +511,7 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
 
       // The same row with strengths and opening scaled by one factor to the tensile strength of the granite.
       const auto mean = [&](const nlohmann::json& study, const char* kind, const char* key) {
-        return mean_of(study, fmt::format("{}_variant_{}", kind, variant), key);
+        return mean_of(study, group_of(study, kind, variant), key);
       };
       const double scale = 9.53e6 / mean(pressed, "direct_tension", "peak_stress_Pa");
       const auto bending = [&](const char* key, const double factor, const int decimals) {
@@ -538,7 +537,7 @@ TEST(Example, TheDirectShearReadmeShowsTheCommittedResults)
   for (const int stress : {2, 5, 10})
     {
       const auto strength = [&](const int variant, const int decimals) {
-        return mean_and_deviation(plane, fmt::format("direct_shear_{}_MPa_variant_{}", stress, variant),
+        return mean_and_deviation(plane, group_of(plane, fmt::format("direct_shear_{}_MPa", stress), variant),
                                   "peak_stress_Pa", 1e6, decimals);
       };
       shown(
@@ -554,7 +553,7 @@ TEST(Example, TheDirectShearReadmeShowsTheCommittedResults)
   const char* const names[] = {"plane", "dilating plane", "bonded plane"};
   for (int k = 0; k < 3; ++k)
     {
-      const std::string group = fmt::format("direct_shear_5_MPa_variant_{}", k + 1);
+      const std::string group = group_of(plane, "direct_shear_5_MPa", k + 1);
       const std::string variant = test_of(plane, group + "_seed_1")["variant"];
       line(names[k], plane["fits"]["direct_shear"][variant], plane["ensemble"][group]);
     }
@@ -589,12 +588,11 @@ TEST(Example, TheDirectShearReadmeShowsTheResultsAgainstANormalStiffness)
       std::string row = fmt::format("| {} |", name);
       for (const int stress : {2, 5})
         {
-          const std::string group = fmt::format("direct_shear_{}_MPa_variant_{}", stress, k + 1);
+          const std::string group = group_of(results, fmt::format("direct_shear_{}_MPa", stress), k + 1);
           row += fmt::format(" {} | {} |", mean_and_deviation(results, group, "normal_stress_at_peak_Pa", 1e6, 2),
                              mean_and_deviation(results, group, "peak_stress_Pa", 1e6, 3));
         }
-      const auto& dilation =
-        results["ensemble"][fmt::format("direct_shear_5_MPa_variant_{}", k + 1)]["dilation_angle_rad"];
+      const auto& dilation = results["ensemble"][group_of(results, "direct_shear_5_MPa", k + 1)]["dilation_angle_rad"];
       row += fmt::format(" {} |", number(dilation["mean"], M_PI / 180.0, 2));
       EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
 

@@ -414,11 +414,12 @@ end
   const double ratio =
     json["tests"][1]["peak_stress_Pa"].get<double>() / json["tests"][0]["peak_stress_Pa"].get<double>();
   EXPECT_NEAR(ratio, 2.0, 0.3);
-  EXPECT_TRUE(json["ensemble"].contains("direct_tension_variant_2"));
+  EXPECT_TRUE(json["ensemble"].contains("direct_tension_bond_tensile_strength_44_MPa"));
 
   const auto& setting = json["tests"][1]["variant_values"]["Flat joint/Bond tensile strength"];
   EXPECT_EQ(setting["value"], 44);
   EXPECT_EQ(setting["unit"], "MPa");
+  EXPECT_TRUE(fs::exists(folder.path() / "out/curves/direct_tension_bond_tensile_strength_22_MPa_seed_1.csv"));
   CsvReader table(folder.path() / "out/tests.csv");
   for (const auto& test : json["tests"])
     {
@@ -432,6 +433,16 @@ end
   EXPECT_FALSE(table.next());
   EXPECT_TRUE(content(folder.path() / "out/tables/comparison.csv")
                 .starts_with("source,kind,Flat joint/Bond tensile strength [MPa],property,unit,mean,"));
+
+  // A folder of before values were in names is taken up by its own names.
+  auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
+  record.erase("variants_named");
+  record["complete"] = false;
+  folder.write("out/run.json", record.dump());
+  ASSERT_EQ(run_feldspar(folder.path(), "lab --resume out --quiet").exit_code, 0);
+  const auto old = summary(folder.path() / "out");
+  EXPECT_EQ(old["tests"][1]["name"], "direct_tension_variant_2_seed_1");
+  EXPECT_EQ(old["tests"][1]["peak_stress_Pa"], json["tests"][1]["peak_stress_Pa"]);
 }
 
 // A core is tested like any specimen, to the same bits for any number of threads; what it is stands in the results, in

@@ -114,6 +114,7 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   const auto n_images = std::distance(std::sregex_iterator(words.begin(), words.end(), image), {});
   EXPECT_EQ(std::size_t(n_images), count(words, "<img"));
   EXPECT_GE(n_images, 25); // 4 tests shown with 4 curves and 2 maps each, and the envelopes
+  EXPECT_EQ(count(words, "<div class=\"picture\" style=\"--drawn: "), std::size_t(n_images)); // moved on a phone
   EXPECT_EQ(count(words, "class=\"absent\""), 0u);
   EXPECT_EQ(count(words, "{{"), 0u);
   // What a slider shows has a caption of its own beside that of the printed map.

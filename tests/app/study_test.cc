@@ -636,7 +636,7 @@ TEST(FlawedGranite, HasOneToughnessFromALengthOfTenRadiiOn)
   std::vector<double> toughnesses;
   for (const auto& [variant, a] : {std::pair(4, 8.25e-3), {5, 12.5e-3}, {6, 16.5e-3}, {7, 24.5e-3}})
     {
-      const auto& group = study["ensemble"][fmt::format("direct_tension_variant_{}", variant)];
+      const auto& group = study["ensemble"][group_of(study, "direct_tension", variant)];
       const double strength = group["peak_stress_Pa"]["mean"];
       toughnesses.push_back(strength * std::sqrt(M_PI * a / std::cos(M_PI * a / 0.150)));
     }
@@ -649,7 +649,7 @@ TEST(FlawedGranite, IsWeakestWithASmoothFlawAt30To60DegreesFromTheLoad)
   const auto study = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/closed-flaw.json"));
   std::map<double, int> angles; // from the load, by strength
   for (int k = 0; k < 7; ++k)
-    angles[mean_of(study, fmt::format("uniaxial_compression_variant_{}", k + 1))] = 90 - 15 * k;
+    angles[mean_of(study, group_of(study, "uniaxial_compression", k + 1))] = 90 - 15 * k;
   EXPECT_GE(angles.begin()->second, 30);
   EXPECT_LE(angles.begin()->second, 60);
 }

@@ -3,6 +3,7 @@
 #include "app/input/flaw_entries.h"
 #include "app/input/given_entries.h"
 #include "app/input/parameter_table.h"
+#include "app/input/variant_names.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
 #include "tests/temporary_folder.h"
@@ -567,6 +568,38 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
             "joint");
 }
 
+TEST(Input, VariantsAreNamedInFilesByTheirValues)
+{
+  const auto names = [](const std::string& entry, const std::vector<std::string>& values) {
+    std::vector<std::vector<VariantSetting>> variants;
+    for (const std::string& value : values)
+      variants.push_back({{entry, value}});
+    return names_in_files(variants);
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names("Flat joint/Bond cohesion", {"80 MPa", "0.12 GPa"}),
+            (Names{"bond_cohesion_80_MPa", "bond_cohesion_0.12_GPa"}));
+  EXPECT_EQ(names("Tests/Tension strain rate", {"1 1/s", "2.5e-1 1/s", "1e+2 mm/m/s"}),
+            (Names{"tension_strain_rate_1_per_s", "tension_strain_rate_2.5e-1_per_s",
+                   "tension_strain_rate_1e2_mm_per_m_per_s"}));
+  EXPECT_EQ(names("Strain path/Direction", {"free, -1, 0", "free, 1, 0"}),
+            (Names{"direction_free_-1_0", "direction_free_1_0"}));
+  EXPECT_EQ(names("Specimen/Specimen file", {"../rocks/a.h5", "none"}),
+            (Names{"specimen_file_rocks_a_h5", "specimen_file_none"}));
+  // Also where capitals make no difference two files are two: a press of 1 MPa is not one of 1 mPa.
+  EXPECT_EQ(names("Tests/Confinements", {"1 MPa", "1 mPa", "2 MPa"}),
+            (Names{"confinements_1_MPa_variant_1", "confinements_1_mPa_variant_2", "confinements_2_MPa"}));
+  // Two sections have an entry of this name.
+  EXPECT_EQ(names_in_files({{{"Flat joint/Friction", "0.5"}, {"Particle contact/Friction", "0.3"}}}),
+            (Names{"flat_joint_friction_0.5_particle_contact_friction_0.3"}));
+  const std::string list = "slot from 5, 10 mm to 15, 10 mm width 1 mm, slot from 5, 20 mm to 15, 20 mm width ";
+  const auto long_ones = names("Flaws/Shapes", {list + "1 mm", list + "2 mm"});
+  EXPECT_EQ(long_ones[0], "shapes_slot_from_5_10_mm_to_15_10_mm_width_1_mm_slot_from_5_20_mm_to_15_20_mm_variant_1");
+  EXPECT_EQ(long_ones[1].back(), '2');
+  for (const std::string& name : long_ones)
+    EXPECT_LE(name.size(), 90u) << name;
+}
+
 // Each value with each of the others, the last entry fastest; in step as many as the lists are long; a table the same by
 // rows.
 TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
@@ -601,6 +634,8 @@ TEST(Input, VariantsOfSeveralEntriesAreAGridOrInStepOrATable)
   EXPECT_EQ(written->unit, "GPa");
   EXPECT_FALSE(number_of({"Specimen/Joint law", "flat joint"}));
   EXPECT_FALSE(number_of({"Tests/Confinements", "5, 10 MPa"}));
+
+  EXPECT_EQ(all[1].name_in_files, "friction_0.6_bond_cohesion_0.12_GPa");
 
   const auto refused = [&](const std::string& section, const std::string& with) {
     EXPECT_NE(error_of("a.prm", "subsection Variants\n" + section + "end\n").find(with), std::string::npos) << with;

@@ -105,6 +105,7 @@ constinit const LaboratoryProtocol direct_shear = complete({
            .pressure_acts_across = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::shear_strain_rate,
+  .forecast = {PeakForecast::With::compression, 1.4}, // granite in a box of 40 x 20 mm, examples/direct-shear
   .set_up_2d = set_up_direct_shear<2>,
   .set_up_3d = set_up_direct_shear<3>,
 });
