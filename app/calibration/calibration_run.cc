@@ -78,7 +78,7 @@ private:
     const std::size_t n_design = wanted.n_points * wanted.n_packings;
     const std::size_t n_of_steps = wanted.most_steps * wanted.n_step_packings;
     progress.remark(fmt::format(
-      "{} target(s), {} unknown ratio(s){}{}. The design takes {} specimens of some {:.0f} grains, {} test(s) each; "
+      "{} target(s), {} unknown ratio(s){}{}.\nThe design takes {} specimens of some {:.0f} grains, {} test(s) each; "
       "steps up to {} specimens, the answer up to {} for each of at most {} rounds.",
       problem.targets.size(), problem.unknowns.size(), problem.has_modulus ? ", the modulus" : "",
       problem.has_strength ? ", the strength" : "", n_design, expected_grains(input.specimen), n_tests, n_of_steps,
@@ -92,7 +92,7 @@ private:
     const MicroParameters fixed = micro_parameters(input);
     const double gap = installation_gap<dim>(input, packings.next);
     const ElasticTable elastic =
-      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap);
+      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap, progress);
     check_poissons_ratio(problem, wanted, elastic);
     progress.finish(fmt::format("E {:.2f} to {:.2f} of the joints', nu {:.3f} to {:.3f}", elastic.least().modulus_ratio,
                                 elastic.largest().modulus_ratio, elastic.least().poissons_ratio,

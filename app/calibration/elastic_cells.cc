@@ -7,7 +7,10 @@
 #include "coupling/rve/homogenisation.h"
 #include "dem/genesis/genesis.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -50,7 +53,7 @@ Input cell_of(const Input& input)
 
 template <int dim>
 ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
-                               const std::optional<Bounds>& gap, const double gap_of_specimens)
+                               const std::optional<Bounds>& gap, const double gap_of_specimens, Progress& progress)
 {
   constexpr std::size_t n_packings = 3;
   constexpr std::size_t n_ratios = 17;
@@ -64,7 +67,16 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   const std::vector<double> gaps = gap ? spread(*gap, n_gaps) : std::vector{gap_of_specimens};
   using Constants = ElasticTable::Constants;
   std::vector<std::vector<Constants>> constants(gaps.size(), std::vector<Constants>(ratios.size()));
-  for_each_job(gaps.size() * ratios.size(), [&](const std::size_t job) {
+  const std::size_t n_jobs = gaps.size() * ratios.size();
+  std::mutex showing;
+  std::size_t n_done = 0;
+  const auto show = [&](const std::size_t n_more) {
+    const std::lock_guard lock(showing);
+    n_done += n_more;
+    progress.update(double(n_done) / double(n_jobs), fmt::format("{} of {} done", n_done, n_jobs));
+  };
+  show(0);
+  for_each_job(n_jobs, [&](const std::size_t job) {
     end_if_interrupted();
     const std::size_t g = job / ratios.size();
     const std::size_t r = job % ratios.size();
@@ -84,6 +96,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
       }
     constants[g][r] = mean;
+    show(1);
   });
   return {ratios, gaps, constants};
 }
@@ -97,9 +110,9 @@ double installation_gap(const Input& input, const std::uint64_t seed)
 }
 
 template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double);
+                                           double, Progress&);
 template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double);
+                                           double, Progress&);
 template double installation_gap<2>(const Input&, std::uint64_t);
 template double installation_gap<3>(const Input&, std::uint64_t);
 } // namespace feldspar::calibration

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
+#include "app/screen/progress.h"
 #include "calibration/elastic_table.h"
 #include "calibration/parameters.h"
 
@@ -13,7 +14,7 @@ namespace feldspar::calibration
 /// own ratio.
 template <int dim>
 ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
-                               const std::optional<Bounds>& gap, double gap_of_specimens);
+                               const std::optional<Bounds>& gap, double gap_of_specimens, Progress& progress);
 
 /// The gap of a specimen of the input; of one that asks for a coordination number, what genesis finds for it.
 template <int dim>

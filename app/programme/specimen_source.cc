@@ -192,7 +192,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
   if (const std::string effort = describe_effort(variants, orders); !effort.empty())
     progress.remark(effort);
   if (const auto& settled = variants.front().input.settled_by_file; !settled.empty())
-    progress.remark(fmt::format("the specimen is that of {}; these entries have no effect on it: {}",
+    progress.remark(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
                                 variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));
   std::vector<Specimen<dim>> specimens(orders.size());
   GenesisBoard board(progress, variants, orders);

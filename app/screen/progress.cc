@@ -1,5 +1,6 @@
 #include "app/screen/progress.h"
 
+#include "app/screen/print_result.h"
 #include "base/quoted.h"
 
 #include <fmt/chrono.h>
@@ -104,7 +105,8 @@ void Progress::note(const std::string_view text)
 {
   if (on_terminal && !is_quiet)
     clear();
-  say(fmt::format("feldspar: {}\n", text));
+  const std::string line = fmt::format("feldspar: {}\n", text);
+  say(on_terminal ? wrapped(line, width_of_lines(on_terminal)) : line);
 }
 
 void Progress::remark(const std::string_view text)
@@ -113,7 +115,7 @@ void Progress::remark(const std::string_view text)
     return;
   if (on_terminal)
     clear();
-  say(fmt::format("{}\n", text));
+  say(fmt::format("{}\n", wrapped(text, width_of_lines(on_terminal))));
 }
 
 /// Back to the first line of the last drawing, and all of it away from there down.

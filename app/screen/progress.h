@@ -31,7 +31,8 @@ public:
 
   void finish(std::string_view text);
 
-  /// A sentence that stays, on lines of its own: what goes wrong, also where the progress is quiet.
+  /// A sentence that stays, on lines of its own: what goes wrong, also where the progress is quiet. On a pipe it is one
+  /// line, to be searched for.
   void note(std::string_view text);
 
   /// The same of what is good to know: not where the progress is quiet.

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 namespace feldspar::tests
@@ -69,6 +70,12 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
   ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << outcome.error; // so small a rock may be missed
   EXPECT_NE(outcome.error.find("The design takes 10 specimens"), std::string::npos)
     << "the cost is not said beforehand";
+  std::istringstream lines(outcome.error);
+  for (std::string line; std::getline(lines, line);)
+    {
+      const bool is_searched_for = line.starts_with("feldspar: ");
+      EXPECT_TRUE(is_searched_for || line.size() <= 80) << line;
+    }
   const fs::path out = folder.path() / "out";
   const auto json = nlohmann::json::parse(content(out / "calibration.json"));
   EXPECT_EQ(json["has_reached"], outcome.exit_code == 0);

@@ -163,6 +163,35 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 }
 
+// One cell at every point under four boundaries, beside the same cells as grains: seed by seed.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsTheSameCellUnderEachBoundary)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/";
+  const std::string readme = content(folder + "README.md");
+  for (const auto& [label, name] : {std::pair("grains side by side, 1/s", "same-cells-grains"),
+                                    {"periodic", "same-cells-sample"},
+                                    {"minimal kinematic", "same-cells-sample-minimal-kinematic"},
+                                    {"weakly periodic", "same-cells-sample-weakly-periodic"},
+                                    {"edge", "same-cells-sample-edge"}})
+    {
+      const auto summary = nlohmann::json::parse(content(folder + "results/" + name + ".json"));
+      const auto of_seeds = [&](const std::string& kind, const char* const key, const double scale,
+                                const int decimals) {
+        std::string list;
+        for (const auto& test : summary["tests"])
+          if (test["kind"] == kind)
+            list += (list.empty() ? "" : ", ") + number(test[key], scale, decimals);
+        return list;
+      };
+      const std::string row =
+        fmt::format("\n| {} | {} | {} | {} | {} |", label, of_seeds("direct_tension", "peak_stress_Pa", 1e6, 1),
+                    of_seeds("uniaxial_compression", "peak_stress_Pa", 1e6, 0),
+                    of_seeds("uniaxial_compression", "crack_initiation_stress_Pa", 1e6, 0),
+                    of_seeds("uniaxial_compression", "youngs_modulus_initial_Pa", 1e9, 1));
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 // A row a size and boundary, and the bracket that minimal kinematic and affine cells give of one packing: the stiffness as
 // (9.6) has it, the strengths as was found.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsTheBoundariesOfACell)

@@ -354,7 +354,7 @@ const std::vector<Piece> pieces{
   {"SampleOfTheSameCellsBegun",
    "multiscale",
    "multiscale-and-grains/same-cells-sample.prm",
-   {"multiscale-and-grains/results/same-cells-sample.json",
+   {"multiscale-and-grains/results/same-cells-sample.json", "multiscale-and-grains/results/same-cells-sample-edge.json",
     "multiscale-and-grains/results/same-cells-sample-minimal-kinematic.json",
     "multiscale-and-grains/results/same-cells-sample-weakly-periodic.json"},
    {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "1e-5"}, first_seed},
