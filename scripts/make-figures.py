@@ -61,7 +61,10 @@ FIGURES_OF_RESULTS = {
     ),
 }
 # By a study of its own, which draws from its committed results when no run is named.
-FIGURES_OF_STUDIES = {"multiscale-and-grains.png": "examples/multiscale-and-grains/study.py"}
+FIGURES_OF_STUDIES = {
+    "multiscale-and-grains.png": "examples/multiscale-and-grains/study.py",
+    "plate-with-hole.png": "examples/plate-with-hole/study.py",
+}
 SHOWN = ("peak_stress_Pa", "n_tension_cracks", "n_shear_cracks")
 
 

@@ -197,15 +197,15 @@ struct SofteningPoint<dim>::Stored
   template <typename Archive>
   friend void transfer(Archive& archive, Stored& stored)
   {
-    auto& state = stored.state;
-    for (auto* const columns : {&state.strain, &state.rve_strain, &state.stress, &state.inelastic_strain})
+    State& written = stored.state;
+    for (auto* const columns : {&written.strain, &written.rve_strain, &written.stress, &written.inelastic_strain})
       for (double& component : *columns)
         archive.value("strains_and_stress", component);
-    transfer_flag(archive, "localised", state.localised);
-    archive.value("energies", state.energies);
-    archive.value("elastic_energy", state.elastic_energy);
-    archive.value("elastic_strain", state.elastic_strain);
-    archive.value("gained_while_held", state.gained_while_held);
+    transfer_flag(archive, "localised", written.localised);
+    archive.value("energies", written.energies);
+    archive.value("elastic_energy", written.elastic_energy);
+    archive.value("elastic_strain", written.elastic_strain);
+    archive.value("gained_while_held", written.gained_while_held);
     archive.text("rve", stored.rve);
   }
 };
