@@ -578,11 +578,11 @@ TEST(Peers, StandInTheReadmeWithTheCommittedFigures)
     }
 }
 
-// Its script prints the tables from the committed results; it runs nothing without names.
-TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
+/// How many rows of tables the study of an example prints, each of which must stand in its README.
+std::size_t rows_in_readme(const std::string& example, const std::string& arguments)
 {
-  std::istringstream tables(output_of_python("examples/flawed-granite/study.py", ""));
-  const std::string readme = text_of(root / "examples/flawed-granite/README.md");
+  std::istringstream tables(output_of_python("examples/" + example + "/study.py", arguments));
+  const std::string readme = text_of(root / "examples" / example / "README.md");
   std::size_t n_rows = 0;
   for (std::string row; std::getline(tables, row);)
     if (row.starts_with("| "))
@@ -590,7 +590,13 @@ TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
         EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
         ++n_rows;
       }
-  EXPECT_EQ(n_rows, 29u);
+  return n_rows;
+}
+
+// Its script prints the tables from the committed results; it runs nothing without names.
+TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
+{
+  EXPECT_EQ(rows_in_readme("flawed-granite", ""), 29u);
   const auto two_flaws = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/two-flaws.json"));
   const auto picture = root / "examples/flawed-granite/results/two-flaws.png";
   const std::string checksum = two_flaws["picture_sha256"];
@@ -599,16 +605,7 @@ TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
 
 TEST(PlateWithHole, StandsInTheReadmeWithTheCommittedFigures)
 {
-  std::istringstream tables(output_of_python("examples/plate-with-hole/study.py", "--tables"));
-  const std::string readme = text_of(root / "examples/plate-with-hole/README.md");
-  std::size_t n_rows = 0;
-  for (std::string row; std::getline(tables, row);)
-    if (row.starts_with("| "))
-      {
-        EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
-        ++n_rows;
-      }
-  EXPECT_EQ(n_rows, 25u);
+  EXPECT_EQ(rows_in_readme("plate-with-hole", "--tables"), 25u);
 }
 
 // In both bodies the wall cracks at its sides, across the load, and hardly behind them.
