@@ -21,13 +21,14 @@ namespace feldspar
 {
 namespace
 {
-struct Place
+/// An integration point of the mesh.
+struct RvePlace
 {
   unsigned int cell;
   unsigned int point;
 };
 
-Place place_of(const std::string& text)
+RvePlace place_of(const std::string& text)
 {
   const auto number = [&](const std::string_view part) {
     unsigned int value = 0;
@@ -71,7 +72,7 @@ std::string describe_position(const Vector<dim>& position)
 /// Writes the RVE at a place of one test; what was written, in words.
 template <int dim>
 std::string extract(const PlannedSample& planned, const SampleTest& test, const TestRecord& of_sample,
-                    const Place& place, const std::filesystem::path& folder)
+                    const RvePlace& place, const std::filesystem::path& folder)
 {
   const SampleRve<dim> rve = test.rve_at<dim>(place.cell, place.point);
   const auto& packings = std::get<Packings<dim>>(planned.rock->packings);
@@ -91,7 +92,7 @@ std::string extract(const PlannedSample& planned, const SampleTest& test, const 
 
 int extract_rve(const std::filesystem::path& folder, const std::string& cell_and_point, const bool quiet)
 {
-  const Place place = place_of(cell_and_point);
+  const RvePlace place = place_of(cell_and_point);
   const RunRecord record = read_run_record("multiscale", folder);
   Progress progress(true);
   const auto rocks = make_rocks(record.input, record.input_file, folder, progress);

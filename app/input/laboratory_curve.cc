@@ -36,19 +36,19 @@ constexpr std::array<Quantity, 4> quantities{Quantity{"axial_strain", &strain}, 
 constexpr std::string_view right_header =
   "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
 
-/// Where a quantity stands in the file, and its unit in SI.
-struct Place
+/// The column of a quantity in the file, and its unit in SI.
+struct QuantityColumn
 {
   std::size_t column;
   double unit;
 };
 
-std::array<Place, quantities.size()> places_of(const std::string& header, const std::filesystem::path& file)
+std::array<QuantityColumn, quantities.size()> columns_of(const std::string& header, const std::filesystem::path& file)
 {
   const auto refuse = [&](const std::string& what) {
     return InputError(fmt::format("{}:1: {}; the header must be as in \"{}\"", file.string(), what, right_header));
   };
-  std::array<std::optional<Place>, quantities.size()> found;
+  std::array<std::optional<QuantityColumn>, quantities.size()> found;
   const auto columns = split_at_commas(header);
   for (std::size_t c = 0; c < columns.size(); ++c)
     {
@@ -68,14 +68,14 @@ std::array<Place, quantities.size()> places_of(const std::string& header, const 
         throw refuse(fmt::format("{} is there twice", name));
       try
         {
-          place = Place{c, is_plain ? 1.0 : parse_quantity(fmt::format("1 {}", unit), *quantity->dimension)};
+          place = QuantityColumn{c, is_plain ? 1.0 : parse_quantity(fmt::format("1 {}", unit), *quantity->dimension)};
         }
       catch (const InputError& error)
         {
           throw refuse(fmt::format("{}: {}", in_quotes(column), error.what()));
         }
     }
-  std::array<Place, quantities.size()> places{};
+  std::array<QuantityColumn, quantities.size()> places{};
   for (std::size_t q = 0; q < quantities.size(); ++q)
     if (!found[q])
       throw refuse(fmt::format("there is no column {}", quantities[q].name));
@@ -103,7 +103,7 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
 Series read_laboratory_curve(const std::filesystem::path& file)
 {
   CsvReader table(file);
-  const auto places = places_of(table.header(), file);
+  const auto places = columns_of(table.header(), file);
 
   FinishedTest test;
   const std::string name = plot::file_name(file.stem().string());
