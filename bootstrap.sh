@@ -95,12 +95,14 @@ check_format()
   git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
 }
 
-# Reads build/asan's compile commands, which are clang's.
+# Of dem/, by the units that build/asan joined: file by file takes six times as long, nearly all of it for headers that the
+# files share.
 check_lint()
 {
   say "checking the lint"
-  git ls-files -z 'dem/*.cc' |
-    xargs --null --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/asan --quiet --warnings-as-errors='*'
+  sed -n "s|^ *\"file\": \"\($PWD/\(build/asan/\)\?dem/.*\)\",\?$|\1|p" build/asan/compile_commands.json |
+    xargs --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/asan --quiet --warnings-as-errors='*' \
+      --checks=-bugprone-suspicious-include
 }
 
 demo()
@@ -149,7 +151,7 @@ package()
 run_all_tests()
 {
   need_packages "${build_packages[@]}" "${test_packages[@]}"
-  build asan
+  build asan "$joined_units"
   run_tests asan
   say "fuzzing"
   scripts/fuzz.sh 60
