@@ -29,8 +29,8 @@ if(FELDSPAR_SANITIZE)
   target_compile_options(feldspar_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(feldspar_settings INTERFACE -fsanitize=address,undefined)
   # Where Eigen sees the address sanitizer it no longer trusts malloc's alignment, puts a pointer before each block, and
-  # looks for it when the block is freed. Of the functions of Eigen that our units and Ceres's static library both
-  # instantiate the linker keeps one, and Ceres's take blocks from malloc as they are.
+  # looks for it when the block is freed. Of the functions of Eigen that our units and Ceres both instantiate one serves
+  # both, and Ceres takes blocks from malloc as they are.
   target_compile_definitions(feldspar_settings INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
