@@ -10,7 +10,8 @@ summary.json, curves/*.csv, cracks.csv and grains/*.csv. Numbers are written so 
 so equal text is equal bits.
 
 What NEW has beyond OLD, a column, a key or an entry, is named and allowed; anything that is gone or different is a
-difference, but for versions, machines and times (MAY_DIFFER). Renamed keys and columns (RENAMED) are compared as one.
+difference, but for versions, machines and times (MAY_DIFFER). Renamed keys and columns (RENAMED) are compared as one, and
+so are records of summary.json that stand in the same order under other names, with their files.
 
 --keep FOLDER    leaves the results in FOLDER/old and FOLDER/new, which can stand for the builds the next time
 --expect KEY     a key or column that is to be different, for a reason that the caller knows; it is counted apart
@@ -23,9 +24,11 @@ import argparse
 import collections
 import csv
 import glob
+import io
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -101,12 +104,39 @@ def entries(value, path=()):
         yield path, repr(value)
 
 
-def values_of(file):
+def names_of(folder):
+    """The names of records in a summary, in their order."""
+
+    def walk(value):
+        if isinstance(value, dict):
+            if isinstance(value.get("name"), str):
+                yield value["name"]
+            value = list(value.values())
+        if isinstance(value, list):
+            for part in value:
+                yield from walk(part)
+
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        return list(dict.fromkeys(walk(json.load(file))))
+
+
+def renaming(old_folder, new_folder):
+    """Turns text with the names of old records into text with those of the new ones, if there are as many."""
+    old, new = names_of(old_folder), names_of(new_folder)
+    if old == new or len(old) != len(new):
+        return lambda text: text
+    names = dict(zip(old, new))
+    any_name = re.compile(r"(?<!\w)(" + "|".join(re.escape(name) for name in old) + r")(?!\w)")
+    return lambda text: any_name.sub(lambda match: names[match[1]], text)
+
+
+def values_of(file, rename=lambda text: text):
     """{where: text} of a file, with a column's or key's name as the last part of where."""
-    with open(file, encoding="utf-8") as text:
+    with open(file, encoding="utf-8") as opened:
+        text = rename(opened.read())
         if file.endswith(".json"):
-            return dict(entries(json.load(text)))
-        rows = csv.reader(text)
+            return dict(entries(json.loads(text)))
+        rows = csv.reader(io.StringIO(text))
         names = [RENAMED.get(name, name) for name in next(rows)]
         return {(row, name): cell for row, cells in enumerate(rows) for name, cell in zip(names, cells)}
 
@@ -180,9 +210,10 @@ def main():
             files += sorted(os.path.relpath(file, folders[0]) for file in glob.glob(os.path.join(folders[0], pattern)))
         if "summary.json" not in files:
             sys.exit(f"{folders[0]}: no results")
+        rename = renaming(*folders)
         for file in files:
-            old, new = (os.path.join(folder, file) for folder in folders)
-            part.add(f"{name}/{file}", values_of(old), values_of(new) if os.path.exists(new) else {})
+            old, new = os.path.join(folders[0], file), os.path.join(folders[1], rename(file))
+            part.add(f"{name}/{file}", values_of(old, rename), values_of(new) if os.path.exists(new) else {})
         n_different = sum(count for count, _ in part.different.values())
         print(f"{name}: {part.n_files} files, {part.n_values} values, {n_different} different")
         whole.n_files += part.n_files
