@@ -105,12 +105,11 @@ def entries(value, path=()):
 
 
 def names_of(folder):
-    """The names of records in a summary, in their order."""
+    """The names of records and of their groups in a summary, in their order."""
 
     def walk(value):
         if isinstance(value, dict):
-            if isinstance(value.get("name"), str):
-                yield value["name"]
+            yield from (value[key] for key in ("name", "group") if isinstance(value.get(key), str))
             value = list(value.values())
         if isinstance(value, list):
             for part in value:
