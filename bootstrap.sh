@@ -26,7 +26,7 @@ build_packages=(
 site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
   "${site_packages[@]}"
-  clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium
+  clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium slurm-wlm
   python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
 )
 

@@ -120,7 +120,7 @@ void write_tables(const Page& page, const std::filesystem::path& folder)
 } // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder,
-                                      const std::function<bool()>& is_over)
+                                      const DrawingWatch& watch)
 {
   const std::vector<Series> all = with_labels_to_show(input.all);
   const std::vector<Series> pictured = pictured_of_many(all);
@@ -133,7 +133,7 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const std::filesystem::path figures = folder / result_file::figures;
   std::filesystem::create_directories(figures);
   std::filesystem::create_directories(folder / result_file::tables);
-  const std::string not_drawn = book.draw_into(figures, page, is_over);
+  const std::string not_drawn = book.draw_into(figures, page, watch);
   if (!not_drawn.empty())
     page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + not_drawn);
   write_tables(page, folder / result_file::tables);

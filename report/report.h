@@ -1,12 +1,12 @@
 #pragma once
 
+#include "report/pictures/gnuplot.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/runs/series.h"
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +24,9 @@ struct ReportInput
   bool one_folder = true; ///< the names of tests are unlike; every test gets pictures of its own, as files
 };
 
-/// Writes report.html, figures/ and tables/ into a folder that exists. Once is_over() says so no more pictures are drawn,
+/// Writes report.html, figures/ and tables/ into a folder that exists. Once watch.is_over() says so no more pictures are drawn,
 /// which take nearly all of the time; words and tables come all the same. Returns what is missing in the report and why, each in
 /// a sentence; the report says it too.
-std::vector<std::string> write_report(
-  const ReportInput& input, const std::filesystem::path& folder,
-  const std::function<bool()>& is_over = [] { return false; });
+std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder,
+                                      const DrawingWatch& watch = {});
 } // namespace feldspar

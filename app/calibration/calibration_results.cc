@@ -30,8 +30,9 @@ void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome
   std::string text = as_text(outcome, model);
   if (!finished_tests.empty())
     {
+      Progress progress(run.quiet);
       for (const auto& sentence :
-           write_and_report(provenance(best_input, run.input_file), finished_tests, "", folder).missing)
+           write_and_report(provenance(best_input, run.input_file), finished_tests, "", folder, progress).missing)
         text += sentence + "\n";
     }
   std::filesystem::remove_all(folder / "calibration");

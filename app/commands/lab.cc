@@ -122,7 +122,8 @@ RunEnd test_alone(const Run& run, Progress& progress)
 
   // Report.
   const bool was_interrupted = interrupted();
-  auto [envelopes, missing] = write_and_report(provenance(input, input_file), tests, input.reference_file, folder);
+  auto [envelopes, missing] =
+    write_and_report(provenance(input, input_file), tests, input.reference_file, folder, progress);
   std::vector<SpecimenReport> bodies;
   for (const auto& specimen : specimens)
     bodies.push_back(specimen.report);

@@ -78,8 +78,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
   std::vector<FinishedTest> tests;
   std::vector<BoardTest> shown;
   for (const PlannedSample& one : planned)
-    shown.push_back({one.name, one.test, &input,
-                     1.0 / (one.test.kind.sign > 0.0 ? input.sample.tension_step : input.sample.compression_step)});
+    shown.push_back({one.name, one.test, &input, cost_of_sample(one.test.kind, input.sample)});
   TestBoard board(progress, shown);
   for (const PlannedSample& one : planned)
     {
@@ -106,7 +105,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
   const bool was_interrupted = ranks::any(interrupted());
   ranks::first([&] {
     auto [envelopes, missing] =
-      write_and_report(provenance(input, run.input_file), tests, input.reference_file, run.folder);
+      write_and_report(provenance(input, run.input_file), tests, input.reference_file, run.folder, progress);
     append(remarks, std::move(missing));
     std::vector<SpecimenReport> bodies;
     for (const Rock& rock : rocks)

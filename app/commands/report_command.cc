@@ -23,7 +23,8 @@ int run_report(const ReportOptions& options)
                             beside_results || options.force);
   const FolderLock lock(folder.path());
   order.output = folder.path();
-  const auto missing = report_on(order);
+  Progress progress(options.quiet);
+  const auto missing = report_on(order, progress);
   if (!options.quiet)
     for (const auto& sentence : missing)
       print_result("{}\n", printable(sentence));

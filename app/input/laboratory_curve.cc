@@ -75,13 +75,13 @@ std::array<QuantityColumn, quantities.size()> columns_of(const std::string& head
           throw refuse(fmt::format("{}: {}", in_quotes(column), error.what()));
         }
     }
-  std::array<QuantityColumn, quantities.size()> places{};
+  std::array<QuantityColumn, quantities.size()> all{};
   for (std::size_t q = 0; q < quantities.size(); ++q)
     if (!found[q])
       throw refuse(fmt::format("there is no column {}", quantities[q].name));
     else
-      places[q] = *found[q];
-  return places;
+      all[q] = *found[q];
+  return all;
 }
 
 /// The mean pressure; 0 of a uniaxial test.
@@ -103,7 +103,7 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
 Series read_laboratory_curve(const std::filesystem::path& file)
 {
   CsvReader table(file);
-  const auto places = columns_of(table.header(), file);
+  const auto columns = columns_of(table.header(), file);
 
   FinishedTest test;
   const std::string name = plot::file_name(file.stem().string());
@@ -111,7 +111,7 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   std::vector<double> pressures;
   while (table.next())
     {
-      const auto value = [&](const std::size_t q) { return places[q].unit * table.number(places[q].column); };
+      const auto value = [&](const std::size_t q) { return columns[q].unit * table.number(columns[q].column); };
       CurveSample sample; // tension positive
       sample.step = test.record.curve.size();
       sample.axial_strain = sample.gauge_axial_strain = -value(0);

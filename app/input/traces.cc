@@ -2,6 +2,8 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
+#include "base/text.h"
 
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
@@ -11,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -117,6 +120,26 @@ double metres_of_unit(const int code, const std::filesystem::path& file)
   return known->second;
 }
 
+/// dxflib takes a word for a coordinate of 0, and a half drawing without the traces behind the cut. A DXF is pairs of lines, a
+/// group code and its value; the codes 10 to 59 have real numbers (reference of DXF, group code value types).
+void check_groups(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  std::string code, value, last_value;
+  for (std::size_t line = 2; std::getline(stream, code) && std::getline(stream, value); line += 2)
+    {
+      const std::string_view digits = trim(code);
+      const bool is_real =
+        digits.size() == 2 && digits[0] >= '1' && digits[0] <= '5' && digits[1] >= '0' && digits[1] <= '9';
+      if (is_real && !is_decimal_number(trim(value)))
+        throw InputError(fmt::format("{}:{}: {} is not a decimal number, as group code {} has", file.string(), line,
+                                     in_quotes(trim(value)), digits));
+      last_value = value;
+    }
+  if (trim(last_value) != "EOF")
+    throw InputError(fmt::format("{}: does not end with EOF, as a complete DXF does", file.string()));
+}
+
 std::vector<Shape> read_drawing(const std::filesystem::path& file)
 {
   // dxflib takes a file of any content, and nothing of a binary one.
@@ -125,14 +148,7 @@ std::vector<Shape> read_drawing(const std::filesystem::path& file)
   stream.read(mark.data(), std::streamsize(mark.size()));
   if (mark.starts_with("AutoCAD Binary DXF"))
     throw InputError(fmt::format("{}: is a binary DXF; save it as text (ASCII)", file.string()));
-  // It takes a half drawing too, without the traces behind the cut.
-  std::string last_word;
-  stream.clear();
-  stream.seekg(0);
-  for (std::string word; stream >> word;)
-    last_word = word;
-  if (last_word != "EOF")
-    throw InputError(fmt::format("{}: does not end with EOF, as a complete DXF does", file.string()));
+  check_groups(file);
 
   Drawing drawing;
   if (DL_Dxf reader; !reader.in(file.string(), &drawing))

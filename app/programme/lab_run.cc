@@ -91,15 +91,14 @@ std::vector<PlannedTest<dim>> of_share(std::vector<PlannedTest<dim>> planned, co
   return own;
 }
 
-/// Steps cost as the grains that they move, and a strain takes the more of them the lower its rate.
 template <int dim>
 std::vector<BoardTest> for_board(const std::vector<PlannedTest<dim>>& planned)
 {
   std::vector<BoardTest> shown;
   for (const auto& one : planned)
-    shown.push_back(
-      {one.name, one.test, &one.variant->input,
-       double(one.specimen->grains.size()) / (one.variant->input.tests.*protocol_of(one.test.kind).strain_rate)});
+    shown.push_back({one.name, one.test, &one.variant->input,
+                     cost_of_specimen(one.specimen->grains.size(),
+                                      one.variant->input.tests.*protocol_of(one.test.kind).strain_rate)});
   return shown;
 }
 

@@ -13,11 +13,13 @@
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace feldspar
 {
-std::vector<std::string> report_on(const ReportOrder& order)
+std::vector<std::string> report_on(const ReportOrder& order, Progress& progress, const std::function<bool()>& is_over)
 {
   ReportInput input;
   input.one_folder = order.result_folders.size() == 1;
@@ -59,14 +61,22 @@ std::vector<std::string> report_on(const ReportOrder& order)
   else
     input.reference_problem =
       "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
-  auto missing = write_report(input, order.output, order.is_over);
+  progress.start("pictures");
+  std::size_t n_pictures = 0;
+  auto missing = write_report(input, order.output, {is_over, [&](const std::size_t n_done, const std::size_t n) {
+                                                      n_pictures = n;
+                                                      progress.update(double(n_done) / double(n),
+                                                                      fmt::format("{} of {} done", n_done, n));
+                                                    }});
+  progress.finish(is_over() ? "called off" : fmt::format("{} done", n_pictures));
   if (!calibration_problem.empty())
     missing.push_back(calibration_problem);
   return missing;
 }
 
 ReportedTests write_and_report(const Provenance& made_by, const std::vector<FinishedTest>& tests,
-                               const std::filesystem::path& reference_file, const std::filesystem::path& folder)
+                               const std::filesystem::path& reference_file, const std::filesystem::path& folder,
+                               Progress& progress)
 {
   ReportedTests reported{fit_each_rock(tests), {}};
   write_result_folder(made_by, tests, reported.envelopes, folder);
@@ -79,7 +89,7 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
     std::filesystem::copy_file(reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
   if (!tests.empty())
-    reported.missing = report_on({{folder}, {}, {}, folder, reported.envelopes, EndOfPatience()});
+    reported.missing = report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience());
   return reported;
 }
 

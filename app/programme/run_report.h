@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/screen/progress.h"
 #include "results/fits/run_envelopes.h"
 #include "results/runs/run.h"
 
@@ -19,13 +20,12 @@ struct ReportOrder
   std::optional<std::filesystem::path> reference; ///< else that of the first folder that has one
   std::filesystem::path output;                   ///< exists
   RunEnvelopes envelopes{}; ///< of the one folder of a run that has just fitted them; what is not there is fitted
-  /// Asked again and again: whether no more pictures are to be drawn.
-  std::function<bool()> is_over = [] { return false; };
 };
 
-/// Reads, and writes the report. Returns what is missing in it and why. Throws InputError for a folder that holds no
-/// results and for a curve that cannot be read.
-std::vector<std::string> report_on(const ReportOrder& order);
+/// Reads, and writes the report, until is_over() says that no more pictures are to be drawn. Returns what is missing in it and
+/// why. Throws InputError for a folder that holds no results and for a curve that cannot be read.
+std::vector<std::string> report_on(
+  const ReportOrder& order, Progress& progress, const std::function<bool()>& is_over = [] { return false; });
 
 /// The tests of a run in its folder, and their report.
 struct ReportedTests
@@ -36,7 +36,8 @@ struct ReportedTests
 
 /// Writes results, fields of grains, reference file (empty: none) and report.
 ReportedTests write_and_report(const Provenance& made_by, const std::vector<FinishedTest>& tests,
-                               const std::filesystem::path& reference_file, const std::filesystem::path& folder);
+                               const std::filesystem::path& reference_file, const std::filesystem::path& folder,
+                               Progress& progress);
 
 /// The words of a run: into its log.txt, unless quiet onto the terminal, and last the folder's name.
 void write_log(const std::filesystem::path& folder, const std::string& text, bool quiet);

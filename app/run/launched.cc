@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 
@@ -52,6 +53,7 @@ int with_mpi(const std::function<int()>& program)
   std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
   {
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+    std::signal(SIGPIPE, SIG_IGN); // as in main(): deal.II takes back PETSc's signal handlers, and that one with them
     try
       {
         exit_code = ranks::guarded(program);

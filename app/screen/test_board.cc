@@ -1,7 +1,5 @@
 #include "app/screen/test_board.h"
 
-#include "app/screen/test_length.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,7 +86,7 @@ double TestBoard::fraction(const Entry& entry) const
     return 1.0;
   const double last = last_strain(entry);
   const double gone = entry.stages ? entry.stages->gone() : entry.planned.test.kind.strain(entry.row);
-  return last > 0.0 ? std::clamp(gone / last, 0.0, 0.99) : 0.0;
+  return last > 0.0 ? std::min(entry.planned.cost.share(gone, last), 0.99) : 0.0;
 }
 
 void TestBoard::draw()
@@ -99,7 +97,7 @@ void TestBoard::draw()
   std::vector<ProgressDetail> details;
   for (const Entry& entry : entries)
     {
-      const double of_test = entry.planned.cost_per_strain * last_strain(entry);
+      const double of_test = entry.planned.cost.whole(last_strain(entry));
       const double share = fraction(entry);
       cost += of_test;
       spent += share * of_test;

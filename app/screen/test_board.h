@@ -3,6 +3,7 @@
 #include "app/input/input.h"
 #include "app/screen/progress.h"
 #include "app/screen/stage_length.h"
+#include "app/screen/test_length.h"
 #include "results/curve.h"
 #include "results/kinds.h"
 
@@ -19,8 +20,8 @@ struct BoardTest
 {
   std::string name;
   TestCase test;
-  const Input* input;     ///< outlives the board
-  double cost_per_strain; ///< of a unit of axial strain, in any unit that all tests of a board have in common
+  const Input* input; ///< outlives the board
+  TestCost cost;
 };
 
 /// Tells the progress how all tests of a run stand. Several threads may call it at the same time.

@@ -3,6 +3,7 @@
 #include "app/input/input.h"
 #include "results/kinds.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace feldspar
@@ -16,4 +17,22 @@ std::optional<double> expected_strain_at_peak(const TestCase& test, const Input&
 
 /// The strain at which a test will probably end, from that at its peak.
 double expected_last_strain(double strain_at_peak, const TestParameters& tests);
+
+/// How much work a test is, in any unit that the tests of a run have in common.
+struct TestCost
+{
+  double per_strain;   ///< mean over the test
+  double growth = 1.0; ///< the work that is done grows as this power of the strain
+
+  double whole(const double last_strain) const { return per_strain * last_strain; }
+  /// Share of it that is done, of a last strain above 0.
+  double share(double strain, double last_strain) const;
+};
+
+/// Of a specimen of grains, whose steps cost as the grains that they move; a strain takes the more of them the lower its rate
+/// [1/s].
+TestCost cost_of_specimen(std::size_t n_grains, double strain_rate);
+
+/// Of a sample with RVEs, in which a step of the curve costs as what is broken.
+TestCost cost_of_sample(const TestKind& kind, const SampleParameters& sample);
 } // namespace feldspar

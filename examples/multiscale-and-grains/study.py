@@ -42,6 +42,7 @@ SIZES_MM = (12.5, 18.0, 25.0, 36.0)  # of cells by their boundaries; those of 36
 BOUNDARIES = ("minimal kinematic", "weakly periodic", "edge", "periodic", "affine")
 N_POINTS = 32  # of a sample of 2 x 4 elements
 UNTURNED = "Sample/Orientation = fixed"
+OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packing of its own at every point
 
 
 def at_boundary(boundary):
@@ -58,6 +59,8 @@ EXPERIMENTS = {
     "angles-tension": Experiment("rve", "angles-tension"),
     "angles-compression": Experiment("rve", "angles-compression"),
     "sample-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, UNTURNED)),
+    "sample-own": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN)),
+    "sample-own-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN, UNTURNED)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
 for way, sizes in (("tension", SIZES_MM), ("compression", SIZES_MM[:3])):
@@ -254,6 +257,40 @@ def print_bodies():
     print()
 
 
+DEALINGS = (
+    ("4 packings, turned", "sample"),
+    ("4 packings, as they lie", "sample-unturned"),
+    ("one a point, turned", "sample-own"),
+    ("one a point, as they lie", "sample-own-unturned"),
+    ("4 packings, turned, edge cells", "sample-edges"),
+)
+
+
+def print_dealings():
+    """T8: samples by the packings at their points, over the seeds that all of them have."""
+    print("| cells | seeds | σ_t [MPa] | UCS [MPa] | strain at it [1e-3] | σ_ci [MPa] | over turned, seed by seed |")
+    print("|---|---|---|---|---|---|---|")
+    base = {test["seed"]: test for test in tests_of("sample", "uniaxial_compression")}
+    for label, name in DEALINGS:
+        crushed = [test for test in tests_of(name, "uniaxial_compression") if test["seed"] <= 5]
+        if not crushed:
+            continue
+        pulled = [test for test in tests_of(name, "direct_tension") if test["seed"] <= 5]
+        column = lambda tests, key, scale: [test[key] / scale for test in tests if test[key] is not None]
+        ratios = [test["peak_stress_Pa"] / base[test["seed"]]["peak_stress_Pa"] for test in crushed]
+        cells = [
+            label,
+            str(len(crushed)),
+            shown(column(pulled, "peak_stress_Pa", 1e6), 1),
+            shown(column(crushed, "peak_stress_Pa", 1e6), 0),
+            shown(column(crushed, "strain_at_peak", 1e-3), 2),
+            shown(column(crushed, "crack_initiation_stress_Pa", 1e6), 0),
+            shown(ratios, 2),
+        ]
+        print(f"| {' | '.join(cells)} |")
+    print()
+
+
 SAME_CELLS = (("grains side by side, 1/s", "same-cells-grains"), ("periodic", "same-cells-sample")) + tuple(
     (boundary, "same-cells-sample-" + boundary.replace(" ", "-")) for boundary in BOUNDARIES[:3]
 )
@@ -428,6 +465,7 @@ def main():
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
+    print_dealings()
     print_same_cells()
     print_angles()
     print_boundaries()

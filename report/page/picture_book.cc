@@ -26,10 +26,9 @@ void PictureBook::keep_as_files(std::vector<Picture> pictures)
       all.push_back(std::move(picture));
 }
 
-std::string PictureBook::draw_into(const std::filesystem::path& folder, Page& page,
-                                   const std::function<bool()>& is_over) const
+std::string PictureBook::draw_into(const std::filesystem::path& folder, Page& page, const DrawingWatch& watch) const
 {
-  const auto problems = draw(all, folder, std::chrono::minutes(5), is_over);
+  const auto problems = draw(all, folder, std::chrono::minutes(5), watch);
   std::map<std::string, std::string> problem_of;
   for (std::size_t k = 0; k < all.size(); ++k)
     problem_of[all[k].name] = problems[k];

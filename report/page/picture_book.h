@@ -3,7 +3,6 @@
 #include "report/page/page.h"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +19,9 @@ public:
   /// Pictures that go to files only; those whose names are taken are on the page already.
   void keep_as_files(std::vector<Picture> pictures);
 
-  /// Draws all into a folder that exists, until is_over() says that it is enough, and tells the page which are not there.
+  /// Draws all into a folder that exists, until watch.is_over() says that it is enough, and tells the page which are not there.
   /// Returns why the first of these is not; empty if all are.
-  std::string draw_into(const std::filesystem::path& folder, Page& page, const std::function<bool()>& is_over) const;
+  std::string draw_into(const std::filesystem::path& folder, Page& page, const DrawingWatch& watch) const;
 
 private:
   bool is_taken(const std::string& name) const;

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -145,12 +146,17 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
 } // namespace
 
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
-                              const std::chrono::milliseconds longest, const std::function<bool()>& is_over)
+                              const std::chrono::milliseconds longest, const DrawingWatch& watch)
 {
   std::vector<std::string> problems(pictures.size());
   Hung hung{};
-  tbb::parallel_for(std::size_t(0), pictures.size(),
-                    [&](const std::size_t k) { problems[k] = draw_one(pictures[k], folder, longest, is_over, hung); });
+  std::mutex hearing;
+  std::size_t n_done = 0;
+  tbb::parallel_for(std::size_t(0), pictures.size(), [&](const std::size_t k) {
+    problems[k] = draw_one(pictures[k], folder, longest, watch.is_over, hung);
+    const std::lock_guard lock(hearing);
+    watch.hear(++n_done, pictures.size());
+  });
   return problems;
 }
 

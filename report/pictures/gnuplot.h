@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -34,14 +35,22 @@ struct Picture
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
 };
 
+/// Who waits for pictures.
+struct DrawingWatch
+{
+  /// Asked again and again: whether no more are to be drawn.
+  std::function<bool()> is_over = [] { return false; };
+  /// Told after each, one at a time, how many of how many are done.
+  std::function<void(std::size_t n_done, std::size_t n)> hear = [](std::size_t, std::size_t) {};
+};
+
 /// Draws pictures into a folder that exists, several at a time; the script of each stays beside it, for whoever wants
 /// it drawn otherwise: run there, it draws into the folder it is run in. A program that takes longer than `longest` for a
-/// picture is ended, and draws no other. Once is_over() says so no other is begun and those that are being drawn are
+/// picture is ended, and draws no other. Once watch.is_over() says so no other is begun and those that are being drawn are
 /// ended. Returns for each why it could not be drawn, or nothing.
-std::vector<std::string> draw(
-  const std::vector<Picture>& pictures, const std::filesystem::path& folder,
-  std::chrono::milliseconds longest = std::chrono::minutes(5),
-  const std::function<bool()>& is_over = [] { return false; });
+std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
+                              std::chrono::milliseconds longest = std::chrono::minutes(5),
+                              const DrawingWatch& watch = {});
 
 /// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not
 /// written in our sources enters a script through this: gnuplot has no switch that forbids a script to start programs

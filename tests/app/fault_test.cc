@@ -240,9 +240,16 @@ TEST(Fault, AStandardOutputThatIsClosedFullOrLeftDoesNotCostTheRun)
   EXPECT_EQ(n_lines(full.error), 1u) << full.error;
   EXPECT_NE(full.error.find("standard output"), std::string::npos) << full.error;
   same("full");
-  // Who reads along goes away.
-  run_feldspar(folder.path(), "lab rock.prm --output left | head -c 1");
+  // Who reads along goes away, also from the progress.
+  run_feldspar(folder.path(), "lab rock.prm --output left 2>&1 | head -c 1");
   same("left");
+  folder.write("sample.prm",
+               "subsection Specimen\n  set Shape = periodic\n  set Width = 10 mm\n  set Height = 10 mm\nend\n"
+               "subsection Sample\n  set Width = 10 mm\n  set Height = 10 mm\n"
+               "  set Elements across = 1\n  set Elements along = 1\n  set Realisations = 1\nend\n"
+               "subsection Tests\n  set List = direct_tension\n  set Stop strain = 5e-5\nend\n");
+  run_feldspar(folder.path(), "multiscale sample.prm --output sample 2>&1 | head -c 1");
+  EXPECT_TRUE(nlohmann::json::accept(content(folder.path() / "sample/summary.json")));
   const auto parameters = run_feldspar(folder.path(), "parameters > /dev/full");
   EXPECT_EQ(parameters.exit_code, 3);
   EXPECT_EQ(n_lines(parameters.error), 1u) << parameters.error;

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 /// `mpirun feldspar multiscale`, and runs that cannot be lost.
 namespace feldspar
 {
@@ -296,6 +298,25 @@ TEST(SeveralRanks, TakePathsOfCells)
   expect_success(run_feldspar(folder.path(), "rve cell.prm --output one --quiet"));
   expect_success(run_feldspar(folder.path(), "rve cell.prm --output two --quiet --threads 1", mpirun(2)));
   expect_same_files(folder.path() / "one", folder.path() / "two", "curves", 3);
+}
+
+/// The batch script of docs/cluster.md: a job that is told that its time ends writes a checkpoint and hands on to the next.
+TEST(SeveralRanks, FollowEachOtherUnderSlurm)
+{
+  if (geteuid() != 0 || !fs::exists("/usr/sbin/slurmctld"))
+    GTEST_SKIP() << "needs root and the package slurm-wlm";
+  const TemporaryFolder folder;
+  std::string slow = pull_of_ranks;
+  slow.replace(slow.find("step = 1e-5"), 11, "step = 3e-7");
+  folder.write("pull.prm", slow);
+  const auto trial =
+    tests::run_command(folder.path(), "OMPI_MCA_mpi_yield_when_idle=1 '" FELDSPAR_SOURCE_DIR
+                                      "/scripts/slurm-trial.sh' '" FELDSPAR_COMMAND "' pull.prm slurm");
+  ASSERT_EQ(trial.exit_code, 0) << trial.output << trial.error;
+  EXPECT_NE(trial.output.find("Exited with exit code 130"), std::string::npos) << trial.output;
+  EXPECT_NE(trial.output.find("JobId=2"), std::string::npos) << trial.output;
+  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_same_run(folder.path() / "whole", folder.path() / "slurm/RUN");
 }
 
 TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)

@@ -133,7 +133,13 @@ TEST(GnuplotText, IsWrittenIntoPicturesAsItIsShown)
         picture(fmt::format("picture_{}", pictures.size()),
                 plot::frame(text, text) + fmt::format("set title {} noenhanced\nplot x {}, 2*x {}\n",
                                                       gnuplot_text(text), plot::title(text), plot::title(text))));
-  const auto problems = draw(pictures, folder.path());
+  std::vector<std::pair<std::size_t, std::size_t>> heard;
+  DrawingWatch watch;
+  watch.hear = [&](const std::size_t n_done, const std::size_t n) { heard.emplace_back(n_done, n); };
+  const auto problems = draw(pictures, folder.path(), std::chrono::minutes(5), watch);
+  ASSERT_EQ(heard.size(), pictures.size());
+  for (std::size_t k = 0; k < heard.size(); ++k)
+    EXPECT_EQ(heard[k], std::pair(k + 1, pictures.size()));
   for (std::size_t k = 0; k < pictures.size(); ++k)
     {
       EXPECT_EQ(problems[k], "") << printable(texts[k]);

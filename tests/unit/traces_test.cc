@@ -53,7 +53,7 @@ TEST(Traces, OfADrawingAreItsLinesInItsUnit)
 TEST(Traces, OfADrawingThatCannotBeReadAsSuchAreRefused)
 {
   const TemporaryFolder folder;
-  const auto refused = [&](const std::string& text, const std::string& expected) {
+  const auto refused = [&](const std::string& text, const std::string& expected, const std::string& line = "") {
     try
       {
         read_traces(folder.write("map.dxf", text));
@@ -61,7 +61,8 @@ TEST(Traces, OfADrawingThatCannotBeReadAsSuchAreRefused)
       }
     catch (const InputError& error)
       {
-        EXPECT_NE(std::string(error.what()).find("map.dxf: " + expected), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("map.dxf:" + line + " " + expected), std::string::npos)
+          << error.what();
       }
   };
   refused(drawing(line_10_20_to_30_40, "0"), "its $INSUNITS is 0; it must be 4 (mm)");
@@ -75,6 +76,8 @@ TEST(Traces, OfADrawingThatCannotBeReadAsSuchAreRefused)
   const std::string two_lines = drawing(line_10_20_to_30_40 + line_10_20_to_30_40);
   refused(two_lines.substr(0, two_lines.rfind("LINE")), "does not end with EOF");
   refused(drawing("0\nLINE\n8\n0\n10\n1\n20\n1\n11\n1\n21\n1\n"), "trace 1 ends where it begins");
+  refused(drawing("0\nLINE\n8\n0\n 10\nabc\n20\n1\n11\n1\n21\n2\n"),
+          "\"abc\" is not a decimal number, as group code 10 has", "20:");
 }
 } // namespace
 } // namespace feldspar
