@@ -1,13 +1,23 @@
 #pragma once
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <thread>
 
 namespace feldspar
 {
+/// That may work at a time: as many as --threads allows and the machine has. An arena of TBB tells of the machine alone.
+inline std::size_t number_of_threads()
+{
+  using oneapi::tbb::global_control;
+  return std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()),
+                               global_control::active_value(global_control::max_allowed_parallelism));
+}
+
 /// Entries worked on together. Fixed, so that nothing depends on the number of threads.
 inline constexpr std::size_t block_size = 1024;
 

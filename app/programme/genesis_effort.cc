@@ -1,9 +1,9 @@
 #include "app/programme/genesis_effort.h"
 
 #include "base/input_error.h"
+#include "base/parallel.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -110,7 +110,7 @@ std::string describe_effort(const std::vector<Variant>& variants, const std::vec
   const GenesisEffort sum = together(efforts(variants, orders));
   if (sum.n_grains == 0.0)
     return "";
-  const double n_at_a_time = std::min<double>(double(orders.size()), oneapi::tbb::this_task_arena::max_concurrency());
+  const double n_at_a_time = std::min(double(orders.size()), double(number_of_threads()));
   const double seconds = sum.seconds / n_at_a_time;
   return fmt::format(
     "genesis of {} specimen{}, some {:.0f} grains{}: about {:.0f} MB, {}", orders.size(), orders.size() == 1 ? "" : "s",

@@ -62,13 +62,11 @@ std::vector<std::string> report_on(const ReportOrder& order, Progress& progress,
     input.reference_problem =
       "there is no reference file; name one by Report/Reference file, or by feldspar report --reference";
   progress.start("pictures");
-  std::size_t n_pictures = 0;
-  auto missing = write_report(input, order.output, {is_over, [&](const std::size_t n_done, const std::size_t n) {
-                                                      n_pictures = n;
-                                                      progress.update(double(n_done) / double(n),
-                                                                      fmt::format("{} of {} done", n_done, n));
-                                                    }});
-  progress.finish(is_over() ? "called off" : fmt::format("{} done", n_pictures));
+  DrawingWatch watch{is_over, [&](const std::size_t n_done, const std::size_t n) {
+                       progress.update(double(n_done) / double(n), fmt::format("{} of {}", n_done, n));
+                     }};
+  auto missing = write_report(input, order.output, watch);
+  progress.finish(is_over() ? "called off" : "done");
   if (!calibration_problem.empty())
     missing.push_back(calibration_problem);
   return missing;

@@ -4,10 +4,10 @@
 #include "app/screen/stage_length.h"
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
+#include "base/parallel.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ constexpr double seconds_of_joint_and_step(const int dimension) { return dimensi
 
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
 {
-  const double at_a_time = std::min<double>(n_tests, oneapi::tbb::this_task_arena::max_concurrency());
+  const double at_a_time = std::min(n_tests, double(number_of_threads()));
   return at_a_time * n_joints * bytes_of_running_joint + n_tests * n_grains * bytes_of_kept_grain(dimension);
 }
 
@@ -109,7 +109,7 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
       most_joints = std::max(most_joints, double(specimen->joints.size()));
     }
   // Threads help each other within a test too.
-  effort.seconds = seconds / oneapi::tbb::this_task_arena::max_concurrency();
+  effort.seconds = seconds / double(number_of_threads());
   effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints);
   return effort;
 }
@@ -118,10 +118,9 @@ template <int dim>
 std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
 {
   const TestEffort effort = expected_effort(tests);
-  return fmt::format("{} {:.0f} steps: about {:.0f} MB with specimens and program, {}",
-                     effort.n_tests == 1 ? "1 test of some" : fmt::format("{} tests of up to", effort.n_tests),
-                     effort.n_steps, (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6,
-                     in_words(effort.seconds));
+  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}",
+                     effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,
+                     (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6, in_words(effort.seconds));
 }
 
 void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)

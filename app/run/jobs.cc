@@ -1,5 +1,7 @@
 #include "app/run/jobs.h"
 
+#include "base/parallel.h"
+
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
@@ -13,7 +15,7 @@ namespace feldspar
 {
 void for_each_job(const std::size_t n, const std::function<void(std::size_t)>& job)
 {
-  const std::size_t n_workers = std::min(n, std::size_t(oneapi::tbb::this_task_arena::max_concurrency()));
+  const std::size_t n_workers = std::min(n, number_of_threads());
   std::atomic<std::size_t> next = 0;
   std::exception_ptr first_failure;
   std::mutex failing;

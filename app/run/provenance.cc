@@ -1,14 +1,12 @@
 #include "app/run/provenance.h"
 
 #include "app/input/parameter_table.h"
+#include "base/parallel.h"
 #include "feldspar_version.h"
-
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace feldspar
@@ -46,9 +44,7 @@ Provenance provenance(const Input& input, const std::filesystem::path& input_fil
       result.input.push_back({std::string(parameter.section), std::string(parameter.entry),
                               as_in_input(parameter.write(input), input.folder)});
   result.processor = processor_name();
-  result.n_threads = unsigned(std::min<std::size_t>(
-    std::thread::hardware_concurrency(),
-    oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism)));
+  result.n_threads = unsigned(number_of_threads());
   return result;
 }
 } // namespace feldspar

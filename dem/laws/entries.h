@@ -89,7 +89,7 @@ inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_ent
     else if (entry.name == "Friction")
       entry.meaning = "coefficient, of segments that are broken or soften in shear";
   entries.push_back(entry::quantity("Softening opening", &P::softening_opening, Measure::length, "um",
-                                    Range{'[', 0.0, 1.0, ']'}, // metres: no bond is as long
+                                    Range{'[', 0.0, 1e6, ']'}, // a metre: no bond is as long
                                     "over which the stress of a bond falls along a straight line from its strength to "
                                     "zero, in tension and in shear",
                                     {.varies = true, .of_specimen = true}));

@@ -8,6 +8,7 @@ the course after the peak (after_peak), read off the curves, and of cells by the
 (TOLD_OF_CELLS). Prints the tables of the README and draws ../../docs/figures/multiscale-and-grains.png (gnuplot).
 """
 
+import cmath
 import csv
 import itertools
 import json
@@ -41,6 +42,7 @@ def with_seeds(first, last, *entries):
 SIZES_MM = (12.5, 18.0, 25.0, 36.0)  # of cells by their boundaries; those of 36 mm are only pulled
 BOUNDARIES = ("minimal kinematic", "weakly periodic", "edge", "periodic", "affine")
 N_POINTS = 32  # of a sample of 2 x 4 elements
+TURNED = "Sample/Orientation = random"
 UNTURNED = "Sample/Orientation = fixed"
 OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packing of its own at every point
 
@@ -56,6 +58,7 @@ EXPERIMENTS = {
     "rate": Experiment("lab", "rate"),
     "same-cells-grains": Experiment("lab", "same-cells-grains"),
     "same-cells-sample": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2)),
+    "same-cells-sample-turned": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2, TURNED)),
     "angles-tension": Experiment("rve", "angles-tension"),
     "angles-compression": Experiment("rve", "angles-compression"),
     "sample-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, UNTURNED)),
@@ -91,6 +94,29 @@ def after_peak(rve, curve):
         "work_after_peak_J_per_m2": work * math.sqrt(edge),  # of the one crack across the cell
         "stress_at_end_over_peak": stress[-1] / stress[peak],
     }
+
+
+# Orders of the waves in which late cracks may lie: bands that close on themselves after one or two crossings of the cell.
+WAVES = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2))
+
+
+def band(rve, cracks, strain_at_peak):
+    """The plane wave that the cracks from 97 % of the strain at the peak on (the last 60 at least) follow most: the angle of
+    its crests to the axis [degrees, 0 to 90] and its amplitude over that of cracks on a line (1) or everywhere (0)."""
+    late = [crack for crack in cracks if -float(crack["strain_yy"]) >= 0.97 * strain_at_peak]
+    late = late if len(late) >= 60 else cracks[-60:]
+    a, b = rve["cell_m"][:2]
+    area = a[0] * b[1] - a[1] * b[0]
+    reciprocal = [[2.0 * math.pi * x / area for x in way] for way in ((b[1], -b[0]), (-a[1], a[0]))]
+    found = []
+    for n, m in WAVES:
+        wave = [n * one + m * other for one, other in zip(*reciprocal)]
+        phases = [(float(c["size_m"]), wave[0] * float(c["x_m"]) + wave[1] * float(c["y_m"])) for c in late]
+        total = sum(size * cmath.exp(1j * phase) for size, phase in phases)
+        across = math.degrees(math.atan2(wave[1], wave[0])) % 180.0
+        found.append((abs(total) / sum(size for size, _ in phases), min(across, 180.0 - across)))
+    share, angle = max(found)
+    return {"band_to_axis_deg": angle, "band_share": share}
 
 
 # Not the end of their paths: a cell that is torn apart holds nothing there but round-off.
@@ -149,11 +175,20 @@ def keep(name, outs):
             summary.pop(of_first, None)
     if name.startswith("angles"):
         summary["after_peak"] = []
+        cracks = {}
+        with open(os.path.join(outs[0], "cracks.csv"), encoding="utf-8") as file:
+            for crack in csv.DictReader(file):
+                cracks.setdefault(crack["rve"], []).append(crack)
         for rve in summary["rves"]:
             with open(os.path.join(outs[0], "curves", rve["name"] + ".csv"), encoding="utf-8") as file:
                 curve = list(csv.DictReader(file))
             if rve["at_end"]["strain_yy"] != 0.0:  # else it found no equilibrium at its first increment
-                summary["after_peak"].append(after_peak(rve, curve))
+                row = after_peak(rve, curve)
+                if name == "angles-compression":
+                    row |= {"ended_early": "ended_early" in rve, **band(rve, cracks[rve["name"]], row["strain_at_peak"])}
+                summary["after_peak"].append(row)
+        if name == "angles-compression":
+            del summary["rves"]  # 140, told by after_peak
     if name.startswith("boundaries"):
         summary["rves"] = [{key: rve[key] for key in TOLD_OF_CELLS if key in rve} for rve in summary["rves"]]
     with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
@@ -291,7 +326,11 @@ def print_dealings():
     print()
 
 
-SAME_CELLS = (("grains side by side, 1/s", "same-cells-grains"), ("periodic", "same-cells-sample")) + tuple(
+SAME_CELLS = (
+    ("grains side by side, 1/s", "same-cells-grains"),
+    ("periodic", "same-cells-sample"),
+    ("periodic, turned at random", "same-cells-sample-turned"),
+) + tuple(
     (boundary, "same-cells-sample-" + boundary.replace(" ", "-")) for boundary in BOUNDARIES[:3]
 )
 
@@ -344,6 +383,33 @@ def print_angles():
         cells = [shown([v / scale for v in table.get(angle, [])], decimals) for table, scale, decimals in tables]
         print(f"| {angle} | {' | '.join(cells)} |")
     print()
+
+
+ALONG = (0, 45, 90)  # angles at which a diagonal or an edge of the cell lies along the axis
+WEAK = 200.0  # MPa
+
+
+def print_weak_cells():
+    """What a cell in compression can fail by."""
+    rows = results("angles-compression")["after_peak"]
+    print(f"| angle | cells | UCS [MPa] | below {WEAK:g} MPa | no equilibrium found | cracks in a band 10 to 35 deg from the axis |")
+    print("|---|---|---|---|---|---|")
+    groups = {"along the axis: 0, 45, 90 deg": [], "oblique: 15, 30, 60, 75 deg": []}
+    for row in rows:
+        angle = int(float(row["variant"].split("=")[1].split()[0]))
+        groups[tuple(groups)[angle not in ALONG]].append(row)
+    strengths = {}
+    for label, cells in groups.items():
+        strengths[label] = [row["peak_stress_Pa"] / 1e6 for row in cells]
+        oblique = [row for row in cells if 10.0 <= row["band_to_axis_deg"] <= 35.0]
+        weak = sum(strength < WEAK for strength in strengths[label])
+        early = sum(row["ended_early"] for row in cells)
+        weak_oblique = sum(row["peak_stress_Pa"] < WEAK * 1e6 for row in oblique)
+        print(
+            f"| {label} | {len(cells)} | {shown(strengths[label], 0)} | {weak} | {early} | "
+            f"{len(oblique)}, of those below {WEAK:g} MPa {weak_oblique} |"
+        )
+    print(f"oblique from along: {difference(*reversed(strengths.values()))}\n")
 
 
 def cells_of(way, size, boundary):
@@ -468,6 +534,7 @@ def main():
     print_dealings()
     print_same_cells()
     print_angles()
+    print_weak_cells()
     print_boundaries()
     draw()
 

@@ -1,10 +1,9 @@
 #include "fem/solid/cell_balance.h"
 
+#include "base/parallel.h"
 #include "fem/mesh/partition.h"
 
 #include <deal.II/base/mpi.h>
-
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -86,7 +85,7 @@ auto CellBalance<dim>::strike(const MPI_Comm communicator) -> Verdict
   const auto weights = partition_weights(everywhere, n_ranks);
   const double longest = longest_share(everywhere, cuts);
   const double attainable = longest_share(everywhere, partition_cuts(weights, n_ranks));
-  const auto n_threads = double(oneapi::tbb::this_task_arena::max_concurrency());
+  const auto n_threads = double(number_of_threads());
   // Cells move once the time lost to imbalance equals the cost of a move (ski-rental rule).
   constexpr double worth_while = 0.9;
   const bool pays = attainable < worth_while * longest && (longest - attainable) / n_threads > cost_of_moving;

@@ -173,7 +173,9 @@
       if (row[1] > data.rows[highest][1])
         highest = k;
     });
-    slider.value = figure.kept ?? highest;
+    // Of a test that cracks only after its peak the peak would show nothing.
+    const isIntact = data.rows[highest][2] + data.rows[highest][3] === 0;
+    slider.value = figure.kept ?? (isIntact ? data.rows.length - 1 : highest);
 
     let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
     for (const grain of data.grains)

@@ -1,6 +1,7 @@
 #include "report/pictures/study_pictures.h"
 
 #include "report/pictures/plane_plot.h"
+#include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
 
@@ -34,9 +35,13 @@ constexpr std::array properties{
   Property{"strength", "strength", "MPa", mega, &TestResults::peak_stress},
   Property{"youngs_modulus", "Young's modulus, initial", "GPa", giga, &TestResults::youngs_modulus_initial},
   Property{"poissons_ratio", "Poisson's ratio, initial", "", 1.0, &TestResults::poissons_ratio_initial},
+  Property{"poissons_ratio_secant", "Poisson's ratio, secant at 50 % of the peak", "", 1.0,
+           &TestResults::poissons_ratio_secant},
   Property{"strain_at_peak", "strain at the peak", "10⁻³", milli, &TestResults::strain_at_peak},
   Property{"crack_initiation", "crack initiation stress", "MPa", mega, &TestResults::crack_initiation_stress},
   Property{"crack_damage", "crack damage stress", "MPa", mega, &TestResults::crack_damage_stress},
+  Property{"shear_share", "share of shear cracks at the peak", "", 1.0, &TestResults::shear_share_at_peak},
+  Property{"post_peak_drop", "drop of the stress after the peak, over the peak", "", 1.0, &TestResults::post_peak_drop},
   Property{"toughness", "fracture toughness", "MPa √m", mega, &TestResults::fracture_toughness},
   Property{"work_of_fracture", "work of fracture", "J/m²", 1.0, &TestResults::fracture_energy}};
 
@@ -73,100 +78,218 @@ std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
   return result;
 }
 
-/// Where a test stands in a picture over an entry: the number there, and all other settings in words.
-std::optional<std::pair<double, std::string>> place_of(const FinishedTest& test, const VariedEntry& entry)
+/// Whether another entry has one value for each number of this one, and the more the more, or the less: a picture over this
+/// one is then over both. A name that comes with a number goes along, too.
+bool goes_along(const std::vector<Series>& all, const VariedEntry& entry, const std::string& other)
 {
-  std::optional<double> value;
-  std::string others;
-  for (const VariantSetting& setting : test.settings)
-    if (setting.entry == entry.entry)
-      value = number_of(setting)->value;
-    else
-      others += fmt::format(", {} = {}", setting.entry.substr(setting.entry.find('/') + 1), setting.value);
-  return value ? std::optional(std::pair(*value, others)) : std::nullopt;
+  std::map<double, std::string> companion;
+  for (const Series& series : all)
+    for (const FinishedTest& test : series.tests)
+      {
+        std::optional<double> number;
+        std::string value;
+        for (const VariantSetting& setting : test.settings)
+          if (setting.entry == entry.entry)
+            number = number_of(setting)->value;
+          else if (setting.entry == other)
+            value = setting.value;
+        if (number && companion.try_emplace(*number, value).first->second != value)
+          return false;
+      }
+  std::vector<double> numbers;
+  for (const auto& [number, value] : companion)
+    if (const auto of_other = number_of({other, value}))
+      numbers.push_back(of_other->value);
+  return numbers.size() != companion.size() || std::is_sorted(numbers.begin(), numbers.end()) ||
+         std::is_sorted(numbers.rbegin(), numbers.rend());
 }
 
-/// The results of one line, by the number of the entry.
-using Line = std::map<double, std::vector<double>>;
-
-std::vector<std::pair<std::string, Line>> lines_of(const std::vector<Series>& all, const VariedEntry& entry,
-                                                   const Property& property)
+/// An entry to draw over, with those that go along with it.
+struct Abscissa
 {
-  std::vector<std::pair<std::string, Line>> lines;
+  VariedEntry varied;
+  std::set<std::string> along;
+};
+
+/// Of entries that go along with each other the first.
+std::vector<Abscissa> abscissas(const std::vector<Series>& all)
+{
+  const std::vector<VariedEntry> varied = varied_entries(all);
+  std::set<std::string> entries;
+  for (const Series& series : all)
+    for (const FinishedTest& test : series.tests)
+      for (const VariantSetting& setting : test.settings)
+        entries.insert(setting.entry);
+  std::vector<Abscissa> result;
+  for (const VariedEntry& entry : varied)
+    {
+      Abscissa one{entry, {}};
+      for (const std::string& other : entries)
+        if (other != entry.entry && goes_along(all, entry, other))
+          one.along.insert(other);
+      const bool is_known = std::any_of(result.begin(), result.end(), [&](const Abscissa& before) {
+        return before.along.contains(entry.entry) && one.along.contains(before.varied.entry);
+      });
+      if (!is_known)
+        result.push_back(std::move(one));
+    }
+  return result;
+}
+
+/// The results of one test of the programme and one combination of the entries that do not go along.
+struct Line
+{
+  TestKind kind;
+  std::string title;  ///< of the test
+  std::string others; ///< the combination in words; empty: none
+  std::map<double, std::vector<double>> results;
+
+  std::string label() const { return others.empty() ? title : title + ", " + others; }
+};
+
+std::vector<Line> lines_of(const std::vector<Series>& all, const Abscissa& over, const Property& property,
+                           const bool with_others)
+{
+  std::vector<Line> lines;
   for (const Series& series : all)
     for (const TestGroup& group : groups_of(series))
       for (const FinishedTest* const test : group.tests)
         {
-          const auto place = place_of(*test, entry);
           const Figure& figure = test->results.*property.figure;
-          if (!place || !test->was_made() || !figure.value)
+          if (!test->was_made() || !figure.value)
             continue;
-          const std::string label = group.title() + place->second;
-          auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& one) { return one.first == label; });
+          std::optional<double> value;
+          std::string others;
+          for (const VariantSetting& setting : test->settings)
+            if (setting.entry == over.varied.entry)
+              value = number_of(setting)->value;
+            else if (with_others && !over.along.contains(setting.entry))
+              others += fmt::format("{}{} = {}", others.empty() ? "" : ", ",
+                                    setting.entry.substr(setting.entry.find('/') + 1), setting.value);
+          if (!value)
+            continue;
+          auto line = std::find_if(lines.begin(), lines.end(),
+                                   [&](const Line& one) { return one.title == group.title() && one.others == others; });
           if (line == lines.end())
-            line = lines.insert(lines.end(), {label, {}});
-          line->second[place->first].push_back(*figure.value / property.scale);
+            line = lines.insert(lines.end(), {group.kind, group.title(), others, {}});
+          line->results[*value].push_back(*figure.value / property.scale);
         }
-  std::erase_if(lines, [](const auto& line) { return line.second.size() < 2; });
+  std::erase_if(lines, [](const Line& line) { return line.results.size() < 2; });
   return lines;
+}
+
+/// What a picture shows of a result.
+struct Selection
+{
+  std::vector<Line> lines;
+  std::string ending = {}; ///< of the name of its files
+  std::string remark = {}; ///< for its caption
+  bool joined = true;      ///< the means, by lines
+};
+
+/// So many of them, the first and the last among them.
+std::vector<Line> spread(const std::vector<Line>& lines, const std::size_t n)
+{
+  std::vector<Line> result;
+  for (std::size_t k = 0; k < n; ++k)
+    result.push_back(lines[k * (lines.size() - 1) / (n - 1)]);
+  return result;
+}
+
+/// All in one picture if they have room there; else a picture for each kind of test, of which many lines are thinned out.
+std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa& over, const Property& property)
+{
+  Selection whole{lines_of(all, over, property, true)};
+  if (whole.lines.empty()) // no two tests differ in this entry alone
+    {
+      whole = {lines_of(all, over, property, false), "", "; other entries differ, too", false};
+      if (whole.lines.empty())
+        return {};
+    }
+  if (whole.lines.size() <= most_lines)
+    return {whole};
+  std::vector<Selection> result;
+  for (const Line& line : whole.lines)
+    {
+      const auto same = std::find_if(result.begin(), result.end(),
+                                     [&](const Selection& one) { return one.lines.front().kind == line.kind; });
+      if (same == result.end())
+        result.push_back({{line}, fmt::format("_{}", line.kind.name), whole.remark, whole.joined});
+      else
+        same->lines.push_back(line);
+    }
+  for (Selection& one : result)
+    if (const std::size_t n = one.lines.size(); n > most_lines)
+      {
+        one.lines = spread(one.lines, most_lines);
+        one.remark += fmt::format("; {} of {} lines, all are in {}", most_lines, n, result_file::tests);
+      }
+  return result;
 }
 
 std::string with_unit(const std::string_view name, const std::string_view unit)
 {
   return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
 }
+Picture picture_of(const Selection& shown, const Abscissa& over, const Property& property)
+{
+  constexpr int width = 660; // [px]
+  const std::string& entry = over.varied.entry;
+  PlanePlot plotted(
+    {.x_label = with_unit(entry, over.varied.unit), .y_label = with_unit(property.title, property.unit)});
+  for (std::size_t n = 0; n < shown.lines.size(); ++n)
+    {
+      const std::string label = shown.lines[n].label();
+      const std::string of_colour = colour({}, n);
+      ChartLine means{.label = label, .colour = of_colour, .width = 2.0};
+      ChartLine marks{.kind = ChartLine::Kind::marks, .label = label, .goes_with = label, .colour = of_colour};
+      ChartLine bars{.kind = ChartLine::Kind::bars,
+                     .label = label,
+                     .goes_with = label,
+                     .colour = of_colour,
+                     .width = 1.4};
+      for (const auto& [value, results] : shown.lines[n].results)
+        {
+          const Statistics of = *statistics(results);
+          means.points.push_back({value, of.mean});
+          if (!of.standard_deviation)
+            continue;
+          for (const double sign : {-1.0, 1.0})
+            bars.points.push_back({value, of.mean + sign * *of.standard_deviation});
+          bars.points.push_back(gap);
+        }
+      marks.points = means.points;
+      if (shown.joined)
+        plotted.add(std::move(means));
+      else
+        marks.goes_with.clear();
+      plotted.add(std::move(marks));
+      plotted.add(std::move(bars));
+    }
+  std::string along;
+  for (const std::string& other : over.along)
+    along += fmt::format("{}{}", along.empty() ? "; along with it goes " : ", ", other);
+  return {.name = fmt::format("study_{}_{}{}", file_name(entry), property.name, shown.ending),
+          .caption = fmt::format("{}{} over {}: mean ± standard deviation over the seeds{}{}",
+                                 char(std::toupper(property.title.front())), property.title.substr(1), entry, along,
+                                 shown.remark),
+          .alternative = fmt::format("The {} over the values of {}; the numbers are in the table of the comparison.",
+                                     property.title, entry),
+          .width = width,
+          .height = 420 + plotted.columns().further_height(width),
+          .script = plotted.script("set yrange [0:*]\nset offsets graph 0.04, graph 0.04, 0, 0\n" +
+                                   plotted.columns().set_up(width) + "\n"),
+          .live = plotted.json()};
+}
 } // namespace
 
 std::vector<Picture> study_pictures(const std::vector<Series>& all)
 {
-  constexpr int width = 660; // [px]
   std::vector<Picture> pictures;
-  for (const VariedEntry& entry : varied_entries(all))
+  for (const Abscissa& over : abscissas(all))
     for (const Property& property : properties)
-      {
-        const auto lines = lines_of(all, entry, property);
-        if (lines.empty() || lines.size() > most_lines)
-          continue;
-        PlanePlot plotted(
-          {.x_label = with_unit(entry.entry, entry.unit), .y_label = with_unit(property.title, property.unit)});
-        for (std::size_t n = 0; n < lines.size(); ++n)
-          {
-            const auto& [label, of_line] = lines[n];
-            const std::string of_colour = colour({}, n);
-            ChartLine means{.label = label, .colour = of_colour, .width = 2.0};
-            ChartLine marks{.kind = ChartLine::Kind::marks, .label = label, .goes_with = label, .colour = of_colour};
-            ChartLine bars{.kind = ChartLine::Kind::bars,
-                           .label = label,
-                           .goes_with = label,
-                           .colour = of_colour,
-                           .width = 1.4};
-            for (const auto& [value, results] : of_line)
-              {
-                const Statistics of = *statistics(results);
-                means.points.push_back({value, of.mean});
-                if (!of.standard_deviation)
-                  continue;
-                for (const double sign : {-1.0, 1.0})
-                  bars.points.push_back({value, of.mean + sign * *of.standard_deviation});
-                bars.points.push_back(gap);
-              }
-            marks.points = means.points;
-            plotted.add(std::move(means));
-            plotted.add(std::move(marks));
-            plotted.add(std::move(bars));
-          }
-        pictures.push_back(
-          {.name = fmt::format("study_{}_{}", file_name(entry.entry), property.name),
-           .caption = fmt::format("{}{} over {}: mean ± standard deviation over the seeds",
-                                  char(std::toupper(property.title.front())), property.title.substr(1), entry.entry),
-           .alternative = fmt::format("The {} over the values of {}; the numbers are in the table of the comparison.",
-                                      property.title, entry.entry),
-           .width = width,
-           .height = 420 + plotted.columns().further_height(width),
-           .script = plotted.script("set yrange [0:*]\nset offsets graph 0.04, graph 0.04, 0, 0\n" +
-                                    plotted.columns().set_up(width) + "\n"),
-           .live = plotted.json()});
-      }
+      for (const Selection& shown : selections(all, over, property))
+        pictures.push_back(picture_of(shown, over, property));
   return pictures;
 }
 } // namespace feldspar

@@ -33,7 +33,7 @@ std::string against_experiment(const ComparisonRow& row)
 }
 
 /// A line of the comparison: heading, model, experiment, model against experiment and so on of one series; of several
-/// the rock before them.
+/// the experiment before them and the reference's model behind them.
 std::vector<std::string> arranged(const std::string& heading, const std::vector<std::string>& rock,
                                   const std::vector<std::string>& ours, const bool one)
 {
@@ -42,8 +42,11 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
     append(line, {ours[0], rock[0], ours[1], ours[2], rock[1]});
   else
     {
-      append(line, rock);
+      if (!rock.empty())
+        line.push_back(rock[0]);
       append(line, ours);
+      if (!rock.empty())
+        line.push_back(rock[1]);
     }
   return line;
 }

@@ -14,7 +14,7 @@ namespace feldspar
 {
 /// Of more series than these a page shows each as a row of its tables, and pictures of these alone. So many of a small rock
 /// take some 5 MB of the 10 MB of a page.
-inline constexpr std::size_t most_series_in_full = 50;
+inline constexpr std::size_t most_series_in_full = 12;
 
 /// Everything that sections are made of, computed once. What it refers to outlives it.
 struct Findings

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace feldspar
 {
 namespace
@@ -33,9 +35,15 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reaso
   std::vector<std::string> in;
   std::vector<std::string> out;
   std::vector<std::string> open;
+  double largest_without_range = 0.0;
   for (const auto& row : rows)
     if (row.ours && row.experiment)
-      (!row.in_range() ? open : *row.in_range() ? in : out).push_back(beside_experiment(row));
+      {
+        (!row.in_range() ? open : *row.in_range() ? in : out).push_back(beside_experiment(row));
+        const double deviation = row.in_range() ? 0.0 : row.deviation().value_or(0.0);
+        if (std::abs(deviation) > std::abs(largest_without_range))
+          largest_without_range = deviation;
+      }
 
   Verdict result;
   if (in.empty() && out.empty() && open.empty())
@@ -55,6 +63,13 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reaso
       : fmt::format("Not in every respect: {} of {} properties for which experiments give a range lie "
                     "outside it.",
                     out.size(), n);
+  if (n > 0 && !open.empty())
+    {
+      result.headline.pop_back();
+      result.headline +=
+        fmt::format("; {} without a range {} by up to {}.", open.size(), open.size() == 1 ? "deviates" : "deviate",
+                    text::signed_percent(largest_without_range));
+    }
   const auto add = [&](const char* what, const std::vector<std::string>& entries) {
     for (const auto& entry : entries)
       result.points.push_back(fmt::format("{}: {}.", what, entry));

@@ -30,9 +30,17 @@ Value energy_imbalance(const FinishedTest& test)
   return test.results.energy_imbalance_over_work;
 }
 
+/// The specimen tells of its width; a beam is longer than it is deep.
 Value resolution(const FinishedTest& test)
 {
-  return test.record.specimen.resolution > 0.0 ? Value(test.record.specimen.resolution) : std::nullopt;
+  const auto& size = test.record.size;
+  double least = size[0];
+  for (const double one : size)
+    if (one > 0.0)
+      least = std::min(least, one);
+  if (!(test.record.specimen.resolution > 0.0))
+    return std::nullopt;
+  return size[0] > 0.0 ? test.record.specimen.resolution * least / size[0] : test.record.specimen.resolution;
 }
 
 Value radius_change(const FinishedTest& test)
@@ -67,7 +75,8 @@ constexpr TrustMeasure measures[] = {
    BoundSide::at_most, 1 * percent, result<&TestResults::servo_error>},
   {"servo_error_largest", "servo error of the confinement, largest over the rows up to the peak", " %", percent, 1,
    BoundSide::at_most, 3 * percent, result<&TestResults::servo_error_largest>},
-  {"resolution", "specimen width over mean grain diameter", "", 1.0, 1, BoundSide::at_least, 10, resolution},
+  {"resolution", "least width of the specimen over mean grain diameter", "", 1.0, 1, BoundSide::at_least, 10,
+   resolution},
   {"radius_change", "change of the grain radii by genesis, over those of the input", " %", percent, 2,
    BoundSide::at_most, 1 * percent, radius_change},
   {"porosity_change", "difference of the porosity from that of the input", "", 1.0, 3, BoundSide::at_most, 0.02,

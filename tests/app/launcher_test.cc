@@ -95,5 +95,25 @@ TEST(Launcher, TakesALowerLevelWhereTheHigherOneIsNotInstalled)
       EXPECT_EQ(outcome.exit_code, 2);
     }
 }
+
+// What ./bootstrap.sh install does with a build, and what of it a user meets first.
+TEST(Installation, HasProgramManualCompletionAndExamples)
+{
+  const TemporaryFolder folder;
+  const Outcome installed =
+    run_command(folder.path(), "cmake --install '" FELDSPAR_BUILD_DIR "' --prefix usr --strip > installed");
+  ASSERT_EQ(installed.exit_code, 0) << installed.error;
+  const Outcome version = run_command(folder.path(), "usr/bin/feldspar version");
+  EXPECT_EQ(version.exit_code, 0) << version.error;
+  EXPECT_EQ(version.output, run_command(folder.path(), "'" FELDSPAR_COMMAND "' version").output);
+  const Outcome checked = run_command(
+    folder.path(), "usr/bin/feldspar parameters --check usr/share/doc/feldspar/examples/first-run/granite.prm");
+  EXPECT_EQ(checked.exit_code, 0) << checked.error;
+  const Outcome page = run_command(folder.path(), "cat usr/share/man/man1/feldspar.1");
+  EXPECT_NE(page.output.find("calibrate"), std::string::npos);
+  const Outcome completed =
+    run_command(folder.path(), "bash -c '. usr/share/bash-completion/completions/feldspar && complete -p feldspar'");
+  EXPECT_EQ(completed.exit_code, 0) << completed.error;
+}
 } // namespace
 } // namespace feldspar::tests

@@ -710,7 +710,7 @@ end
   EXPECT_EQ(input.flat_joint.n_segments, 4u) << "the section of another law";
   EXPECT_EQ(error_of("a.prm", "subsection Specimen\nset Joint law = softening flat joint\nend\n"
                               "subsection Softening flat joint\nset Softening opening = -1 um\nend"),
-            "a.prm:5: Softening flat joint/Softening opening = -1 um: must be >= 0 um");
+            "a.prm:5: Softening flat joint/Softening opening = -1 um: must lie in [0 um, 1000000 um]");
 }
 
 TEST(Input, VariantsMayDifferInJointLaw)

@@ -531,6 +531,14 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
 }
 
+/// Those of the strength alone.
+std::vector<Picture> strength_pictures(const std::vector<Series>& all)
+{
+  auto pictures = study_pictures(all);
+  std::erase_if(pictures, [](const Picture& picture) { return picture.name.find("_strength") == std::string::npos; });
+  return pictures;
+}
+
 TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
 {
   const auto series_at = [](const std::string& label, const std::vector<VariantSetting>& settings,
@@ -569,6 +577,65 @@ TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
   EXPECT_TRUE(study_pictures({series_at("a", {{"Specimen/Width", "20 mm"}}, {100e6}),
                               series_at("b", {{"Specimen/Width", "3 cm"}}, {100e6})})
                 .empty());
+
+  // Two entries in step: one picture over the first, one line; a third that falls while they grow goes along too.
+  const std::vector<Series> in_step{
+    series_at("a", {{"Flat joint/Friction", "0.2"}, {"Flat joint/Modulus", "50 GPa"}, {"Specimen/Width", "3 cm"}},
+              {80e6}),
+    series_at("b", {{"Flat joint/Friction", "0.4"}, {"Flat joint/Modulus", "70 GPa"}, {"Specimen/Width", "2 cm"}},
+              {90e6}),
+    series_at("c", {{"Flat joint/Friction", "0.5"}, {"Flat joint/Modulus", "90 GPa"}, {"Specimen/Width", "1 cm"}},
+              {95e6})};
+  const auto of_step = strength_pictures(in_step);
+  ASSERT_EQ(of_step.size(), 1u);
+  EXPECT_EQ(of_step[0].name, "study_Flat_joint_Friction_strength");
+  EXPECT_NE(of_step[0].caption.find("; along with it goes Flat joint/Modulus, Specimen/Width"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(of_step[0].live)["lines"][0]["points"],
+            nlohmann::json::parse("[[0.2, 80.0], [0.4, 90.0], [0.5, 95.0]]"));
+  EXPECT_EQ(nlohmann::json::parse(of_step[0].live)["lines"][0]["label"], "Uniaxial compression");
+
+  // A table of samples, in which no two agree in an entry: points without lines, over each.
+  const std::vector<Series> samples{
+    series_at("a", {{"Flat joint/Friction", "0.2"}, {"Flat joint/Modulus", "70 GPa"}}, {80e6}),
+    series_at("b", {{"Flat joint/Friction", "0.4"}, {"Flat joint/Modulus", "50 GPa"}}, {90e6}),
+    series_at("c", {{"Flat joint/Friction", "0.5"}, {"Flat joint/Modulus", "60 GPa"}}, {95e6})};
+  const auto of_samples = strength_pictures(samples);
+  ASSERT_EQ(of_samples.size(), 2u);
+  for (const Picture& picture : of_samples)
+    {
+      const auto lines = nlohmann::json::parse(picture.live)["lines"];
+      ASSERT_EQ(lines.size(), 1u); // marks
+      EXPECT_EQ(lines[0]["points"].size(), 3u);
+    }
+}
+
+// Tension and compression under eight pressures: nine lines are more than a picture takes.
+TEST(StudyPicture, OfManyTestsShowsEachKindByItself)
+{
+  std::vector<Series> all;
+  for (const char* const friction : {"0.2", "0.5"})
+    {
+      Series series{friction, SeriesKind::specimens, {}, {}, {}};
+      for (double pressure = 0.0; pressure < 9.0; ++pressure)
+        {
+          FinishedTest test = compression(1);
+          test.record.kind = pressure == 0.0 ? direct_tension.kind : triaxial_compression.kind;
+          test.record.confining_pressure = 1e6 * pressure;
+          test.settings = {{"Flat joint/Friction", friction}};
+          test.results.peak_stress = {1e6 * (100.0 + pressure), ""};
+          series.tests.push_back(test);
+        }
+      all.push_back(series);
+    }
+  const auto pictures = strength_pictures(all);
+  ASSERT_EQ(pictures.size(), 2u);
+  EXPECT_EQ(pictures[0].name, "study_Flat_joint_Friction_strength_direct_tension");
+  EXPECT_EQ(pictures[1].name, "study_Flat_joint_Friction_strength_triaxial_compression");
+  EXPECT_NE(pictures[1].caption.find("; 6 of 8 lines, all are in tests.csv"), std::string::npos) << pictures[1].caption;
+  const auto lines = nlohmann::json::parse(pictures[1].live)["lines"];
+  ASSERT_EQ(lines.size(), 2u * 6u); // means and marks
+  EXPECT_EQ(lines[0]["label"], "Triaxial compression, 1 MPa");
+  EXPECT_EQ(lines[10]["label"], "Triaxial compression, 8 MPa");
 }
 
 // gnuplot reckons 8.4 px for a letter and 53 px beside it, and 713 px hold all columns: 204 px for labels of 18 letters, so that
