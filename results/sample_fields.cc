@@ -38,8 +38,8 @@ Place place_of(const Xml& parent)
   return {text.substr(0, colon), text.substr(colon + 2)};
 }
 
-/// The last time of the index.
-struct LastTime
+/// A time of the index.
+struct IndexedTime
 {
   double time;
   Place nodes;
@@ -47,24 +47,26 @@ struct LastTime
   std::map<std::string, Place> fields;
 };
 
-LastTime last_time(const std::filesystem::path& index)
+/// In their order, one at least.
+std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
   Xml xml;
   boost::property_tree::read_xml(index.string(), xml);
-  const Xml* last = nullptr;
+  std::vector<IndexedTime> times;
   for (const auto& [tag, child] : xml.get_child("Xdmf.Domain.Grid"))
     if (tag == "Grid")
-      last = &child;
-  if (!last)
+      {
+        times.push_back({child.get<double>("Time.<xmlattr>.Value"),
+                         place_of(child.get_child("Geometry")),
+                         place_of(child.get_child("Topology")),
+                         {}});
+        for (const auto& [part, attribute] : child)
+          if (part == "Attribute")
+            times.back().fields[attribute.get<std::string>("<xmlattr>.Name")] = place_of(attribute);
+      }
+  if (times.empty())
     throw InputError("there is no time in it");
-  LastTime found{last->get<double>("Time.<xmlattr>.Value"),
-                 place_of(last->get_child("Geometry")),
-                 place_of(last->get_child("Topology")),
-                 {}};
-  for (const auto& [tag, child] : *last)
-    if (tag == "Attribute")
-      found.fields[child.get<std::string>("<xmlattr>.Name")] = place_of(child);
-  return found;
+  return times;
 }
 
 /// Rows of `n_columns`, filled up to three.
@@ -76,25 +78,25 @@ std::vector<std::array<double, 3>> points_of(const std::vector<double>& values, 
   return points;
 }
 
-SampleFields fields_of(const std::filesystem::path& folder, const LastTime& last)
+SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& one)
 {
   SampleFields fields;
   constexpr double most_rows = 1e12;
-  if (!(last.time >= 0.0 && last.time <= most_rows))
-    throw InputError("its last time is no number of rows");
-  fields.n_rows = std::size_t(last.time);
+  if (!(one.time >= 0.0 && one.time <= most_rows))
+    throw InputError("a time is no number of rows");
+  fields.n_rows = std::size_t(one.time);
   std::vector<double> nodes, displacement;
   std::vector<std::uint32_t> corners;
-  read_foreign_hdf5(folder / last.nodes.file, expected, [&](Hdf5Reader& root) {
-    root.array(last.nodes.array, nodes);
-    root.array(last.cells.array, corners);
+  read_foreign_hdf5(folder / one.nodes.file, expected, [&](Hdf5Reader& root) {
+    root.array(one.nodes.array, nodes);
+    root.array(one.cells.array, corners);
   });
-  if (last.fields.empty())
+  if (one.fields.empty())
     throw InputError("there is no field in it");
   // Of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
-  read_foreign_hdf5(folder / last.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
-    for (const auto& [name, place] : last.fields)
+  read_foreign_hdf5(folder / one.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
+    for (const auto& [name, place] : one.fields)
       root.array(place.array, of_nodes[name]);
   });
 
@@ -118,20 +120,42 @@ SampleFields fields_of(const std::filesystem::path& folder, const LastTime& last
         fields.of_each_cell[name].push_back(values[cell.front()]);
   return fields;
 }
-} // namespace
 
-SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name)
+std::filesystem::path index_of(const std::filesystem::path& folder, const std::string& name)
 {
-  const std::filesystem::path index = folder / (name + ".xdmf");
+  return folder / (name + ".xdmf");
+}
+
+/// Says which index it was that could not be read.
+template <typename Work>
+auto reading(const std::filesystem::path& index, Work&& work)
+{
   if (!std::filesystem::exists(index))
     throw InputError(fmt::format("{}: missing", index.string()));
   try
     {
-      return fields_of(folder, last_time(index));
+      return work();
     }
   catch (const boost::property_tree::ptree_error& error)
     {
       throw InputError(fmt::format("{}: not XDMF of `feldspar multiscale`, or cut short", index.string()));
     }
+}
+} // namespace
+
+SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name)
+{
+  const auto index = index_of(folder, name);
+  return reading(index, [&] { return fields_of(folder, times_in(index).back()); });
+}
+
+void for_each_time(const std::filesystem::path& folder, const std::string& name,
+                   const std::function<void(const SampleFields&)>& look)
+{
+  const auto index = index_of(folder, name);
+  reading(index, [&] {
+    for (const IndexedTime& one : times_in(index))
+      look(fields_of(folder, one));
+  });
 }
 } // namespace feldspar

@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace feldspar
 {
-/// The last of the fields that a test on finite elements left for ParaView (fem/output.h). No nodes: there are none.
+/// The fields at one time that a test on finite elements left for ParaView (fem/output.h). No nodes: there are none.
 struct SampleFields
 {
   unsigned int dimension = 0;                              ///< of the mesh
@@ -25,6 +26,11 @@ struct SampleFields
   bool is_axisymmetric() const { return has("stress_rr_Pa"); }
 };
 
-/// Reads FOLDER/NAME.xdmf and what it names. Throws InputError, one line, where a file is missing or cannot be read.
+/// Reads FOLDER/NAME.xdmf and what it names of the last time. Throws InputError, one line, where a file is missing or cannot be
+/// read.
 SampleFields read_sample_fields(const std::filesystem::path& folder, const std::string& name);
+
+/// Reads the same of every time, from the first on, one at a time.
+void for_each_time(const std::filesystem::path& folder, const std::string& name,
+                   const std::function<void(const SampleFields&)>& look);
 } // namespace feldspar

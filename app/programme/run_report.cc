@@ -3,6 +3,7 @@
 #include "app/input/laboratory_curve.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
+#include "base/append.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
@@ -12,6 +13,7 @@
 #include "results/folder/field_output.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
+#include "results/folder/sample_field_output.h"
 
 #include <fmt/format.h>
 
@@ -80,14 +82,23 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   write_result_folder(made_by, tests, reported.envelopes, folder);
   std::filesystem::create_directories(folder / result_file::fields);
   for (const auto& test : tests)
-    if (test.record.body == TestBody::grains) // a sample writes its fields step by step
+    if (test.record.body == TestBody::grains)
       write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields,
                    test.record.specimen.n_clumps > 0 ? "clump" : "mineral_grain");
+    else if (std::filesystem::exists(folder / result_file::fields / (test.name + ".xdmf"))) // written step by step
+      try
+        {
+          write_sample_fields(test.name, test.record.kind, test.record.curve, folder / result_file::fields);
+        }
+      catch (const InputError& error)
+        {
+          reported.missing.push_back(error.what());
+        }
   if (!reference_file.empty())
     std::filesystem::copy_file(reference_file, folder / result_file::reference,
                                std::filesystem::copy_options::overwrite_existing);
   if (!tests.empty())
-    reported.missing = report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience());
+    append(reported.missing, report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience()));
   return reported;
 }
 

@@ -1,7 +1,6 @@
 #include "results/folder/field_output.h"
 
-#include "base/whole_file.h"
-#include "results/folder/vtk_poly_data.h"
+#include "results/folder/vtk_data.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +14,7 @@ namespace feldspar
 {
 namespace
 {
-using Points = VtkPolyData::Components;
+using Points = VtkData::Components;
 
 Points places(const Snapshot& snapshot)
 {
@@ -37,8 +36,8 @@ std::vector<std::uint32_t> groups_of(const std::vector<GrainPicture>& grains)
            : groups;
 }
 
-VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains,
-                      const std::string& group)
+VtkData grains_at(const Snapshot& snapshot, const Points& start, const std::vector<GrainPicture>& grains,
+                  const std::string& group)
 {
   const Points now = places(snapshot);
   Points displacement = now;
@@ -48,7 +47,7 @@ VtkPolyData grains_at(const Snapshot& snapshot, const Points& start, const std::
   std::vector<double> radius;
   for (const auto& grain : grains)
     radius.push_back(grain.radius);
-  VtkPolyData data(now, VtkPolyData::Cells::points);
+  VtkData data(now, VtkData::Cells::points);
   data.scalar("radius_m", radius);
   data.vector("displacement_m", displacement);
   if (snapshot.stress[0].size() == now.size())
@@ -95,7 +94,7 @@ void add_face(Points& corners, const Crack& crack, const bool in_space)
       corner(along_u, along_v);
 }
 
-VtkPolyData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
+VtkData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all, const bool in_space)
 {
   const auto end = std::upper_bound(all.begin(), all.end(), snapshot.step,
                                     [](const std::uint64_t step, const Crack& crack) { return step < crack.step; });
@@ -112,7 +111,7 @@ VtkPolyData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all
       is_shear.push_back(crack->kind == CrackKind::shear);
       step.push_back(std::uint32_t(crack->step));
     }
-  VtkPolyData data(corners, in_space ? VtkPolyData::Cells::squares : VtkPolyData::Cells::lines);
+  VtkData data(corners, in_space ? VtkData::Cells::squares : VtkData::Cells::lines);
   data.count("is_shear", is_shear);
   data.scalar("released_energy_J", energy);
   data.vector("normal", normal);
@@ -120,17 +119,10 @@ VtkPolyData cracks_until(const Snapshot& snapshot, const std::vector<Crack>& all
   data.count("step", step);
   return data;
 }
-/// For File, Load State, or `paraview --script`: grains as spheres of their size, cracks on them.
-std::string paraview_script(const std::string& name, const bool has_cracks)
+/// Grains as spheres of their size, cracks on them.
+std::string shown_in_paraview(const std::string& name, const bool has_cracks)
 {
-  std::string text = fmt::format(R"(# Shows {0} in ParaView: File, Load State, or paraview --script=THIS_FILE.
-import os
-
-from paraview.simple import *
-
-folder = os.path.dirname(os.path.abspath(__file__)) if "__file__" in globals() else os.getcwd()
-view = GetActiveViewOrCreate("RenderView")
-grains = PVDReader(FileName=os.path.join(folder, "{0}_grains.pvd"))
+  std::string text = fmt::format(R"(grains = PVDReader(FileName=os.path.join(folder, "{0}_grains.pvd"))
 spheres = Glyph(Input=grains, GlyphType="Sphere")
 spheres.ScaleArray = ["POINTS", "radius_m"]
 spheres.ScaleFactor = 2.0  # a sphere of ParaView's is one across
@@ -146,12 +138,7 @@ ColorBy(of_cracks, ("CELLS", "is_shear"))
 of_cracks.LineWidth = 3.0
 )",
                         name);
-  return text + R"(scene = GetAnimationScene()
-scene.UpdateAnimationUsingDataTimeSteps()  # axial strain in per cent; steps of own loading
-scene.GoToLast()
-ResetCamera(view)
-Render(view)
-)";
+  return text;
 }
 } // namespace
 
@@ -172,7 +159,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
       const double percent = 100.0 * kind.sign * snapshot.axial_strain + 0.0; // no -0
       // Time goes forwards, which the strain of a loading table need not.
       const double time = kind.follows_stages ? double(snapshot.step) : percent;
-      const auto keep = [&](VtkPolyData data, const char* const what, std::vector<VtkTime>& series) {
+      const auto keep = [&](VtkData data, const char* const what, std::vector<VtkTime>& series) {
         data.of_all("axial_strain_percent", percent);
         data.of_all("axial_stress_Pa", snapshot.axial_stress);
         series.push_back({time, fmt::format("{}/{}_{:03}.vtp", name, what, k)});
@@ -185,6 +172,6 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
   write_vtk_series(of_grains, folder / (name + "_grains.pvd"));
   if (!of_cracks.empty())
     write_vtk_series(of_cracks, folder / (name + "_cracks.pvd"));
-  write_whole_file(folder / (name + "_paraview.py"), paraview_script(name, !of_cracks.empty()));
+  write_paraview_script(name, shown_in_paraview(name, !of_cracks.empty()), folder);
 }
 } // namespace feldspar

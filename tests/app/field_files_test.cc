@@ -2,6 +2,7 @@
 
 #include "dem/lab/protocols/protocols.h"
 #include "results/folder/result_folder.h"
+#include "results/sample_fields.h"
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
@@ -321,6 +322,84 @@ subsection Tests
 end
 )");
   expect_fields(folder, 3, 32);
+}
+
+/// The series holds each cell by its own nodes, and at its end what the report reads from the fields.
+void expect_sample(const fs::path& folder, const std::string& test, const std::string& cell, const std::size_t n_nodes)
+{
+  const std::vector<Piece> series = read_time_series(folder / "fields" / (test + ".pvd"));
+  ASSERT_GE(series.size(), 2u);
+  const SampleFields fields = read_sample_fields(folder / "fields", test);
+  const Piece& last = series.back();
+  EXPECT_EQ(last.cell, cell);
+  ASSERT_EQ(last.n_cells, fields.cells.size());
+  EXPECT_GT(last.time, series.front().time);
+  EXPECT_EQ(last.arrays.at("axial_strain_percent"), std::vector{last.time});
+  EXPECT_EQ(last.n_components.at("displacement_m"), 3u);
+  for (std::size_t k = 0; k < fields.cells.size(); ++k)
+    for (std::size_t n = 0; n < n_nodes; ++n)
+      for (std::size_t c = 0; c < 3; ++c)
+        {
+          const std::uint32_t node = fields.cells[k][n];
+          const std::size_t place = 3 * (n_nodes * k + n) + c;
+          EXPECT_NEAR(last.points[place], fields.nodes[node][c], single * 0.1);
+          EXPECT_NEAR(last.arrays.at("displacement_m")[place], fields.displacement[node][c], single * 1e-3);
+        }
+}
+
+double of_tensor(const Piece& piece, const std::string& name, const std::size_t cell, const std::size_t row,
+                 const std::size_t column)
+{
+  EXPECT_EQ(piece.n_components.at(name), 9u) << name;
+  return piece.arrays.at(name).at(9 * cell + 3 * row + column);
+}
+
+// In the plane and by the section of a cylinder four-sided, in space eight-cornered; stress is where its axes are.
+TEST(FieldFiles, OfASampleAreReadByVtk)
+{
+  const TemporaryFolder folder;
+  const std::string sample = "subsection Sample\n  set Width = 20 mm\n  set Height = 40 mm\n  set Elements along = 2\n";
+  const std::string tests = "subsection Tests\n  set List = direct_tension\n  set Stop strain = 5e-5\nend\n";
+  const std::string elastic = "  set Material = linear elasticity\n  set Tension step = 1e-5\nend\n";
+  folder.write("plane.prm", sample +
+                              "  set Elements across = 1\n  set Realisations = 1\n  set Tension step = 1e-5\nend\n"
+                              "subsection Specimen\n  set Shape = periodic\n  set Width = 10 mm\n"
+                              "  set Height = 10 mm\nend\n" +
+                              tests);
+  folder.write("section.prm", sample + "  set Geometry = axisymmetric\n  set Elements across = 1\n" + elastic + tests);
+  folder.write("whole.prm", sample + "  set Geometry = cylinder\n  set Elements across = 3\n" + elastic + tests);
+  const std::string test = "direct_tension_seed_1";
+  for (const auto& [name, cell, n_nodes] : {std::tuple("plane", "vtkQuad", 4u), std::tuple("section", "vtkQuad", 4u),
+                                            std::tuple("whole", "vtkHexahedron", 8u)})
+    {
+      const auto run = run_feldspar(folder.path(), fmt::format("multiscale {0}.prm --output {0} --quiet", name));
+      ASSERT_EQ(run.exit_code, 0) << run.error;
+      expect_sample(folder.path() / name, test, cell, n_nodes);
+      const SampleFields fields = read_sample_fields(folder.path() / name / "fields", test);
+      const Piece last = read_time_series(folder.path() / name / "fields" / (test + ".pvd")).back();
+      const auto near = [&](const std::string& field, const std::string& tensor, const std::size_t row,
+                            const std::size_t column) {
+        const auto& values = fields.of_each_cell.at(field);
+        double largest = 0.0;
+        for (const double value : values)
+          largest = std::max(largest, std::abs(value));
+        for (std::size_t k = 0; k < values.size(); ++k)
+          EXPECT_NEAR(of_tensor(last, tensor, k, row, column), values[k], single * largest) << name << field;
+      };
+      const std::string axial = std::string(name) == "plane" ? "yy" : "zz";
+      const std::size_t row = std::string(name) == "whole" ? 2 : 1;
+      near("stress_" + axial + "_Pa", "stress_Pa", row, row);
+      near("strain_" + axial, "strain", row, row);
+      if (std::string(name) == "section")
+        {
+          near("stress_rz_Pa", "stress_Pa", 0, 1);
+          near("stress_tt_Pa", "stress_Pa", 2, 2);
+        }
+      else
+        near("stress_xy_Pa", "stress_Pa", 1, 0);
+      EXPECT_EQ(last.arrays.contains("broken_segments_share"), std::string(name) == "plane");
+      EXPECT_TRUE(fs::exists(folder.path() / name / "fields" / (test + "_paraview.py")));
+    }
 }
 } // namespace
 } // namespace feldspar::tests

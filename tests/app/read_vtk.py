@@ -5,7 +5,7 @@ import os
 import sys
 import xml.etree.ElementTree
 
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 
 def values(array):
@@ -15,7 +15,8 @@ def values(array):
 
 series = sys.argv[1]
 for entry in xml.etree.ElementTree.parse(series).getroot().iter("DataSet"):
-    reader = vtkXMLPolyDataReader()
+    is_grid = entry.get("file").endswith(".vtu")
+    reader = vtkXMLUnstructuredGridReader() if is_grid else vtkXMLPolyDataReader()
     file = os.path.join(os.path.dirname(series), entry.get("file"))
     if not reader.CanReadFile(file):
         sys.exit(file + " is no file of VTK's")

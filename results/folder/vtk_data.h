@@ -9,21 +9,22 @@
 
 namespace feldspar
 {
-/// A file of points and what lies on them, as VTK reads it by default (.vtp): XML with its numbers behind it, in single
+/// A file of points and what lies on them, as VTK reads it by default: XML with its numbers behind it, in single
 /// precision. Format: VTK File Formats, "XML File Formats", appended data in raw encoding.
-class VtkPolyData
+class VtkData
 {
 public:
   using Components = std::vector<std::array<double, 3>>;
 
   enum class Cells
   {
-    points, ///< each point by itself
-    lines,  ///< each two points
-    squares ///< each four
+    points,    ///< each point by itself
+    lines,     ///< each two points
+    squares,   ///< each four, around
+    hexahedra, ///< each eight, as VTK has them: four around below, four around above
   };
 
-  VtkPolyData(const Components& points, Cells cells);
+  VtkData(const Components& points, Cells cells);
 
   // A value for each cell; points have their own. Names end in the SI unit, where there is one.
   void scalar(const std::string& name, const std::vector<double>& values);
@@ -32,8 +33,14 @@ public:
   /// Symmetric: xx, xy, xz, yy, yz, zz; nine components in the file.
   void tensor(const std::string& name, const std::vector<std::array<double, 6>>& values);
 
+  /// A value for each point of lines, squares or hexahedra.
+  void vector_of_points(const std::string& name, const Components& values);
+
   /// A value of the whole.
   void of_all(const std::string& name, double value);
+
+  /// How its files are to end: vtu of hexahedra, else vtp.
+  std::string ending() const;
 
   /// Throws OutputError.
   void write(const std::filesystem::path& file) const;
@@ -48,6 +55,7 @@ private:
   Cells kind;
   std::string geometry;
   std::string connectivity;
+  std::string of_points;
   std::string of_cells;
   std::string of_whole;
   std::string appended;
@@ -62,4 +70,8 @@ struct VtkTime
 
 /// The files of a series with their times (.pvd). Throws OutputError.
 void write_vtk_series(const std::vector<VtkTime>& times, const std::filesystem::path& file);
+
+/// FOLDER/NAME_paraview.py, for File, Load State, or `paraview --script`: a script of ParaView's around `show`, which shows files
+/// of `folder` in `view`. Throws OutputError.
+void write_paraview_script(const std::string& name, const std::string& show, const std::filesystem::path& folder);
 } // namespace feldspar
