@@ -163,6 +163,90 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 }
 
+// T8: of the first five seeds, and each over the turned sample of its seed.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsHowCellsAreDealt)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/";
+  const std::string readme = content(folder + "README.md");
+  using Figures = std::map<unsigned, double>; // by seed
+  const auto figures = [&](const std::string& name, const std::string& kind, const char* const key,
+                           const double scale) {
+    Figures found;
+    const auto summary = nlohmann::json::parse(content(folder + "results/" + name + ".json"));
+    for (const auto& test : summary["tests"])
+      if (test["kind"] == kind && test["seed"].get<unsigned>() <= 5)
+        found[test["seed"]] = test[key].get<double>() / scale;
+    return found;
+  };
+  const auto shown = [](const Figures& all, const int decimals) {
+    std::vector<double> values;
+    for (const auto& [seed, value] : all)
+      values.push_back(value);
+    return values.size() == 1 ? fmt::format("{:.{}f}", values.front(), decimals) : mean_and_deviation(values, decimals);
+  };
+  const char* const pressed = "uniaxial_compression";
+  const Figures turned = figures("sample", pressed, "peak_stress_Pa", 1e6);
+  for (const auto& [label, name] : {std::pair("4 packings, turned", "sample"),
+                                    {"4 packings, as they lie", "sample-unturned"},
+                                    {"one a point, turned", "sample-own"},
+                                    {"one a point, as they lie", "sample-own-unturned"}})
+    {
+      const Figures strengths = figures(name, pressed, "peak_stress_Pa", 1e6);
+      Figures ratios;
+      for (const auto& [seed, strength] : strengths)
+        ratios[seed] = strength / turned.at(seed);
+      const std::string row =
+        fmt::format("\n| {} | {} | {} | {} | {} | {} | {} |\n", label, strengths.size(),
+                    shown(figures(name, "direct_tension", "peak_stress_Pa", 1e6), 1), shown(strengths, 0),
+                    shown(figures(name, pressed, "strain_at_peak", 1e-3), 2),
+                    shown(figures(name, pressed, "crack_initiation_stress_Pa", 1e6), 0), shown(ratios, 2));
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+      const bool is_turned = !std::string(name).ends_with("unturned");
+      for (const auto& [seed, ratio] : ratios)
+        EXPECT_TRUE(is_turned || ratio > 1.0) << name << ", seed " << seed; // what the page says of them
+    }
+}
+
+// T7 in compression: cells with an edge or a diagonal along the axis, and oblique ones.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsWhichCellsAreWeak)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/";
+  const std::string readme = content(folder + "README.md");
+  struct Group
+  {
+    std::vector<double> strengths;
+    int n_weak = 0, n_early = 0, n_inclined = 0, n_weak_inclined = 0, n_along = 0;
+  };
+  std::map<bool, Group> groups; // by whether they are oblique
+  const auto compression = nlohmann::json::parse(content(folder + "results/angles-compression.json"));
+  for (const auto& path : compression["after_peak"])
+    {
+      const std::string variant = path["variant"];
+      const int angle = std::stoi(variant.substr(variant.find('=') + 1));
+      Group& group = groups[angle % 45 != 0];
+      const double strength = path["peak_stress_Pa"].get<double>() / 1e6;
+      const double band = path["band_to_axis_deg"];
+      const bool is_inclined = band >= 10.0 && band <= 35.0;
+      group.strengths.push_back(strength);
+      group.n_weak += strength < 200.0;
+      group.n_early += path["ended_early"].get<bool>();
+      group.n_inclined += is_inclined;
+      group.n_weak_inclined += is_inclined && strength < 200.0;
+      group.n_along += band < 1.0;
+    }
+  for (const auto& [label, oblique] :
+       {std::pair("along the axis: 0, 45, 90 deg", false), {"oblique: 15, 30, 60, 75 deg", true}})
+    {
+      const Group& group = groups[oblique];
+      const std::string row = fmt::format("\n| {} | {} | {} | {} | {} | {}, of those below 200 MPa {} |", label,
+                                          group.strengths.size(), mean_and_deviation(group.strengths, 0), group.n_weak,
+                                          group.n_early, group.n_inclined, group.n_weak_inclined);
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+  EXPECT_NE(readme.find(fmt::format("along the axis {} have it parallel to the axis", groups[false].n_along)),
+            std::string::npos);
+}
+
 // One cell at every point under four boundaries, beside the same cells as grains: seed by seed.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsTheSameCellUnderEachBoundary)
 {
@@ -170,6 +254,7 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheSameCellUnderEachBoundary)
   const std::string readme = content(folder + "README.md");
   for (const auto& [label, name] : {std::pair("grains side by side, 1/s", "same-cells-grains"),
                                     {"periodic", "same-cells-sample"},
+                                    {"periodic, turned at random", "same-cells-sample-turned"},
                                     {"minimal kinematic", "same-cells-sample-minimal-kinematic"},
                                     {"weakly periodic", "same-cells-sample-weakly-periodic"},
                                     {"edge", "same-cells-sample-edge"}})
