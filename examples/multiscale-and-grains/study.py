@@ -469,13 +469,14 @@ def draw():
         "unset key",
         "set bmargin 5",
     ]
-    short = ("walled\\n0.0237", "walled\\n0.0457", "cut all\\nround", "cut at\\nsides", "sample\\n0.0457")
+    short = ("walled\\n0.0237", "walled\\n0.0457", "cut all\\nround", "cut at\\nsides", "sample\\nturned")
     bars = [(label, peaks(name, "uniaxial_compression", variant)) for label, (_, name, variant) in zip(short, BODIES)]
-    bars.insert(-1, ("the same,\\n0.25/s", list(crushed_at("0.25").values())))
+    bars.insert(-1, ("sides,\\n0.25/s", list(crushed_at("0.25").values())))
+    bars.append(("sample\\nas it lies", peaks("sample-unturned", "uniaxial_compression")))
     bars = [(label, values) for label, values in bars if len(values) > 1]
     tics = ", ".join(f'"{label}" {k}' for k, (label, _) in enumerate(bars))
-    script += ['set title "Bodies: mean and single seeds"', 'set ylabel "UCS [MPa]"', "set yrange [80:230]"]
-    script += [f"set xtics ({tics}) font \"sans,9\"", f"set xrange [-0.6:{len(bars) - 0.4}]"]
+    script += ['set title "Bodies: mean and single seeds"', 'set ylabel "UCS [MPa]"', "set yrange [80:260]"]
+    script += [f"set xtics ({tics}) font \"sans,8\"", f"set xrange [-0.6:{len(bars) - 0.4}]"]
     script += ["$mean << EOD"] + [f"{k} {statistics.mean(v)} {statistics.stdev(v)}" for k, (_, v) in enumerate(bars)]
     script += ["EOD", "$single << EOD"] + [f"{k + 0.15} {x}" for k, (_, v) in enumerate(bars) for x in v] + ["EOD"]
     script.append(
@@ -483,7 +484,7 @@ def draw():
     )
     script += ["set xtics auto font \"sans,11\"", "set xrange [-8:98]", "set xtics 0,15,90", "set key bottom right"]
     script += ['set xlabel "angle of the cell [deg]"']
-    script += ['set title "One cell turned: five packings"', 'set ylabel "strength over its mean"']
+    script += ['set title "One cell turned: 5 pulled, 20 pressed"', 'set ylabel "strength over its mean"']
     script += ["set yrange [0:1.6]"]
     for block, name in (("tension", "angles-tension"), ("compression", "angles-compression")):
         table = of_angle(name, "peak_stress_Pa")
