@@ -5,7 +5,7 @@
 #
 # Once the first job has a checkpoint it gets the signal that Slurm sends before the end of a job's time; the job that it
 # submits goes on. The results are in FOLDER/RUN, the outputs of the jobs in FOLDER/slurm-*.out. Fails if a job does, or
-# after five minutes. Needs Debian's slurm-wlm, and root.
+# after five minutes; ends with 77 where Slurm itself does not come up. Needs Debian's slurm-wlm, and root.
 set -euo pipefail
 program=$(realpath "$1") input=$(realpath "$2") folder=$3
 page=$(realpath "$(dirname "$0")/../docs/cluster.md")
@@ -38,7 +38,7 @@ for _ in $(seq 50); do
   [[ -S $munge/socket ]] && break
   sleep 0.1
 done
-[[ -S $munge/socket ]] || { cat "$folder/munged.log"; exit 1; }
+[[ -S $munge/socket ]] || { cat "$folder/munged.log"; exit 77; }
 
 cat >"$folder/slurm.conf" <<END
 ClusterName=trial
@@ -69,11 +69,12 @@ slurmctld -D >"$folder/slurmctld.log" 2>&1 &
 started+=($!)
 slurmd -D >"$folder/slurmd.log" 2>&1 &
 started+=($!)
+is_up() { sinfo --noheader --format=%T 2>/dev/null | grep --quiet idle; }
 for _ in $(seq 60); do
-  sinfo --noheader --format=%T 2>/dev/null | grep --quiet idle && break
+  is_up && break
   sleep 0.5
 done
-sinfo
+is_up || { cat "$folder"/slurm*.log; exit 77; }
 
 # The page's script with the names and the size of this trial.
 cd "$folder"

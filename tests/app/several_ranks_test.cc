@@ -312,6 +312,8 @@ TEST(SeveralRanks, FollowEachOtherUnderSlurm)
   const auto trial =
     tests::run_command(folder.path(), "OMPI_MCA_mpi_yield_when_idle=1 '" FELDSPAR_SOURCE_DIR
                                       "/scripts/slurm-trial.sh' '" FELDSPAR_COMMAND "' pull.prm slurm");
+  if (trial.exit_code == 77)
+    GTEST_SKIP() << "Slurm does not come up here: " << trial.output;
   ASSERT_EQ(trial.exit_code, 0) << trial.output << trial.error;
   EXPECT_NE(trial.output.find("Exited with exit code 130"), std::string::npos) << trial.output;
   EXPECT_NE(trial.output.find("JobId=2"), std::string::npos) << trial.output;
