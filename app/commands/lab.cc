@@ -15,14 +15,17 @@
 #include "coupling/sample/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
+#include "report/sections/study_text.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace feldspar
 {
@@ -35,16 +38,28 @@ std::optional<Reference> reference_of(const Input& input)
   return read_reference(input.reference_file, test_kinds());
 }
 
+std::string in_lines(const std::vector<std::string>& sentences)
+{
+  return sentences.empty() ? "" : fmt::format("{}\n", fmt::join(sentences, "\n"));
+}
+
 /// The text of the screen and log.txt: specimens, the comparison of each variant, missing results with their reasons.
 template <int dim>
 std::string describe_run(const std::vector<Variant>& variants, const std::vector<Specimen<dim>>& specimens,
                          const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
                          const std::vector<std::string>& missing)
 {
+  constexpr std::size_t most_in_full = 3; // more variants are lines of one table
   std::string text;
+  std::set<std::string> written; // variants of one seed may have the same body
   for (const auto& specimen : specimens)
-    text +=
-      fmt::format("Specimen, seed {}\n{}{}\n", specimen.seed, describe(specimen.report), describe(specimen.flaws));
+    if (const std::string body =
+          fmt::format("Specimen, seed {}\n{}{}\n", specimen.seed, describe(specimen.report), describe(specimen.flaws));
+        written.insert(body).second)
+      text += body;
+  if (variants.size() > most_in_full)
+    return text + study_as_text(tests, reference_of(variants.front().input)) + "\n" + trust_as_text(tests) +
+           in_lines(missing);
   for (const Variant& variant : variants)
     {
       std::vector<FinishedTest> of_variant;
@@ -57,10 +72,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
           found != envelopes.end() && found->second.data.points.size() > 1)
         text += as_text(found->second) + "\n";
     }
-  text += trust_as_text(tests);
-  for (const auto& sentence : missing)
-    text += sentence + "\n";
-  return text;
+  return text + trust_as_text(tests) + in_lines(missing);
 }
 
 /// Several processes make the specimens, each its share, and then the tests, each its share: what has ended lies in the
@@ -100,7 +112,9 @@ void share_out_tests(const Run& run, Progress& progress)
 template <int dim>
 RunEnd test_alone(const Run& run, Progress& progress)
 {
-  const auto& [folder, input_file, input, quiet] = run;
+  const std::filesystem::path& folder = run.folder;
+  const std::filesystem::path& input_file = run.input_file;
+  const Input& input = run.input;
 
   // Make the rock.
   const auto all_variants = variants(input);
@@ -128,7 +142,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
   for (const auto& specimen : specimens)
     bodies.push_back(specimen.report);
   append(missing, beside_reference_body(input, bodies));
-  write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), quiet);
+  write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), run.quiet);
   // Of what was interrupted while it was drawn the pictures are still to be made.
   return {was_interrupted || interrupted(),
           failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};

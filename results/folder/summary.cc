@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,12 @@ Json ensemble(const std::vector<FinishedTest>& tests)
   for (const auto& [group, members] : groups)
     {
       Json& out = json[group];
+      if (const FinishedTest& any = *members.front(); !any.variant.empty())
+        {
+          out["variant"] = any.variant;
+          if (!any.settings.empty())
+            out["variant_values"] = as_json(any.settings);
+        }
       out["n_tests"] = members.size();
       out["n_made"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->was_made(); });
       for (const auto& entry : result_table())
@@ -181,19 +188,17 @@ Json verdict(const std::vector<FinishedTest>& tests)
   return json;
 }
 
-/// Every strength envelope of one programme; of variants there is none of all together.
-Json fits(const RunEnvelopes& envelopes)
+/// Every strength envelope of one rock. Instead of each, a reason if one is given.
+Json envelopes_as_json(const StrengthEnvelopes& envelopes, const std::string& instead = {})
 {
   Json json;
-  const auto of_one_rock = envelopes.find("");
-  const bool varied = !envelopes.empty() && of_one_rock == envelopes.end();
-  for (const auto& record : records(of_one_rock == envelopes.end() ? fit_strength_envelopes({}) : of_one_rock->second))
+  for (const auto& record : records(envelopes))
     {
       Json& form = json[record.form];
       Json& out = record.variant.empty() ? form : form[record.variant];
-      if (!record.reason.empty())
+      if (const std::string& reason = instead.empty() ? record.reason : instead; !reason.empty())
         {
-          out["reason"] = varied ? "variants are not fitted together" : record.reason;
+          out["reason"] = reason;
           continue;
         }
       for (const auto& [entry_name, figure] : record.entries)
@@ -204,6 +209,34 @@ Json fits(const RunEnvelopes& envelopes)
     }
   return json;
 }
+
+/// The envelopes of a run of one rock; of variants there is none of all together.
+Json fits(const RunEnvelopes& envelopes)
+{
+  if (const auto of_one_rock = envelopes.find(""); of_one_rock != envelopes.end())
+    return envelopes_as_json(of_one_rock->second);
+  return envelopes_as_json(fit_strength_envelopes({}),
+                           envelopes.empty() ? "" : "each variant has its own in fits_of_variants");
+}
+
+/// The envelopes of each variant, in the order of the tests.
+Json fits_of_variants(const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes)
+{
+  Json json;
+  std::set<std::string> written;
+  for (const auto& test : tests)
+    if (const auto own = envelopes.find(test.variant); !test.variant.empty() && own != envelopes.end())
+      if (written.insert(test.variant).second)
+        {
+          Json variant{{"variant", test.variant}};
+          if (!test.settings.empty())
+            variant["variant_values"] = as_json(test.settings);
+          variant.update(envelopes_as_json(own->second));
+          json.push_back(variant);
+        }
+  return json;
+}
+
 /// The line through the shear tests of each rock; none where there are no such tests.
 Json shear_lines(const std::vector<FinishedTest>& tests)
 {
@@ -240,6 +273,8 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
   json["fits"] = fits(envelopes);
   if (const Json lines = shear_lines(tests); !lines.is_null())
     json["fits"]["direct_shear"] = lines;
+  if (const Json of_variants = fits_of_variants(tests, envelopes); !of_variants.is_null())
+    json["fits_of_variants"] = of_variants;
   // Reasons may quote what is not UTF-8.
   write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

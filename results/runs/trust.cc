@@ -99,16 +99,37 @@ SeriesKind kind_of(const TestRecord& record)
   return record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
 }
 
+/// Whether a test ended so near to its peak that a higher one may lie beyond. A table of stages says itself where to end,
+/// and what slides along a plane bears the same from its peak on.
+bool ended_near_its_peak(const FinishedTest& test)
+{
+  constexpr double least_fall = 0.05; // of the deviator
+  constexpr double least_way = 1.05;  // of the strain at the peak
+  const TestRecord& record = test.record;
+  const Figure& residual = test.results.residual_deviator_ratio;
+  if (record.kind.follows_stages || record.kind.pressure_acts_across || record.came_apart || !residual.value)
+    return false;
+  return *residual.value > 1.0 - least_fall &&
+         record.kind.strain(record.curve.back()) < least_way * *test.results.strain_at_peak.value;
+}
+
 /// Why a test of these has no result, or not all of it; empty if it has.
 std::string shortcoming(const FinishedTest& test)
 {
-  if (!test.record.failure.empty())
-    return fmt::format("{} could not be {}: {}.", test.name, test.record.curve.empty() ? "made" : "finished",
-                       test.record.failure);
+  const TestRecord& record = test.record;
+  if (!record.failure.empty())
+    return fmt::format("{} could not be {}: {}.", test.name, record.curve.empty() ? "made" : "finished",
+                       record.failure);
   if (!test.results.peak_stress.value)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
-  if (!test.record.ended_early.empty())
-    return fmt::format("{} ended early: {}.", test.name, test.record.ended_early);
+  if (!record.ended_early.empty())
+    return fmt::format("{} ended early: {}.", test.name, record.ended_early);
+  if (ended_near_its_peak(test))
+    return fmt::format(
+      "{} ended at {:.2f} times the strain of its peak and still bore {:.0f} % of the strength: a higher peak may lie "
+      "beyond; a greater Tests/Stop strain shows it.",
+      test.name, record.kind.strain(record.curve.back()) / *test.results.strain_at_peak.value,
+      100.0 * *test.results.residual_deviator_ratio.value);
   return "";
 }
 } // namespace
@@ -221,14 +242,28 @@ std::string as_text(const std::vector<TrustCheck>& checks)
 
 std::string trust_as_text(const std::vector<FinishedTest>& tests)
 {
+  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is told
+  const auto rocks = by_rock(tests);
   std::string text;
-  for (const auto& [variant, kind, of_rock] : by_rock(tests))
+  if (rocks.size() > most_in_full)
     {
-      if (!variant.empty())
-        text += variant + "\n";
-      text += as_text(trust_checks(of_rock, kind));
+      TestsOfRock all;
+      for (const auto& rock : rocks)
+        all.insert(all.end(), rock.tests.begin(), rock.tests.end());
+      text += as_text(trust_checks(all, rocks.front().kind));
+    }
+  std::set<std::string> written; // one for all variants is written once
+  for (const auto& [variant, kind, of_rock] : rocks)
+    {
+      if (rocks.size() <= most_in_full)
+        {
+          if (!variant.empty())
+            text += variant + "\n";
+          text += as_text(trust_checks(of_rock, kind));
+        }
       for (const auto& sentence : shortcomings(of_rock, kind))
-        text += sentence + "\n";
+        if (rocks.size() <= most_in_full || written.insert(sentence).second)
+          text += sentence + "\n";
     }
   return text;
 }

@@ -74,6 +74,6 @@ std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests);
 /// The checks for a terminal: of each measure its worst value, the bound, and how many tests are out of it.
 std::string as_text(const std::vector<TrustCheck>& checks);
 
-/// The checks and shortcomings of each rock.
+/// The checks and shortcomings of each rock; of more than three rocks the checks of all tests together.
 std::string trust_as_text(const std::vector<FinishedTest>& tests);
 } // namespace feldspar

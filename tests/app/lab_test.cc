@@ -414,7 +414,13 @@ end
   const double ratio =
     json["tests"][1]["peak_stress_Pa"].get<double>() / json["tests"][0]["peak_stress_Pa"].get<double>();
   EXPECT_NEAR(ratio, 2.0, 0.3);
-  EXPECT_TRUE(json["ensemble"].contains("direct_tension_bond_tensile_strength_44_MPa"));
+  const auto& mean = json["ensemble"]["direct_tension_bond_tensile_strength_44_MPa"];
+  EXPECT_EQ(mean["variant"], "Flat joint/Bond tensile strength = 44 MPa");
+  EXPECT_EQ(mean["variant_values"]["Flat joint/Bond tensile strength"]["value"], 44);
+  // Each variant is a rock with fits of its own, or the reason why there is none.
+  ASSERT_EQ(json["fits_of_variants"].size(), 2u);
+  EXPECT_EQ(json["fits_of_variants"][1]["variant_values"]["Flat joint/Bond tensile strength"]["value"], 44);
+  EXPECT_FALSE(json["fits_of_variants"][1]["intact"]["with_tension_point"]["reason"].get<std::string>().empty());
 
   const auto& setting = json["tests"][1]["variant_values"]["Flat joint/Bond tensile strength"];
   EXPECT_EQ(setting["value"], 44);

@@ -14,6 +14,7 @@
 #include "report/pictures/study_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
+#include "report/sections/study_text.h"
 #include "report/sections/verdict.h"
 #include "results/fits/residual_strength.h"
 #include "results/fits/run_envelopes.h"
@@ -439,6 +440,62 @@ TEST(Trust, SaysWhatIsOutOfItsBounds)
   for (const auto& sentence : warnings(series))
     said += sentence;
   EXPECT_NE(said.find("Only 1 specimen:"), std::string::npos) << said;
+}
+
+TEST(Trust, SaysWhereATestEndedTooNearToItsPeakToShowIt)
+{
+  Series series{"x", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}};
+  TestRecord& record = series.tests[1].record;
+  const std::size_t peak = *peak_row(record);
+  CurveSample last = record.curve[peak];
+  last.axial_strain *= 1.03;
+  last.axial_stress *= 0.97;
+  record.curve.resize(peak + 1);
+  record.curve.push_back(last);
+  series.tests[1].results = evaluate(record);
+  const auto said = warnings(series);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0],
+            "uniaxial_compression_seed_2 ended at 1.03 times the strain of its peak and still bore 97 % of the "
+            "strength: a higher peak may lie beyond; a greater Tests/Stop strain shows it.");
+}
+
+TEST(Trust, OfManyVariantsIsTheWorstOfAll)
+{
+  std::vector<FinishedTest> tests;
+  for (const char* const variant : {"a", "b", "c", "d"})
+    {
+      tests.push_back(compression(1));
+      tests.back().variant = variant;
+    }
+  tests[2].name = "the third";
+  tests[2].results.energy_imbalance_over_work = 0.02;
+  const std::string text = trust_as_text(tests);
+  EXPECT_NE(text.find("1 of 4 tests out, worst the third"), std::string::npos) << text;
+  const std::size_t once = text.find("Only 1 specimen");
+  ASSERT_NE(once, std::string::npos) << text;
+  EXPECT_EQ(text.find("Only 1 specimen", once + 1), std::string::npos) << text;
+}
+
+TEST(Study, ForATerminalHasALineAVariant)
+{
+  std::vector<FinishedTest> tests;
+  for (int k = 1; k <= 4; ++k)
+    for (const std::uint64_t seed : {1, 2})
+      {
+        tests.push_back(compression(seed));
+        tests.back().settings = {{"Flat joint/Friction", std::to_string(k)}};
+        tests.back().variant = "Flat joint/Friction = " + std::to_string(k);
+        tests.back().results.peak_stress = {(100.0 + 10.0 * k + double(seed)) * 1e6, ""};
+      }
+  const std::string text = study_as_text(tests, std::nullopt);
+  EXPECT_NE(text.find("4 variants, means over the seeds\n   1  uniaxial compressive strength [MPa]\n"),
+            std::string::npos)
+    << text;
+  EXPECT_NE(text.find("\n      1   Flat joint/Friction\n  111.5   1\n  121.5   2\n  131.5   3\n  141.5   4\n"),
+            std::string::npos)
+    << text;
+  EXPECT_NE(text.find("\nthe same in all variants\n"), std::string::npos) << text;
 }
 
 TEST(Trust, SaysWhenThePackingOrTheElasticityIsNotWhatARockHas)

@@ -1,0 +1,122 @@
+#include "report/sections/study_text.h"
+
+#include "report/sections/comparison.h"
+#include "report/sections/text.h"
+#include "results/runs/trust.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+/// A result of every variant, in the order of the variants; "-" where a variant has none.
+struct Column
+{
+  std::string heading;
+  std::vector<std::string> cells;
+  std::string of_experiment; ///< or empty
+
+  bool is_the_same_in_all() const
+  {
+    return std::all_of(cells.begin(), cells.end(), [&](const std::string& cell) { return cell == cells.front(); });
+  }
+};
+
+std::string heading(const ComparisonRow& row)
+{
+  return row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit);
+}
+
+std::vector<Column> columns(const std::vector<std::vector<ComparisonRow>>& of_variants)
+{
+  std::vector<Column> all;
+  for (std::size_t v = 0; v < of_variants.size(); ++v)
+    for (const ComparisonRow& row : of_variants[v])
+      if (row.ours)
+        {
+          const std::string name = heading(row);
+          auto column = std::find_if(all.begin(), all.end(), [&](const Column& one) { return one.heading == name; });
+          if (column == all.end())
+            column = all.insert(all.end(), {name, std::vector<std::string>(of_variants.size(), "-"),
+                                            row.experiment ? as_text(row, row.experiment) : ""});
+          column->cells[v] = text::number(row.ours->mean, row.decimals);
+        }
+  return all;
+}
+
+/// What a variant is called in a line: the values of its entries, which stand above the table.
+std::string values_of(const FinishedTest& test)
+{
+  if (test.settings.empty())
+    return test.variant;
+  std::vector<std::string_view> values;
+  for (const VariantSetting& setting : test.settings)
+    values.push_back(setting.value);
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
+std::string entries_of(const FinishedTest& test)
+{
+  std::vector<std::string_view> entries;
+  for (const VariantSetting& setting : test.settings)
+    entries.push_back(setting.entry);
+  return entries.empty() ? "variant" : fmt::format("{}", fmt::join(entries, ", "));
+}
+} // namespace
+
+std::string study_as_text(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
+{
+  std::vector<std::vector<ComparisonRow>> of_variants;
+  std::vector<std::string> names;
+  for (const RockTests& rock : by_rock(tests))
+    {
+      std::vector<FinishedTest> of_rock;
+      for (const FinishedTest* const test : rock.tests)
+        of_rock.push_back(*test);
+      of_variants.push_back(compare(of_rock, reference));
+      names.push_back(values_of(of_rock.front()));
+    }
+  std::vector<Column> varied;
+  std::vector<Column> constant;
+  for (Column& column : columns(of_variants))
+    (column.is_the_same_in_all() ? constant : varied).push_back(std::move(column));
+
+  std::string text = fmt::format("{} variants, means over the seeds\n", names.size());
+  for (std::size_t c = 0; c < varied.size(); ++c)
+    text += fmt::format("  {:>2}  {}{}\n", c + 1, varied[c].heading,
+                        varied[c].of_experiment.empty() ? "" : "; experiment " + varied[c].of_experiment);
+
+  constexpr std::size_t most_in_a_line = 7; // leaves room for the values of a variant behind them
+  for (std::size_t first = 0; first < varied.size(); first += most_in_a_line)
+    {
+      const std::size_t end = std::min(first + most_in_a_line, varied.size());
+      std::vector<std::size_t> widths;
+      text += '\n';
+      for (std::size_t c = first; c < end; ++c)
+        {
+          std::size_t width = 2;
+          for (const std::string& cell : varied[c].cells)
+            width = std::max(width, cell.size());
+          widths.push_back(width);
+          text += fmt::format("  {:>{}}", c + 1, width);
+        }
+      text += fmt::format("   {}\n", entries_of(tests.front()));
+      for (std::size_t v = 0; v < names.size(); ++v)
+        {
+          for (std::size_t c = first; c < end; ++c)
+            text += fmt::format("  {:>{}}", varied[c].cells[v], widths[c - first]);
+          text += fmt::format("   {}\n", names[v]);
+        }
+    }
+  if (!constant.empty())
+    text += "\nthe same in all variants\n";
+  for (const Column& column : constant)
+    text += fmt::format("  {}   {}\n", column.heading, column.cells.front());
+  return text + "\nAll results of each test stand in tests.csv, the fits of each variant in summary.json.\n";
+}
+} // namespace feldspar
