@@ -110,10 +110,26 @@ std::string bash_completion(const CLI::App& command_line)
   std::string sections;
   for (const std::string_view section : section_names())
     sections += fmt::format("{}\n", section);
+  std::string entries;
+  for (const Parameter& parameter : parameter_table())
+    entries += fmt::format("{}\n", parameter.name());
   return fmt::format(R"bash(# Completion of feldspar {} for bash; written by `feldspar completion`.
+# Offers the names on standard input that begin as the word does, in quotes of the kind that the word has or with backslashes.
+_feldspar_names()
+{{
+  local word=$1 end=$2 quote= name
+  [[ $word == [\"\']* ]] && quote=${{word:0:1}} word=${{word:1}}
+  word=${{word//\\/}}
+  while read -r name; do
+    [[ $name == "$word"* ]] || continue
+    name+=$end
+    [[ $quote ]] || printf -v name '%q' "$name"
+    COMPREPLY+=("$name")
+  done
+}}
 _feldspar()
 {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} command=${{COMP_WORDS[1]}} words= name
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} command=${{COMP_WORDS[1]}} words=
   COMPREPLY=()
   if ((COMP_CWORD == 1)) || {{ ((COMP_CWORD == 2)) && [[ $command == help ]]; }}; then
     COMPREPLY=($(compgen -W '{} --help --version' -- "$word"))
@@ -123,15 +139,17 @@ _feldspar()
 {}  esac
   if [[ $word == -* ]]; then
     COMPREPLY=($(compgen -W "$words" -- "$word"))
+  elif [[ $before == --set ]]; then
+    compopt -o nospace 2>/dev/null
+    _feldspar_names "$word" ' = ' <<'entries'
+{}entries
   elif [[ $command == parameters ]] && ((COMP_CWORD == 2)); then
-    while read -r name; do
-      [[ $name == "$word"* ]] && COMPREPLY+=("$(printf '%q' "$name")")
-    done <<'sections'
+    _feldspar_names "$word" '' <<'sections'
 {}sections
   fi
 }}
 complete -o default -F _feldspar feldspar
 )bash",
-                     version, names.substr(1), options, sections);
+                     version, names.substr(1), options, entries, sections);
 }
 } // namespace feldspar

@@ -15,13 +15,21 @@ namespace
 {
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
+void print_entry(const std::string& heading, const Parameter& parameter)
+{
+  const std::string text =
+    fmt::format("{}\n    unit {}; default {}; range {}\n    {}\n", heading, or_dash(parameter.unit),
+                parameter.default_text(), parameter.range, parameter.meaning);
+  const auto columns = columns_of_terminal();
+  print_result("{}", columns ? wrapped(text, *columns) : text);
+}
+
 void print_plain(const std::string_view section)
 {
   print_result("{}\n", section);
   for (const Parameter& parameter : parameter_table())
     if (parameter.section == section)
-      print_result("  {}\n    unit {}; default {}; range {}\n    {}\n", parameter.entry, or_dash(parameter.unit),
-                   parameter.default_text(), parameter.range, parameter.meaning);
+      print_entry(fmt::format("  {}", parameter.entry), parameter);
 }
 
 void print_markdown(const std::string_view section)
@@ -50,8 +58,7 @@ void print_found(const std::string& word)
     if (in_small_letters(fmt::format("{} {} {}", parameter.name(), parameter.meaning, parameter.range)).find(wanted) !=
         std::string::npos)
       {
-        print_result("{}\n    unit {}; default {}; range {}\n    {}\n", parameter.name(), or_dash(parameter.unit),
-                     parameter.default_text(), parameter.range, parameter.meaning);
+        print_entry(parameter.name(), parameter);
         found = true;
       }
   if (!found)

@@ -749,9 +749,11 @@ tell feldspar lab --res
 tell feldspar rve --ext
 tell feldspar multiscale --ext
 tell feldspar parameters Flat
+tell feldspar lab --set 'Flat\ joint/Fri'
+tell feldspar lab --set '"Specimen/Wi'
 )bash");
   EXPECT_EQ(run_feldspar(folder.path(), "completion", "bash ./complete").output,
-            "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\n");
+            "lab\nmultiscale\n--resume\n\n--extract\nFlat\\ joint\nFlat\\ joint/Friction\\ =\\ \nSpecimen/Width = \n");
 }
 
 TEST(Lab, SpeaksToWhoeverListens)
