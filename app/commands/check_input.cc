@@ -6,6 +6,7 @@
 #include "app/programme/genesis_effort.h"
 #include "app/programme/specimen_source.h"
 #include "app/programme/test_effort.h"
+#include "app/programme/usual_ranges.h"
 #include "app/run/launched.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
@@ -160,16 +161,22 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
   const Input input = read_input(file, {}, settings);
   if (!input.reference_file.empty())
     read_reference(input.reference_file, test_kinds()); // one that does not serve is wrong for all
+  const Remarks unusual = unusual_values(variants(input));
+  const auto print_remarks = [](const Remarks& remarks) {
+    for (const std::string& remark : remarks)
+      print_result("  {}\n", remark);
+  };
   if (command.empty())
     {
       check_for_all(input, file);
+      print_remarks(unusual);
       return;
     }
   const auto wanted =
     std::find_if(checks.begin(), checks.end(), [&](const CommandCheck& one) { return one.command == command; });
   const Remarks remarks = wanted->check(input, file);
   print_result("{}: OK for feldspar {}\n", file.string(), command);
-  for (const std::string& remark : remarks)
-    print_result("  {}\n", remark);
+  print_remarks(remarks);
+  print_remarks(unusual);
 }
 } // namespace feldspar

@@ -4,6 +4,7 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "app/programme/genesis_effort.h"
+#include "app/programme/usual_ranges.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "base/input_error.h"
@@ -191,6 +192,8 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
   check_memory(variants, orders);
   if (const std::string effort = describe_effort(variants, orders); !effort.empty())
     progress.remark(effort);
+  for (const std::string& sentence : unusual_values(variants))
+    progress.remark(sentence);
   if (const auto& settled = variants.front().input.settled_by_file; !settled.empty())
     progress.remark(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
                                 variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));

@@ -239,6 +239,30 @@ TEST(Check, SaysWhichCommandsTakeAnInput)
   EXPECT_NE(sample.output.find("are larger than the RVE of "), std::string::npos) << sample.output;
 }
 
+TEST(Check, AsksAfterTheUnitOfAValueThatNoRockHas)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm",
+               "subsection Flat joint\n  set Bond tensile strength = 22 GPa\nend\n"
+               "subsection Tests\n  set Confinements = 5, 10, 20 GPa\nend\n"
+               "subsection Variants\n  set Entry = Flat joint/Modulus\n  set Values = 80 MPa; 80 GPa\nend\n");
+  const Outcome check = run_feldspar(folder.path(), "parameters --check rock.prm --for lab");
+  EXPECT_EQ(check.exit_code, 0) << check.error;
+  EXPECT_EQ(check.output,
+            "rock.prm: OK for feldspar lab\n"
+            "  Flat joint/Modulus: 0.08 GPa lies far outside 0.1 GPa to 2000 GPa, the range of rocks and "
+            "laboratories; is the unit meant?\n"
+            "  Flat joint/Bond tensile strength: 22000 MPa lies far outside 0.001 MPa to 2000 MPa, the range "
+            "of rocks and laboratories; is the unit meant?\n"
+            "  Tests/Confinements: 5000 MPa lies far outside 0.001 MPa to 2000 MPa, the range of rocks and "
+            "laboratories; is the unit meant?\n");
+  // A run says it before it begins.
+  const Outcome run = run_feldspar(folder.path(), "specimen rock.prm --set 'Specimen/Width = 8 mm' --set "
+                                                  "'Specimen/Height = 12 mm' --output specimen.h5");
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_NE(run.error.find("Flat joint/Modulus: 0.08 GPa lies far"), std::string::npos) << run.error;
+}
+
 TEST(BadCommandLine, IsToldInOneLine)
 {
   const TemporaryFolder folder;

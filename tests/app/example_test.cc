@@ -190,6 +190,7 @@ TEST(Example, TheInputsAreValid)
       {
         const auto outcome = run_feldspar(folder.path(), "parameters --check '" + entry.path().string() + "'");
         EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+        EXPECT_EQ(outcome.output.find("far outside"), std::string::npos) << outcome.output;
         ++n_inputs;
       }
   EXPECT_GT(n_inputs, 8u);

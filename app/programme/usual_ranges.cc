@@ -1,0 +1,68 @@
+#include "app/programme/usual_ranges.h"
+
+#include "app/input/parameter_table.h"
+#include "app/input/quantity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace feldspar
+{
+namespace
+{
+/// Some ten times wider than what rock, cement, soil and their laboratories have: beyond it a unit is wrong.
+struct UsualRange
+{
+  std::string_view entry; ///< in whichever section it stands
+  const Dimension& dimension;
+  double low; ///< in SI; 0 passes, where the entry allows it
+  double high;
+};
+
+constexpr UsualRange usual_ranges[] = {{"Width", length, 1e-3, 10.0},
+                                       {"Height", length, 1e-3, 10.0},
+                                       {"Minimum radius", length, 1e-6, 0.5},
+                                       {"Density", density, 500.0, 2e4},
+                                       {"Modulus", stress, 1e8, 2e12},
+                                       {"Bond tensile strength", stress, 1e3, 2e9},
+                                       {"Tensile strength", stress, 1e3, 2e9},
+                                       {"Bond cohesion", stress, 1e3, 1e10},
+                                       {"Cohesion", stress, 1e3, 1e10},
+                                       {"Confinements", stress, 1e3, 2e9},
+                                       {"Intermediate stress", stress, 1e3, 2e9},
+                                       {"Confining pressure", stress, 1e3, 2e9}};
+
+void add_unusual(const Input& input, const Parameter& parameter, std::vector<std::string>& sentences)
+{
+  const auto* const usual = std::find_if(std::begin(usual_ranges), std::end(usual_ranges),
+                                         [&](const UsualRange& one) { return one.entry == parameter.entry; });
+  if (usual == std::end(usual_ranges) || !has_use_for(input, parameter))
+    return;
+  const std::string text = parameter.write(input);
+  if (text == none)
+    return;
+  const auto in_its_unit = [&](const double value) { return format_quantity(value, parameter.unit, usual->dimension); };
+  for (const double value : parse_quantities(text, usual->dimension))
+    if (value != 0.0 && (value < usual->low || value > usual->high))
+      {
+        std::string sentence =
+          fmt::format("{}: {} lies far outside {} to {}, the range of rocks and laboratories; is the unit meant?",
+                      parameter.name(), in_its_unit(value), in_its_unit(usual->low), in_its_unit(usual->high));
+        if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+          sentences.push_back(std::move(sentence));
+        return;
+      }
+}
+} // namespace
+
+std::vector<std::string> unusual_values(const std::vector<Variant>& variants)
+{
+  std::vector<std::string> sentences;
+  for (const Variant& variant : variants)
+    for (const Parameter& parameter : parameter_table())
+      add_unusual(variant.input, parameter, sentences);
+  return sentences;
+}
+} // namespace feldspar
