@@ -12,7 +12,7 @@
 #   ./bootstrap.sh packages  packages only: everything the others need
 #
 # Root (or sudo) is needed only while packages are missing. With CI set in the environment warnings are errors and
-# `test` also checks format and lint.
+# `test` also checks format and lint, and has clang read what it does not build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -26,7 +26,7 @@ build_packages=(
 site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)
 test_packages=(
   "${site_packages[@]}"
-  clang clang-format clang-tidy libgtest-dev libbenchmark-dev locales chromium slurm-wlm
+  clang clang-format clang-tidy python3 libgtest-dev libbenchmark-dev locales chromium slurm-wlm
   python3-vtk9 xvfb # pictures of bodies in space, which reports do without where they are missing; reads fields/
 )
 
@@ -105,6 +105,14 @@ check_lint()
       --checks=-bugprone-suspicious-include
 }
 
+# Of what build/asan leaves out.
+check_other_compiler()
+{
+  say "reading the rest with clang"
+  cmake --preset asan-all "$joined_units" >/dev/null
+  scripts/read-with-clang.py build/asan-all build/asan
+}
+
 demo()
 {
   need_packages "${build_packages[@]}"
@@ -158,6 +166,7 @@ run_all_tests()
   if [[ -n "${CI:-}" ]]; then
     check_format
     check_lint
+    check_other_compiler
   fi
   build release "$joined_units" -DBUILD_TESTING=ON -DFELDSPAR_BENCHMARKS=ON
   run_tests release

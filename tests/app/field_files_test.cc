@@ -369,12 +369,19 @@ TEST(FieldFiles, OfASampleAreReadByVtk)
   folder.write("section.prm", sample + "  set Geometry = axisymmetric\n  set Elements across = 1\n" + elastic + tests);
   folder.write("whole.prm", sample + "  set Geometry = cylinder\n  set Elements across = 3\n" + elastic + tests);
   const std::string test = "direct_tension_seed_1";
-  for (const auto& [name, cell, n_nodes] : {std::tuple("plane", "vtkQuad", 4u), std::tuple("section", "vtkQuad", 4u),
-                                            std::tuple("whole", "vtkHexahedron", 8u)})
+  struct Body
+  {
+    std::string name;
+    const char* cell;
+    unsigned int n_nodes;
+  };
+  for (const Body& body :
+       {Body{"plane", "vtkQuad", 4}, Body{"section", "vtkQuad", 4}, Body{"whole", "vtkHexahedron", 8}})
     {
+      const std::string& name = body.name;
       const auto run = run_feldspar(folder.path(), fmt::format("multiscale {0}.prm --output {0} --quiet", name));
       ASSERT_EQ(run.exit_code, 0) << run.error;
-      expect_sample(folder.path() / name, test, cell, n_nodes);
+      expect_sample(folder.path() / name, test, body.cell, body.n_nodes);
       const SampleFields fields = read_sample_fields(folder.path() / name / "fields", test);
       const Piece last = read_time_series(folder.path() / name / "fields" / (test + ".pvd")).back();
       const auto near = [&](const std::string& field, const std::string& tensor, const std::size_t row,
@@ -386,8 +393,8 @@ TEST(FieldFiles, OfASampleAreReadByVtk)
         for (std::size_t k = 0; k < values.size(); ++k)
           EXPECT_NEAR(of_tensor(last, tensor, k, row, column), values[k], single * largest) << name << field;
       };
-      const std::string axial = std::string(name) == "plane" ? "yy" : "zz";
-      const std::size_t row = std::string(name) == "whole" ? 2 : 1;
+      const std::string axial = name == "plane" ? "yy" : "zz";
+      const std::size_t row = name == "whole" ? 2 : 1;
       near("stress_" + axial + "_Pa", "stress_Pa", row, row);
       near("strain_" + axial, "strain", row, row);
       if (std::string(name) == "section")
