@@ -130,7 +130,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
   };
   const auto fast = crushed_at("1");
   EXPECT_EQ(fast.size(), 10u);
-  for (const auto& test : committed("cored")["tests"])
+  const auto cored = committed("cored");
+  for (const auto& test : cored["tests"])
     if (test["kind"] == "uniaxial_compression" && test["variant"] == "Specimen/Coring = sides only")
       {
         EXPECT_EQ(fast.at(test["seed"]), test["peak_stress_Pa"].get<double>() / 1e6) << test["seed"];
