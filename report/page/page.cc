@@ -71,6 +71,16 @@ std::vector<std::size_t> columns_with_contents(const Table& table)
   return columns;
 }
 
+/// How a cell is shown: a verdict in its colour, a sentence in lines.
+std::string class_of(const std::string& cell)
+{
+  constexpr std::size_t longest_figure = 40; // in bytes: "1234.5 ± 12.3 (−10.1 %)"
+  std::string name = cell.starts_with("✗") ? "bad" : cell.starts_with("✓") ? "good" : "";
+  if (cell.size() > longest_figure)
+    name += name.empty() ? "words" : " words";
+  return name;
+}
+
 data describe(const Table& table)
 {
   const std::vector<std::size_t> columns = columns_with_contents(table);
@@ -87,7 +97,7 @@ data describe(const Table& table)
             break;
           data cell = data::type::object;
           cell.set("text", row[c]);
-          set_unless_empty(cell, "class", row[c].starts_with("✗") ? "bad" : row[c].starts_with("✓") ? "good" : "");
+          set_unless_empty(cell, "class", class_of(row[c]));
           cells << cell;
         }
       data one = data::type::object;

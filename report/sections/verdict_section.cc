@@ -102,12 +102,20 @@ PageSection verdict_section(const Findings& findings)
   const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
                                       [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;
+  const SharedWarnings shared = shared_warnings(findings.all);
+  if (!findings.has_many() && !shared.of_all.empty())
+    {
+      PageBlock of_all;
+      of_all.subheading = "All models";
+      of_all.warnings = shared.of_all;
+      section.blocks.push_back(of_all);
+    }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
     {
       if (findings.has_many() && findings.all[n].kind != SeriesKind::laboratory_curve)
         continue;
       PageBlock block = findings.heading_of(n);
-      block.warnings = warnings(findings.all[n]);
+      block.warnings = shared.own[n];
       if (findings.all[n].kind == SeriesKind::laboratory_curve)
         {
           block.subheading = findings.all[n].label;
@@ -125,10 +133,11 @@ PageSection verdict_section(const Findings& findings)
           if (!is_problem_below)
             block.headline = found.headline;
           block.points = found.points;
-          if (block.warnings.empty())
+          if (block.warnings.empty() && shared.of_all.empty())
             block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
         }
-      section.blocks.push_back(block);
+      if (!block.headline.empty() || !block.paragraphs.empty() || !block.points.empty() || !block.warnings.empty())
+        section.blocks.push_back(block);
     }
   PageBlock table;
   if (is_problem_below && !findings.has_many())

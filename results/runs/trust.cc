@@ -1,5 +1,6 @@
 #include "results/runs/trust.h"
 
+#include "base/append.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
@@ -132,6 +133,13 @@ std::string shortcoming(const FinishedTest& test)
       100.0 * *test.results.residual_deviator_ratio.value);
   return "";
 }
+
+std::string out_of_bounds(const TrustCheck& check)
+{
+  return fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", check.n_out, check.n_tests,
+                     check.measure.title, check.measure.text(check.worst), check.worst_test,
+                     check.measure.bound_text());
+}
 } // namespace
 
 std::string TrustMeasure::text(const double number) const
@@ -198,10 +206,9 @@ std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind
 std::vector<std::string> warnings(const TestsOfRock& tests, const SeriesKind kind)
 {
   std::vector<std::string> sentences = shortcomings(tests, kind);
-  for (const auto& [measure, n_tests, n_out, mean, worst, worst_test] : trust_checks(tests, kind))
-    if (n_out > 0)
-      sentences.push_back(fmt::format("Out of bounds in {} of {} tests: {}; worst {} ({}), bound {}.", n_out, n_tests,
-                                      measure.title, measure.text(worst), worst_test, measure.bound_text()));
+  for (const TrustCheck& check : trust_checks(tests, kind))
+    if (check.n_out > 0)
+      sentences.push_back(out_of_bounds(check));
   return sentences;
 }
 
@@ -211,6 +218,50 @@ std::vector<std::string> warnings(const Series& series)
   for (const auto& problem : series.problems)
     sentences.push_back(problem + ".");
   return sentences;
+}
+
+SharedWarnings shared_warnings(const std::vector<Series>& series)
+{
+  SharedWarnings shared;
+  TestsOfRock all;
+  std::vector<const Series*> models;
+  for (const Series& one : series)
+    {
+      shared.own.push_back(warnings(one));
+      if (one.kind == SeriesKind::laboratory_curve)
+        continue;
+      models.push_back(&one);
+      append(all, all_of(one));
+    }
+  if (models.size() < 2)
+    return shared;
+  const auto erase = [&](const Series& one, const std::string& sentence) {
+    std::erase(shared.own[std::size_t(&one - series.data())], sentence);
+  };
+  for (const std::string& sentence : shortcomings(all_of(*models.front()), models.front()->kind))
+    if (std::all_of(models.begin(), models.end(), [&](const Series* const one) {
+          const auto its = shortcomings(all_of(*one), one->kind);
+          return std::find(its.begin(), its.end(), sentence) != its.end();
+        }))
+      {
+        shared.of_all.push_back(sentence);
+        for (const Series* const one : models)
+          erase(*one, sentence);
+      }
+  for (const TrustCheck& of_all : trust_checks(all, models.front()->kind))
+    {
+      std::vector<std::string> sentences; // of the models that are out
+      for (const Series* const one : models)
+        for (const TrustCheck& check : trust_checks(*one))
+          if (check.measure.name == of_all.measure.name && check.n_out > 0)
+            sentences.push_back(out_of_bounds(check));
+      if (sentences.size() < models.size())
+        continue;
+      shared.of_all.push_back(out_of_bounds(of_all));
+      for (std::size_t k = 0; k < models.size(); ++k)
+        erase(*models[k], sentences[k]);
+    }
+  return shared;
 }
 
 std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests)

@@ -60,6 +60,15 @@ std::vector<std::string> warnings(const TestsOfRock& tests, SeriesKind kind);
 /// And what could not be read.
 std::vector<std::string> warnings(const Series& series);
 
+/// Warnings that several models have in common, and those that each has for itself.
+struct SharedWarnings
+{
+  std::vector<std::string> of_all;           ///< empty where there is one model
+  std::vector<std::vector<std::string>> own; ///< of each series
+};
+
+SharedWarnings shared_warnings(const std::vector<Series>& series);
+
 /// The tests of one rock: those of a variant, or all of a run without variants.
 struct RockTests
 {

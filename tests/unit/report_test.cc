@@ -460,6 +460,26 @@ TEST(Trust, SaysWhereATestEndedTooNearToItsPeakToShowIt)
             "strength: a higher peak may lie beyond; a greater Tests/Stop strain shows it.");
 }
 
+TEST(Trust, SaysOnceWhatIsSoOfAllModels)
+{
+  std::vector<Series> series{{"a", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}},
+                             {"b", SeriesKind::specimens, {}, {compression(1), compression(2), compression(3)}, {}},
+                             {"rock", SeriesKind::laboratory_curve, {}, {compression(1)}, {}}};
+  series[0].tests[0].results.energy_imbalance_over_work = 0.02;
+  series[1].tests[2].results.energy_imbalance_over_work = 0.03;
+  series[1].tests[1].results.kinetic_to_strain_energy = {0.5, ""};
+  const SharedWarnings shared = shared_warnings(series);
+  ASSERT_EQ(shared.of_all.size(), 1u);
+  EXPECT_EQ(shared.of_all[0], "Out of bounds in 2 of 6 tests: energy imbalance over boundary work; worst 3.00 % "
+                              "(uniaxial_compression_seed_3), bound at most 1 %.");
+  EXPECT_TRUE(shared.own[0].empty()) << shared.own[0].front();
+  ASSERT_EQ(shared.own[1].size(), 1u);
+  EXPECT_NE(shared.own[1][0].find("kinetic over strain energy"), std::string::npos) << shared.own[1][0];
+  EXPECT_TRUE(shared.own[2].empty());
+  // Of one model there is nothing to share.
+  EXPECT_EQ(shared_warnings({series[1]}).own[0].size(), 2u);
+}
+
 TEST(Trust, OfManyVariantsIsTheWorstOfAll)
 {
   std::vector<FinishedTest> tests;
