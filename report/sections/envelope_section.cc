@@ -62,7 +62,8 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
                       either == &pair.with_tension_point ? "with" : "without");
         if (!either->fit)
           {
-            table.rows.push_back({form, none, none, none, none, none, none, none, none, "no fit: " + either->reason});
+            table.rows.push_back(
+              {form, none, none, none, none, none, none, none, none, "no fit: " + with_symbols(either->reason)});
             continue;
           }
         const HoekBrownFit& fit = *either->fit;
@@ -82,8 +83,8 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
                             beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
                           none, verdict_on(fit->quality, "✓")});
   else
-    table.rows.push_back(
-      {"Mohr–Coulomb", none, none, none, none, none, none, none, none, "no fit: " + envelopes.mohr_coulomb.reason});
+    table.rows.push_back({"Mohr–Coulomb", none, none, none, none, none, none, none, none,
+                          "no fit: " + with_symbols(envelopes.mohr_coulomb.reason)});
   return table;
 }
 
