@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -22,6 +23,11 @@ std::string_view trim(const std::string_view text)
   if (first == std::string_view::npos)
     return {};
   return text.substr(first, text.find_last_not_of(white) + 1 - first);
+}
+
+std::size_t width_of(const std::string_view text)
+{
+  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::vector<std::string_view> split_at_commas(std::string_view text)

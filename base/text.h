@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -8,6 +9,9 @@ namespace feldspar
 {
 /// Without the white space at both ends.
 std::string_view trim(std::string_view text);
+
+/// Characters of UTF-8, which is the width on a terminal but for combining and double ones.
+std::size_t width_of(std::string_view text);
 
 /// The pieces between commas, trimmed; one at least.
 std::vector<std::string_view> split_at_commas(std::string_view text);

@@ -16,6 +16,7 @@
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
 #include "report/sections/study_text.h"
+#include "report/sections/test_tables.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
@@ -68,6 +69,8 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
       text += as_text(compare(of_variant, reference_of(variant.input))) + "\n";
+      if (const Table stages = stage_table(of_variant); !stages.rows.empty())
+        text += as_text(stages) + "\n";
       if (const auto found = envelopes.find(variant.label);
           found != envelopes.end() && found->second.data.points.size() > 1)
         text += as_text(found->second) + "\n";

@@ -15,6 +15,7 @@
 #include "coupling/sample/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
+#include "report/sections/test_tables.h"
 #include "results/fits/run_envelopes.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
@@ -41,6 +42,8 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file, test_kinds());
   text += as_text(compare(tests, reference)) + "\n";
+  if (const Table stages = stage_table(tests); !stages.rows.empty())
+    text += as_text(stages) + "\n";
   if (const auto found = envelopes.find(""); found != envelopes.end() && found->second.data.points.size() > 1)
     text += as_text(found->second) + "\n";
   text += trust_as_text(tests);

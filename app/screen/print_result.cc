@@ -1,5 +1,7 @@
 #include "app/screen/print_result.h"
 
+#include "base/text.h"
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -18,12 +20,6 @@ void write_result(const std::string_view text)
 
 namespace
 {
-/// Bytes that continue a UTF-8 character take no place.
-std::size_t width_of(const std::string_view text)
-{
-  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string wrapped_line(const std::string_view line, const std::size_t width)
 {
   const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());

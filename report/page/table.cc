@@ -1,5 +1,8 @@
 #include "report/page/table.h"
 
+#include "base/text.h"
+
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -37,6 +40,28 @@ std::string as_csv(const std::vector<std::string>& cells)
   return line + "\n";
 }
 } // namespace
+
+std::string as_text(const Table& table)
+{
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < table.header.size(); ++c)
+    {
+      widths.push_back(width_of(table.header[c]));
+      for (const auto& row : table.rows)
+        widths[c] = std::max(widths[c], width_of(row[c]));
+    }
+  std::string text = table.caption + "\n";
+  const auto add = [&](const std::vector<std::string>& cells) {
+    text += cells.front() + std::string(widths.front() - width_of(cells.front()), ' ');
+    for (std::size_t c = 1; c < cells.size(); ++c)
+      text += "   " + std::string(widths[c] - width_of(cells[c]), ' ') + cells[c];
+    text += '\n';
+  };
+  add(table.header);
+  for (const auto& row : table.rows)
+    add(row);
+  return text;
+}
 
 std::string as_csv(const Table& table)
 {

@@ -23,6 +23,9 @@ struct Table
   std::optional<DataFrame> file = std::nullopt;
 };
 
+/// For a terminal: the caption, and below it the columns.
+std::string as_text(const Table& table);
+
 /// Comma-separated, quoted where needed. A text that a spreadsheet would take for a formula begins with an apostrophe
 /// there.
 std::string as_csv(const Table& table);

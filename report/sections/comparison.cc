@@ -1,5 +1,6 @@
 #include "report/sections/comparison.h"
 
+#include "base/text.h"
 #include "results/fits/direct_shear.h"
 #include "results/fits/mohr_coulomb.h"
 #include "results/runs/test_groups.h"
@@ -259,12 +260,6 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
 
 namespace
 {
-/// Width on the screen: bytes that continue a UTF-8 character take no place.
-std::size_t width(const std::string& text)
-{
-  return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
-}
-
 /// A heading in lines of at most so many characters, where words allow it; all but the first are indented.
 std::vector<std::string> in_lines(const std::string& heading, const std::size_t most)
 {
@@ -273,7 +268,7 @@ std::vector<std::string> in_lines(const std::string& heading, const std::size_t 
   for (std::string word; words >> word;)
     {
       std::string& line = lines.back();
-      if (!line.empty() && width(line) + 1 + width(word) > most)
+      if (!line.empty() && width_of(line) + 1 + width_of(word) > most)
         lines.push_back("  " + word);
       else
         line += (line.empty() ? "" : " ") + word;
@@ -308,7 +303,7 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
   std::array<std::size_t, n_columns> widest{};
   for (const auto& line : cells)
     for (std::size_t c = 0; c < n_columns; ++c)
-      widest[c] = std::max(widest[c], width(line[c]));
+      widest[c] = std::max(widest[c], width_of(line[c]));
   std::size_t of_values = 0;
   for (const std::size_t c : columns)
     of_values += 2 + widest[c];
@@ -317,9 +312,9 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
   for (const auto& line : cells)
     {
       const std::vector<std::string> heading = in_lines(line[0], of_headings);
-      text += heading.front() + std::string(of_headings - std::min(of_headings, width(heading.front())), ' ');
+      text += heading.front() + std::string(of_headings - std::min(of_headings, width_of(heading.front())), ' ');
       for (const std::size_t c : columns)
-        text += "  " + std::string(widest[c] - width(line[c]), ' ') + line[c];
+        text += "  " + std::string(widest[c] - width_of(line[c]), ' ') + line[c];
       text += '\n';
       for (std::size_t k = 1; k < heading.size(); ++k)
         text += heading[k] + '\n';

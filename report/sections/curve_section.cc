@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "report/pictures/curve_pictures.h"
+#include "report/sections/test_tables.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,14 @@ PageSection curve_section(const Findings& findings, PictureBook& book)
       {
         is_all_shown = false;
         book.keep_as_files(std::move(group.pictures));
+      }
+  for (std::size_t n = 0; n < findings.all.size(); ++n)
+    if (Table stages = stage_table(findings.all[n].tests); !stages.rows.empty())
+      {
+        stages.name += findings.ending_of_files(n);
+        PageBlock block = findings.heading_of(n);
+        block.tables.push_back(std::move(stages));
+        section.blocks.push_back(block);
       }
   PageBlock remark_below;
   if (section.blocks.empty())

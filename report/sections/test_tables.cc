@@ -85,6 +85,32 @@ Table test_table(const Findings& findings)
   return table;
 }
 
+Table stage_table(const std::vector<FinishedTest>& tests)
+{
+  Table table{"stages",
+              "Stages of the loading table: figures at the end of each; slope of axial stress over axial strain",
+              {"stage", "confinement [MPa]", "strain [1e-3]", "stress [MPa]", "slope [GPa]", "cracks"},
+              {}};
+  std::set<std::uint64_t> seeds;
+  for (const auto& test : tests)
+    seeds.insert(test.record.seed);
+  for (const auto& test : tests)
+    {
+      const auto results = evaluate_stages(test.record);
+      for (std::size_t k = 0; k < results.size(); ++k)
+        {
+          const StageRecord& stage = test.record.stages[k];
+          table.rows.push_back(
+            {fmt::format("{}{}: {}{}", seeds.size() > 1 ? fmt::format("seed {}, ", test.record.seed) : "", k + 1,
+                         stage.target, stage.reached ? "" : ", not reached"),
+             number(stage.confining_pressure / mega, 1), number(1e3 * results[k].strain_at_end, 3),
+             number(results[k].stress_at_end / mega, 1), number(results[k].slope, 1e9, 1),
+             fmt::format("{}", results[k].n_cracks)});
+        }
+    }
+  return table;
+}
+
 Table specimen_table(const Series& series)
 {
   Table table{"specimens",

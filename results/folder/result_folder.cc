@@ -65,6 +65,25 @@ std::vector<FlawPicture> flaws_of(const Json& json)
   return flaws;
 }
 
+/// Of a test that follows a loading table; none where a member is missing.
+std::vector<StageRecord> stages_of(const Json& json)
+{
+  std::vector<StageRecord> stages;
+  if (const auto all = json.find("stages"); all != json.end() && all->is_array())
+    for (const Json& one : *all)
+      try
+        {
+          stages.push_back({one.at("target").get<std::string>(), one.at("confining_pressure_Pa").get<double>(),
+                            one.at("first_row").get<std::uint64_t>(), one.at("last_row").get<std::uint64_t>(),
+                            one.at("reached").get<bool>()});
+        }
+      catch (const Json::exception&)
+        {
+          return {};
+        }
+  return stages;
+}
+
 FinishedTest test_of(const Json& json, const TestKind& kind)
 {
   FinishedTest test;
@@ -90,6 +109,7 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   if (const auto stiffness = json.find("normal_stiffness_Pa_per_m"); stiffness != json.end() && stiffness->is_number())
     test.record.normal_stiffness = stiffness->get<double>();
   test.appearance.flaws = flaws_of(json);
+  test.record.stages = stages_of(json);
   for (const auto& entry : result_table())
     {
       const std::string key(entry.name);
@@ -225,6 +245,13 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
         continue; // it could not be made
       try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
+            return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
+          }))
+        {
+          test.record.stages.clear();
+          problems.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
+        }
       if (test.record.body == TestBody::grains)
         try_to(problems, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
       else if (std::filesystem::exists(folder / result_file::fields /

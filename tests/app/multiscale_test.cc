@@ -169,6 +169,11 @@ TEST(Multiscale, FollowsALoadingTable)
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_TRUE(stages[k].at("reached")) << k;
   EXPECT_FALSE(stages[4].at("reached"));
+  // On the screen and on the page, too.
+  EXPECT_NE(run.output.find("\n2: axial stress 1 MPa "), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("\n5: axial stress 900 MPa, not reached "), std::string::npos) << run.output;
+  EXPECT_NE(contents(folder.path() / "run/report.html").find("<th scope=\"row\">2: axial stress 1 MPa</th>"),
+            std::string::npos);
   EXPECT_FALSE(test.at("ended_early").get<std::string>().empty());
   const auto figure = [&](const std::size_t stage, const char* const name) {
     return stages[stage].at(name).get<double>();

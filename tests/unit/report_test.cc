@@ -216,6 +216,30 @@ TEST(ResultFolder, OfTheLayoutBeforeIsReadInFull)
   EXPECT_EQ(rves[0].n_segments, 7u);
 }
 
+TEST(ResultFolder, StagesAreReadBackUnlessTheyAreNotThoseOfTheCurve)
+{
+  const TemporaryFolder folder;
+  FinishedTest test = compression(1);
+  test.record.kind = own_loading.kind;
+  test.record.stages = {{"axial strain 0.001", 5e6, 0, 2, true}, {"axial stress 10 MPa", 0.0, 2, 4, false}};
+  write_result_folder({}, {test}, {}, folder.path());
+  const auto stages = read_result_folder(folder.path(), test_kinds()).at(0).tests.at(0).record.stages;
+  ASSERT_EQ(stages.size(), 2u);
+  EXPECT_EQ(stages[1].target, "axial stress 10 MPa");
+  EXPECT_EQ(stages[1].last_row, 4u);
+  EXPECT_FALSE(stages[1].reached);
+
+  auto summary = nlohmann::json::parse(content(folder.path() / "summary.json"));
+  summary["tests"][0]["stages"][1]["last_row"] = 100000;
+  folder.write("summary.json", summary.dump());
+  const auto all = read_result_folder(folder.path(), test_kinds());
+  EXPECT_TRUE(all.at(0).tests.at(0).record.stages.empty());
+  ASSERT_FALSE(all.at(0).problems.empty());
+  EXPECT_NE(all[0].problems.back().find("the stages of uniaxial_compression_seed_1 are not those of its curve"),
+            std::string::npos)
+    << all[0].problems.back();
+}
+
 TEST(ResultFolder, ThatIsNoneIsRefused)
 {
   const TemporaryFolder folder;
