@@ -1,6 +1,7 @@
 // The pages of the documentation point at files, sections and rooms that exist.
 
 #include "tests/content.h"
+#include "tests/documentation_pages.h"
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 using feldspar::tests::content;
+using feldspar::tests::documentation_pages;
 
 const fs::path root = FELDSPAR_SOURCE_DIR;
 
@@ -27,19 +29,6 @@ const fs::path root = FELDSPAR_SOURCE_DIR;
 const std::vector<std::string> top_folders = {"app",     "base",    "benchmarks", "calibration", "coupling",
                                               "dem",     "docs",    "examples",   "fem",         "report",
                                               "results", "scripts", "tests",      "third_party"};
-
-std::vector<fs::path> pages()
-{
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(root))
-    if (entry.path().extension() == ".md")
-      found.push_back(entry.path());
-  for (const char* folder : {"docs", "examples", "benchmarks"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-      if (entry.path().extension() == ".md")
-        found.push_back(entry.path());
-  return found;
-}
 
 /// The anchor that a renderer of Markdown gives a heading: lower case, spaces as hyphens, ASCII punctuation left out.
 std::string anchor(const std::string_view heading)
@@ -84,7 +73,7 @@ TEST(Documentation, LinksLeadSomewhere)
 {
   static const std::regex link(R"(\]\(([^)\s]+)\))");
   std::size_t n_links = 0;
-  for (const fs::path& page : pages())
+  for (const fs::path& page : documentation_pages(root))
     for (const std::string& target : matches(content(page), link))
       {
         if (target.starts_with("http"))
@@ -107,7 +96,7 @@ TEST(Documentation, FilesNamedInPagesExist)
 {
   static const std::regex quoted(R"(`([A-Za-z0-9_]+(?:/[A-Za-z0-9_.-]+)+/?)`)");
   std::size_t n_files = 0;
-  for (const fs::path& page : pages())
+  for (const fs::path& page : documentation_pages(root))
     {
       if (page.filename() == "CHANGELOG.md")
         continue; // speaks of earlier trees too
