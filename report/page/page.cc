@@ -120,10 +120,11 @@ data describe(const Table& table)
 class PictureShelf
 {
 public:
-  /// Of pictures whose data stand on the page.
-  PictureShelf(const std::filesystem::path& figures, const std::size_t room)
+  /// Of pictures, and of their files in PDF, whose data stand on the page.
+  PictureShelf(const std::filesystem::path& figures, const std::size_t room, const std::size_t room_for_pdf)
     : folder(figures)
     , most_picture_bytes(room)
+    , most_pdf_bytes(room_for_pdf)
   {
   }
 
@@ -134,17 +135,15 @@ public:
     std::string source;
     if (problem.empty())
       {
-        std::ifstream in(folder / picture.shown_file(), std::ios::binary);
-        const std::string bytes(std::istreambuf_iterator<char>(in), {});
-        const std::size_t encoded = (bytes.size() + 2) / 3 * 4;
-        if (bytes.empty())
+        const std::string in_base64 = encoded(picture.shown_file());
+        if (in_base64.empty())
           problem = picture.shown_file() + " cannot be read";
-        else if (n_bytes + encoded > most_picture_bytes)
+        else if (n_bytes + in_base64.size() > most_picture_bytes)
           problem = "Left out to keep this page small: see " + file_of(picture.shown_file());
         else
           {
-            n_bytes += encoded;
-            source = fmt::format("data:image/{};base64,{}", picture.raster ? "png" : "svg+xml", base64(bytes));
+            n_bytes += in_base64.size();
+            source = fmt::format("data:image/{};base64,{}", picture.raster ? "png" : "svg+xml", in_base64);
           }
       }
     data files = data::type::list;
@@ -155,10 +154,15 @@ public:
           std::string small = ending;
           for (char& c : small)
             c = char(c - 'A' + 'a');
+          const std::string name = picture.name + "." + small;
+          const bool is_shown = picture.shown_file() == name;
+          const std::string pdf = small == "pdf" ? pdf_in_page(name) : "";
           data file = data::type::object;
-          file.set("file", file_of(picture.name + "." + small));
+          file.set("file", pdf.empty() ? file_of(name) : pdf);
           file.set("ending", std::string(ending));
-          file.set("shown", data(picture.shown_file().ends_with(small)));
+          file.set("shown", data(is_shown));
+          set_unless_empty(file, "download", pdf.empty() ? "" : name);
+          file.set("beside", data(!is_shown && pdf.empty()));
           files << file;
         }
     data result = data::type::object;
@@ -180,9 +184,28 @@ public:
 private:
   std::string file_of(const std::string& name) const { return folder.filename().string() + "/" + name; }
 
+  /// A file of the folder, empty where it cannot be read.
+  std::string encoded(const std::string& name) const
+  {
+    std::ifstream in(folder / name, std::ios::binary);
+    return base64(std::string(std::istreambuf_iterator<char>(in), {}));
+  }
+
+  /// As the target of a link, as long as there is room; else empty.
+  std::string pdf_in_page(const std::string& name)
+  {
+    std::string target = n_pdf_bytes < most_pdf_bytes ? encoded(name) : "";
+    if (target.empty() || n_pdf_bytes + target.size() > most_pdf_bytes)
+      return "";
+    n_pdf_bytes += target.size();
+    return "data:application/pdf;base64," + target;
+  }
+
   std::filesystem::path folder;
   std::size_t most_picture_bytes;
+  std::size_t most_pdf_bytes;
   std::size_t n_bytes = 0;
+  std::size_t n_pdf_bytes = 0;
 };
 
 data describe(const PageBlock& block, PictureShelf& shelf)
@@ -214,10 +237,11 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   return result;
 }
 
-/// With pictures of so many bytes at most.
-std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room)
+/// With pictures, and with PDFs of them, of so many bytes at most.
+std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room,
+                     const std::size_t room_for_pdf)
 {
-  PictureShelf shelf(figures, room);
+  PictureShelf shelf(figures, room, room_for_pdf);
   data sections = data::type::list;
   for (const auto& section : page.sections)
     {
@@ -248,7 +272,10 @@ std::string rendered(const Page& page, const std::filesystem::path& figures, con
 
 void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures)
 {
-  const std::size_t without_pictures = rendered(page, figures, 0).size();
-  write_whole_file(file, rendered(page, figures, most_bytes - std::min(most_bytes, without_pictures)));
+  const auto left = [](const std::size_t used) { return most_bytes - std::min(most_bytes, used); };
+  const std::size_t for_pictures = left(rendered(page, figures, 0, 0).size());
+  // Pictures come first; what they leave is for the files that a mailed page would else lose.
+  const std::size_t for_pdf = left(rendered(page, figures, for_pictures, 0).size() + most_bytes / 100);
+  write_whole_file(file, rendered(page, figures, for_pictures, for_pdf));
 }
 } // namespace feldspar

@@ -11,6 +11,25 @@
   const explained = {};
   const drawn = []; // of each figure on the screen what draws it anew
 
+  // The nearest point to the pointer that has a value of its own: bands and bars have none.
+  Chart.Interaction.modes.telling = (plot, event) => {
+    const at = Chart.helpers.getRelativePosition(event, plot);
+    let nearest = [];
+    let least = Infinity;
+    if (!plot.isPointInArea(at))
+      return nearest;
+    for (const line of plot.getSortedVisibleDatasetMetas())
+      if (!plot.data.datasets[line.index].silent)
+        line.data.forEach((point, index) => {
+          const distance = Math.hypot(point.x - at.x, point.y - at.y);
+          if (distance < least && plot.isPointInArea(point)) {
+            least = distance;
+            nearest = [{element: point, datasetIndex: line.index, index}];
+          }
+        });
+    return nearest;
+  };
+
   const element = (tag, parent, properties = {}) =>
     parent.appendChild(Object.assign(document.createElement(tag), properties));
 
@@ -120,12 +139,11 @@
         animation: false,
         responsive: true,
         maintainAspectRatio: false,
-        interaction: {mode: "nearest", intersect: false, axis: "xy"},
+        interaction: {mode: "telling", intersect: false},
         scales,
         plugins: {
           legend: {display: false},
           tooltip: {
-            filter: item => !item.dataset.silent,
             callbacks: {
               title: () => "",
               label: item => `${item.dataset.label}: ${digits(item.parsed.y)} at ${digits(item.parsed.x)}`,

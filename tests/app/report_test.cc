@@ -612,6 +612,20 @@ public:
   }
 };
 
+/// The page with another script in the place of its policy, which forbids all but its own.
+std::string with_script(std::string page, const std::string& script)
+{
+  const std::size_t policy = page.find("<meta http-equiv");
+  return page.replace(policy, page.find('>', policy) + 1 - policy, "<script>" + script + "</script>");
+}
+
+/// Of a page as the browser left it; what a script has to say stands there.
+std::string title_of(const Outcome& shown)
+{
+  const std::size_t begin = shown.output.rfind("<title>") + std::string("<title>").size();
+  return shown.output.substr(begin, shown.output.find("</title>", begin) - begin);
+}
+
 /// At desk and phone width, in light and dark mode, the page breaks no rule of its own and is no wider than its frame.
 void expect_shown_in_a_browser(const fs::path& page)
 {
@@ -639,12 +653,9 @@ void expect_shown_in_a_browser(const fs::path& page)
 
   // Tables scroll in their places. The probe replaces the policy, which forbids scripts; a window of the browser is never
   // as narrow as a phone, a frame in it is.
-  std::string probe = content(page);
-  const std::size_t policy = probe.find("<meta http-equiv");
-  probe.replace(policy, probe.find('>', policy) + 1 - policy,
-                "<script>addEventListener('load', () => parent.postMessage('wide ' + "
-                "document.documentElement.scrollWidth + ' of ' + innerWidth, '*'))</script>");
-  folder.write("probe.html", probe);
+  folder.write("probe.html", with_script(content(page), "addEventListener('load', () => parent.postMessage('wide ' + "
+                                                        "document.documentElement.scrollWidth + ' of ' + innerWidth, "
+                                                        "'*'))"));
   for (const int width : {1280, 390})
     {
       folder.write("frame.html",
@@ -653,8 +664,7 @@ void expect_shown_in_a_browser(const fs::path& page)
                                "style=\"border: 0\"></iframe>",
                                width));
       const auto shown = Browser::show(folder.path() / "frame.html", "--dump-dom");
-      EXPECT_NE(shown.output.find(fmt::format("<title>wide {} of {}</title>", width, width)), std::string::npos)
-        << shown.output.substr(0, 200);
+      EXPECT_EQ(title_of(shown), fmt::format("wide {} of {}", width, width));
     }
 }
 
@@ -670,6 +680,53 @@ TEST_F(Report, ShowsInABrowserAtDeskAndPhoneWidthInLightAndDark)
                           fmt::format("--screenshot='{}'", (folder.path() / "shot.png").string()))
               .error,
             "");
+}
+
+TEST_F(Report, AnswersToTheMouse)
+{
+  folder.write("probed.html", with_script(content(folder.path() / "out/report.html"),
+                                          content(std::string(FELDSPAR_SOURCE_DIR) + "/tests/app/page_probe.js")));
+  const auto shown =
+    Browser::show(folder.path() / "probed.html", "--window-size=1280,900 --virtual-time-budget=15000 --dump-dom");
+  EXPECT_EQ(title_of(shown), "probed +hover +zoom +whole range +hide +show +as printed +interactive again +slider");
+}
+
+TEST_F(Report, ShowsItsPicturesWithoutItsScript)
+{
+  // The page's own script is taken out; another one counts the pictures that are seen.
+  std::string page = content(folder.path() / "out/report.html");
+  const std::size_t script = page.rfind("<script>");
+  page.erase(script, page.find("</script>", script) - script);
+  folder.write("bare.html", with_script(page, "addEventListener('load', () => { const all = "
+                                              "[...document.images]; document.title = 'seen ' + all.filter(one => "
+                                              "one.naturalWidth > 0 && (one.checkVisibility() || "
+                                              "one.closest('details'))).length + ' of ' + all.length; })"));
+  const auto shown = Browser::show(folder.path() / "bare.html", "--dump-dom");
+  const std::size_t n_pictures = count(page, "<img src=\"data:image/");
+  EXPECT_GT(n_pictures, 10u);
+  EXPECT_EQ(title_of(shown), fmt::format("seen {0} of {0}", n_pictures));
+}
+
+TEST_F(Report, PrintsEachPicture)
+{
+  const fs::path page = folder.path() / "out/report.html";
+  const fs::path paper = folder.path() / "paper.pdf";
+  Browser::show(page, fmt::format("--virtual-time-budget=15000 --print-to-pdf='{}'", paper.string()));
+  const std::string printed = content(paper);
+  EXPECT_TRUE(printed.starts_with("%PDF"));
+  EXPECT_GT(count(printed, "/Type /Page\n"), 3u);
+  // Those of grains and cracks are images; drawings are drawn there, too.
+  const std::string text = content(page);
+  EXPECT_EQ(count(printed, "/Subtype /Image"), count(text, "<img src=\"data:image/png"));
+}
+
+TEST_F(Report, CarriesItsPicturesForPapersWithIt)
+{
+  const std::string page = content(folder.path() / "out/report.html");
+  const std::size_t n_drawings = count(page, "<img src=\"data:image/svg");
+  EXPECT_GT(n_drawings, 5u);
+  EXPECT_EQ(count(page, "<a href=\"data:application/pdf;base64,JVBERi0"), n_drawings); // %PDF-
+  EXPECT_EQ(count(page, "title=\"beside this page"), 0u);
 }
 
 /// A sample of finite elements, pulled apart, with small RVEs at its points.
