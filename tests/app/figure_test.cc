@@ -1,4 +1,5 @@
-// The figures of docs/ are those that scripts/make-figures.py made, and show what stands in the committed results.
+// The figures of docs/ are those that scripts/make-figures.py made, and show what stands in the committed results; pictures of
+// examples and benchmarks are of the results beside them.
 
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
@@ -78,6 +79,24 @@ TEST(Figures, AreAllRecordedAndWereNotChangedByHand)
         ++n;
       }
   EXPECT_EQ(n, of_figures.size()) << "a recorded figure is not there";
+}
+
+TEST(Pictures, OfExamplesAndBenchmarksAreNotOlderThanTheirResults)
+{
+  const auto of_pictures = nlohmann::json::parse(text_of(root / "examples/pictures.json"));
+  std::size_t n = 0;
+  for (const char* const top : {"examples", "benchmarks"})
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top))
+      if (entry.path().extension() == ".png" || entry.path().extension() == ".svg")
+        {
+          const std::string name = fs::relative(entry.path(), root).string();
+          ASSERT_TRUE(of_pictures.contains(name)) << name << ": tell of what it was made by scripts/record-picture.py";
+          EXPECT_EQ(of_pictures[name]["sha256"], sha256(entry.path())) << name;
+          for (const auto& [results, checksum] : of_pictures[name]["results"].items())
+            EXPECT_EQ(checksum, sha256(root / results)) << results << " has changed: make " << name << " anew";
+          ++n;
+        }
+  EXPECT_EQ(n, of_pictures.size()) << "a recorded picture is not there";
 }
 
 // The scripts of others that go into every page are those that their table names.
