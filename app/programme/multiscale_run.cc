@@ -208,10 +208,11 @@ FinishedTest run_test(const PlannedSample& planned, const Input& input, const st
     {
       while (!test.has_ended())
         {
-          test.advance(draw, [&] {
+          const auto keep = [&] {
             if (ranks::any(ranks::is_first() && clock.is_due()))
               write_state();
-          });
+          };
+          test.advance(draw, keep, interrupted);
           const CurveSample& row = test.last_row();
           const SampleStanding standing = test.standing();
           show(&row, fmt::format(", {} broken segments, {:.0f} % of points damaged",

@@ -44,11 +44,12 @@ void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::ui
 SampleSetUp SampleTest::Parts::set_up()
 {
   return {[this](const fem::NewtonReport& report) {
-    standing.n_newton_iterations = report.n_iterations;
-    standing.n_cascades = report.n_cascades;
-    if (watch)
-      watch(standing);
-  }};
+            standing.n_newton_iterations = report.n_iterations;
+            standing.n_cascades = report.n_cascades;
+            if (watch)
+              watch(standing);
+          },
+          [this] { return gives_up && gives_up(); }};
 }
 
 void SampleTest::Parts::seat()

@@ -38,6 +38,7 @@ struct SampleTest::Parts
   TestParameters wanted;
   SampleStanding standing;
   std::function<void(const SampleStanding&)> watch;
+  std::function<bool()> gives_up;
   std::unique_ptr<SampleBody> body;
   SampleSize size{};
   std::optional<fem::FieldOutput> fields;

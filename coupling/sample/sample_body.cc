@@ -298,6 +298,7 @@ private:
     parameters.reduced_quadrature = sample.reduced_quadrature;
     parameters.newton_tolerance = sample.newton_tolerance;
     parameters.watch = set_up.watch;
+    parameters.gives_up = set_up.gives_up;
     return parameters;
   }
 

@@ -25,6 +25,7 @@ namespace feldspar
 struct SampleSetUp
 {
   std::function<void(const fem::NewtonReport&)> watch; ///< as SolidParameters::watch
+  std::function<bool()> gives_up;                      ///< as SolidParameters::gives_up
 };
 
 /// Between platens, the sides under a confining pressure. Changes on accept() only, and every query is about

@@ -37,11 +37,12 @@ SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
 
 bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch,
-                         const std::function<void()>& step_done)
+                         const std::function<void()>& step_done, const std::function<bool()>& gives_up)
 {
   const auto clock = std::chrono::steady_clock::now();
   parts->watch = watch;
   parts->step_done = step_done;
+  parts->gives_up = gives_up;
   TestRecord& record = parts->record;
   try
     {
@@ -66,6 +67,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
     }
   parts->watch = nullptr;
   parts->step_done = nullptr;
+  parts->gives_up = nullptr;
   parts->bookkeeping.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return !parts->ended;
 }

@@ -14,6 +14,11 @@
 
 namespace feldspar::fem
 {
+/// Not all points were asked, because the run is to end.
+struct GivenUp
+{
+};
+
 /// The material points of one rank, worked on by all its cores. Vectors run over the points in the order of add().
 template <int dim>
 class MaterialPoints
@@ -33,21 +38,28 @@ public:
   /// The processor time of each point since it was added, whatever else runs there [s].
   const std::vector<double>& seconds() const { return times; }
 
-  Responses trial(const Strains& strains) const
+  /// gives_up: asked before each point, by any thread; where it says so, GivenUp is thrown.
+  Responses trial(const Strains& strains, const std::function<bool()>& gives_up = {}) const
   {
     Responses responses(points.size());
-    for_each([&](const std::size_t i) { responses[i] = points[i]->trial(strains[i]); });
+    for_each([&](const std::size_t i) {
+      end_if(gives_up);
+      responses[i] = points[i]->trial(strains[i]);
+    });
     return responses;
   }
 
-  /// Returns the number of events of all points.
-  std::size_t relax(const Strains& strains)
+  /// Returns the number of events of all points. gives_up: as of trial().
+  std::size_t relax(const Strains& strains, const std::function<bool()>& gives_up = {})
   {
     return oneapi::tbb::parallel_reduce(
       range(), std::size_t(0),
       [&](const Range& part, std::size_t n_events) {
         for (std::size_t i = part.begin(); i != part.end(); ++i)
-          timed(i, [&] { n_events += points[i]->relax(strains[i]); });
+          {
+            end_if(gives_up);
+            timed(i, [&] { n_events += points[i]->relax(strains[i]); });
+          }
         return n_events;
       },
       std::plus<>());
@@ -80,6 +92,12 @@ public:
 
 private:
   using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+  static void end_if(const std::function<bool()>& gives_up)
+  {
+    if (gives_up && gives_up())
+      throw GivenUp();
+  }
 
   /// Points differ in cost by orders of magnitude: ranges are split down to one point where threads are idle.
   Range range() const { return {0, points.size()}; }

@@ -123,21 +123,36 @@ std::vector<bool> NewtonSearch<dim, material_dim>::held_by(const AffineConstrain
   return held;
 }
 
+template <int dim, int material_dim>
+template <typename Work>
+auto NewtonSearch<dim, material_dim>::over_points(const Work& work) -> Round
+{
+  Round round = Round::answered;
+  try
+    {
+      work();
+    }
+  catch (const PointFailure&)
+    {
+      round = Round::failed;
+    }
+  catch (const GivenUp&)
+    {
+      round = Round::left;
+    }
+  round_done();
+  round = Round(Utilities::MPI::max(int(round), elements.communicator()));
+  if (round == Round::left)
+    parameters.watch({});
+  return round;
+}
+
 /// False where a point of any rank has no response.
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::update_points()
 {
-  bool failed = false;
-  try
-    {
-      tried.responses = points.materials.trial(tried.strains);
-    }
-  catch (const PointFailure&)
-    {
-      failed = true;
-    }
-  round_done();
-  return Utilities::MPI::max(int(failed), elements.communicator()) == 0;
+  return over_points([&] { tried.responses = points.materials.trial(tried.strains, parameters.gives_up); }) ==
+         Round::answered;
 }
 
 /// Returns the number of events of all ranks; nothing where a point of any found no stable structure.
@@ -145,17 +160,7 @@ template <int dim, int material_dim>
 std::optional<std::uint64_t> NewtonSearch<dim, material_dim>::relax_points()
 {
   std::uint64_t n_events = 0;
-  bool failed = false;
-  try
-    {
-      n_events = points.materials.relax(tried.strains);
-    }
-  catch (const PointFailure&)
-    {
-      failed = true;
-    }
-  round_done();
-  if (Utilities::MPI::max(int(failed), elements.communicator()) == 1)
+  if (over_points([&] { n_events = points.materials.relax(tried.strains, parameters.gives_up); }) != Round::answered)
     return {};
   return Utilities::MPI::sum(n_events, elements.communicator());
 }

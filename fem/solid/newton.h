@@ -35,6 +35,15 @@ public:
 private:
   PathVertex vertex_of(const SolidState<material_dim>& state) const;
   std::vector<bool> held_by(const dealii::AffineConstraints<double>& constraints) const;
+  /// How a round over the points of all ranks ended: of any the worst, which is the last.
+  enum class Round
+  {
+    answered,
+    failed, ///< a point had no response
+    left    ///< before all were asked
+  };
+  template <typename Work>
+  Round over_points(const Work& work);
   bool update_points();
   std::optional<std::uint64_t> relax_points();
   std::optional<NodalVector> next_correction(const SolidConstraints& constraints, bool boundary_moves);
