@@ -1,7 +1,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/curve_pictures.h"
+#include "report/pictures/curves/curve_pictures.h"
 #include "report/sections/test_tables.h"
 #include "results/folder/result_folder.h"
 

@@ -1,5 +1,7 @@
 // Does with a page of the report as a reader with a mouse does, and names in the page's title what came of it: +hover where it
 // did, -hover where it did not.
+// The charts answer with the frames of the screen, which a browser without one makes as it likes.
+window.requestAnimationFrame = done => setTimeout(() => done(performance.now()), 0);
 addEventListener("load", async () => {
   const pause = () => new Promise(done => setTimeout(done, 300));
   const said = [];

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +19,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -301,11 +303,14 @@ TEST_F(Report, LeavesFiguresAndTablesForAPaper)
 TEST_F(Report, MadeAnewFromTheFolderIsTheSame)
 {
   const std::string first = content(folder.path() / "out/report.html");
-  fs::remove_all(folder.path() / "out/figures");
+  fs::rename(folder.path() / "out/figures", folder.path() / "figures");
+  std::this_thread::sleep_for(std::chrono::seconds(1)); // a PDF that kept the time of its drawing would have another
   fs::remove_all(folder.path() / "out/tables");
   fs::remove(folder.path() / "out/report.html");
   remade("report out", true);
   EXPECT_EQ(content(folder.path() / "out/report.html"), first);
+  for (const auto& entry : fs::directory_iterator(folder.path() / "figures"))
+    EXPECT_EQ(content(entry.path()), content(folder.path() / "out/figures" / entry.path().filename())) << entry.path();
 }
 
 TEST_F(Report, SetsFoldersBesideOneAnother)

@@ -6,7 +6,7 @@
 #include "report/live/chart.h"
 #include "report/live/crack_story.h"
 #include "report/page/table.h"
-#include "report/pictures/curve_pictures.h"
+#include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/envelope_pictures.h"
 #include "report/pictures/maps/crack_map.h"
 #include "report/pictures/maps/map_marks.h"

@@ -1,0 +1,151 @@
+#include "report/pictures/curves/stress_curves.h"
+
+#include "report/pictures/curves/curve_plot.h"
+#include "report/pictures/plot_style.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace feldspar
+{
+namespace
+{
+using namespace plot;
+
+constexpr std::size_t most_rows = 250; ///< of a single test in a picture
+
+/// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
+std::string means_and_bands(const bool several)
+{
+  return several ? ". Lines: means; bands: ± standard deviation; thin lines: single tests" : "";
+}
+
+std::string with_capital(const std::string_view words)
+{
+  std::string text(words);
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+    text.front() = char(text.front() - 'a' + 'A');
+  return text;
+}
+
+/// Mean strain at the peak: beyond it the gauge measures broken pieces.
+double strain_at_peak(const TestGroup& group)
+{
+  double sum = 0.0;
+  const auto strains = values(group, &TestResults::strain_at_peak);
+  for (const double strain : strains)
+    sum += strain / double(strains.size());
+  return sum;
+}
+
+/// Stress over a strain, up to `end` of the axial strain; the band lies along the axis along which `sideways` says the
+/// tests scatter.
+void add_stress_curve(CurvePlot& plot, const SeriesGroup& of, const Quantity& strain, const bool sideways,
+                      const double end, const int dashes, const std::string& label)
+{
+  const auto& group = of.group;
+  const double sign = group.kind.sign;
+  const std::string series_colour = colour(*of.series, of.n);
+  const bool each_alone = group.kind.follows_stages; // back and forth, each on its own way
+  if (group.tests.size() > 1 || each_alone)
+    for (const auto* test : group.tests)
+      {
+        const auto& curve = test->record.curve;
+        const std::size_t stride = 1 + curve.size() / most_rows;
+        CurvePlot::Points points;
+        for (std::size_t k = 0; k < curve.size() && sign * curve[k].axial_strain <= end; k += stride)
+          points.push_back({sign * strain(curve[k]) / milli, group.kind.stress(curve[k]) / mega});
+        if (each_alone)
+          plot.add(2, {.label = fmt::format("{}, seed {}", label, test->record.seed),
+                       .colour = series_colour,
+                       .width = group.tests.size() > 1 ? 1.0 : 2.2,
+                       .points = std::move(points)});
+        else
+          plot.add(1, {.label = fmt::format("{}, seed {}", label, test->record.seed),
+                       .goes_with = label,
+                       .colour = series_colour,
+                       .width = 0.5,
+                       .points = std::move(points)});
+      }
+  if (each_alone)
+    return;
+
+  const Band stress = band(
+    group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
+  const Band strains = band(group, strain, true);
+  CurvePlot::Points mean;
+  CurvePlot::Points around; // there on one side, back on the other
+  CurvePlot::Points back;
+  for (std::size_t k = 0; k < stress.abscissa.size() && stress.abscissa[k] <= end; ++k)
+    {
+      const double x = strains.mean[k] / milli;
+      const double y = stress.mean[k] / mega;
+      const double dx = sideways ? strains.deviation[k] / milli : 0.0;
+      const double dy = sideways ? 0.0 : stress.deviation[k] / mega;
+      mean.push_back({x, y});
+      around.push_back({x + dx, y + dy});
+      back.push_back({x - dx, y - dy});
+    }
+  around.insert(around.end(), back.rbegin(), back.rend());
+  if (group.tests.size() > 1)
+    plot.add(0, {.kind = CurvePlot::Kind::area,
+                 .label = label + ", ± standard deviation",
+                 .goes_with = label,
+                 .colour = series_colour,
+                 .points = std::move(around)});
+  plot.add(2, {.label = label, .colour = series_colour, .dashes = dashes, .points = std::move(mean)});
+}
+} // namespace
+
+std::optional<Picture> stress_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
+{
+  const TestKind& kind = same.front().group.kind;
+  // A test without uniform stress has no uniform strains either.
+  const bool is_uniform = kind.has_uniform_stress;
+  CurvePlot plot;
+  for (const auto& of : same)
+    {
+      const std::string beginning =
+        same.size() > 1 || of.group.tests.size() > 1 || !of.counts_cracks() ? of.series->label : std::string();
+      const auto label = [&](const std::string& ending) {
+        return beginning.empty() ? ending : is_uniform ? beginning + ", " + ending : beginning;
+      };
+      add_stress_curve(
+        plot, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
+        label(is_uniform ? std::string("axial") : std::string(kind.channel.name)));
+      if (!is_uniform)
+        continue;
+      const double peak = strain_at_peak(of.group);
+      const double end = peak > 0.0 ? peak : 1.0;
+      add_stress_curve(
+        plot, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"));
+      add_stress_curve(
+        plot, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
+        label("volumetric"));
+    }
+  if (plot.empty())
+    return std::nullopt;
+  const bool pulls = kind.sign > 0.0;
+  const Chart axes{
+    .x_label = is_uniform ? (pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive")
+                          : fmt::format("{} [10⁻³]", kind.channel.strain_name),
+    .y_label = is_uniform ? fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")
+                          : fmt::format("{} [MPa]", kind.channel.name)};
+  const std::string what = is_uniform
+                             ? std::string("Stress against axial, lateral and volumetric strain")
+                             : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
+  return Picture{
+    .name = name + "_stress",
+    .caption = what + (kind.follows_stages ? "" : means_and_bands(any_has_several(same))) +
+               (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
+    .alternative = what + " in " + of_tests + ".",
+    .width = CurvePlot::width,
+    .height = plot.height(is_uniform ? 3 : 2),
+    .script = plot.script(axes, fmt::format("set xzeroaxis; set yzeroaxis lw 0.8 lc rgb '#b0b0b0'\nset yrange [0:*]\n"
+                                            "set key maxcols {}\n",
+                                            is_uniform ? 3 : 2)),
+    .live = plot.json(axes)};
+}
+} // namespace feldspar
