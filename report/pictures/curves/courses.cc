@@ -22,24 +22,15 @@ void add_mean(CurvePlot& plot, const SeriesGroup& of, const Quantity& quantity, 
               const int dashes, const std::string& label)
 {
   const Band over_seeds = band(of.group, quantity, false);
-  CurvePlot::Points mean;
-  CurvePlot::Points around;
-  CurvePlot::Points back;
+  CurvePlot::Mean mean{label, of_colour, dashes, {}, {}, {}};
   for (std::size_t k = 0; k < over_seeds.abscissa.size(); ++k)
     {
       const double x = over_seeds.abscissa[k] / milli;
-      mean.push_back({x, over_seeds.mean[k]});
-      around.push_back({x, over_seeds.mean[k] + over_seeds.deviation[k]});
-      back.push_back({x, over_seeds.mean[k] - over_seeds.deviation[k]});
+      mean.points.push_back({x, over_seeds.mean[k]});
+      mean.above.push_back({x, over_seeds.mean[k] + over_seeds.deviation[k]});
+      mean.below.push_back({x, over_seeds.mean[k] - over_seeds.deviation[k]});
     }
-  around.insert(around.end(), back.rbegin(), back.rend());
-  if (of.group.tests.size() > 1)
-    plot.add(0, {.kind = CurvePlot::Kind::area,
-                 .label = label + ", ± standard deviation",
-                 .goes_with = label,
-                 .colour = of_colour,
-                 .points = std::move(around)});
-  plot.add(2, {.label = label, .colour = of_colour, .dashes = dashes, .points = std::move(mean)});
+  plot.add(std::move(mean), of.group.tests.size() > 1);
 }
 
 /// Zero in every row.

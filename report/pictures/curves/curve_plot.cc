@@ -45,6 +45,21 @@ void CurvePlot::add(const std::size_t layer, ChartLine line)
   of_page[layer].push_back(std::move(line));
 }
 
+void CurvePlot::add(Mean mean, const bool has_band)
+{
+  if (has_band)
+    {
+      Points around = std::move(mean.above);
+      around.insert(around.end(), mean.below.rbegin(), mean.below.rend());
+      add(0, {.kind = Kind::area,
+              .label = mean.label + ", ± standard deviation",
+              .goes_with = mean.label,
+              .colour = mean.colour,
+              .points = std::move(around)});
+    }
+  add(2, {.label = mean.label, .colour = mean.colour, .dashes = mean.dashes, .points = std::move(mean.points)});
+}
+
 std::string CurvePlot::script(const Chart& axes, const std::string& set_up) const
 {
   std::string text = data + frame(axes.x_label, axes.y_label) + set_up + "plot ";

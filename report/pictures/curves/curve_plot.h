@@ -20,6 +20,18 @@ public:
   /// Layers are drawn from 0 to 2. Of its points the picture and the page show the same.
   void add(std::size_t layer, ChartLine line);
 
+  /// A mean in layer 2 and, where there is one, the band around it in layer 0: there on one side, back on the other.
+  struct Mean
+  {
+    std::string label;
+    std::string colour;
+    int dashes;
+    Points points;
+    Points above;
+    Points below;
+  };
+  void add(Mean mean, bool has_band);
+
   std::string script(const Chart& axes, const std::string& set_up) const;
   std::string json(Chart axes) const;
   bool empty() const;

@@ -75,27 +75,18 @@ void add_stress_curve(CurvePlot& plot, const SeriesGroup& of, const Quantity& st
   const Band stress = band(
     group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
   const Band strains = band(group, strain, true);
-  CurvePlot::Points mean;
-  CurvePlot::Points around; // there on one side, back on the other
-  CurvePlot::Points back;
+  CurvePlot::Mean mean{label, series_colour, dashes, {}, {}, {}};
   for (std::size_t k = 0; k < stress.abscissa.size() && stress.abscissa[k] <= end; ++k)
     {
       const double x = strains.mean[k] / milli;
       const double y = stress.mean[k] / mega;
       const double dx = sideways ? strains.deviation[k] / milli : 0.0;
       const double dy = sideways ? 0.0 : stress.deviation[k] / mega;
-      mean.push_back({x, y});
-      around.push_back({x + dx, y + dy});
-      back.push_back({x - dx, y - dy});
+      mean.points.push_back({x, y});
+      mean.above.push_back({x + dx, y + dy});
+      mean.below.push_back({x - dx, y - dy});
     }
-  around.insert(around.end(), back.rbegin(), back.rend());
-  if (group.tests.size() > 1)
-    plot.add(0, {.kind = CurvePlot::Kind::area,
-                 .label = label + ", ± standard deviation",
-                 .goes_with = label,
-                 .colour = series_colour,
-                 .points = std::move(around)});
-  plot.add(2, {.label = label, .colour = series_colour, .dashes = dashes, .points = std::move(mean)});
+  plot.add(std::move(mean), group.tests.size() > 1);
 }
 } // namespace
 
