@@ -108,7 +108,8 @@ bool ended_near_its_peak(const FinishedTest& test)
   constexpr double least_way = 1.05;  // of the strain at the peak
   const TestRecord& record = test.record;
   const Figure& residual = test.results.residual_deviator_ratio;
-  if (record.kind.follows_stages || record.kind.pressure_acts_across || record.came_apart || !residual.value)
+  if (record.kind.follows_stages || record.kind.pressure_acts_across || record.came_apart || !residual.value ||
+      record.curve.empty()) // its table may have been thrown away
     return false;
   return *residual.value > 1.0 - least_fall &&
          record.kind.strain(record.curve.back()) < least_way * *test.results.strain_at_peak.value;
