@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "results/fits/direct_shear.h"
 #include "results/fits/mohr_coulomb.h"
+#include "results/runs/bodies.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
@@ -41,9 +42,9 @@ std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, 
 std::map<std::uint64_t, double> of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
 {
   std::map<std::uint64_t, double> values;
-  for (const auto& test : tests)
-    if (const SpecimenReport& body = test.record.specimen; body.n_grains > 0 && std::isfinite(body.*figure))
-      values[test.record.seed] = body.*figure;
+  for (const auto& [seed, body] : whole_bodies(tests))
+    if (body.n_grains > 0 && std::isfinite(body.*figure))
+      values[seed] = body.*figure;
   return values;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/append.h"
 #include "report/sections/text.h"
+#include "results/runs/bodies.h"
 #include "results/runs/result_table.h"
 #include "results/runs/test_groups.h"
 
@@ -134,6 +135,7 @@ Table specimen_table(const Series& series)
       table.caption += ". Cored: packed without walls, joined, then cut free";
       append(table.header, {"joints cut", "grains removed"});
     }
+  const auto bodies = whole_bodies(series.tests);
   for (const auto& [seed, tests] : made)
     {
       std::uint64_t steps = 0;
@@ -143,7 +145,7 @@ Table specimen_table(const Series& series)
           steps += test->bookkeeping.steps;
           time += test->bookkeeping.wall_time;
         }
-      const SpecimenReport& report = tests.front()->record.specimen;
+      const SpecimenReport& report = bodies.at(seed);
       const auto number = [](const double value, const int decimals) {
         return std::isfinite(value) ? text::number(value, decimals) : std::string(none);
       };

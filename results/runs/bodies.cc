@@ -20,6 +20,15 @@ std::string bulk(const BodyFigures& figures)
 }
 } // namespace
 
+std::map<std::uint64_t, SpecimenReport> whole_bodies(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::uint64_t, SpecimenReport> bodies;
+  for (const FinishedTest& test : tests)
+    if (SpecimenReport& body = bodies[test.record.seed]; test.record.specimen.n_grains > body.n_grains)
+      body = test.record.specimen;
+  return bodies;
+}
+
 std::optional<BodyFigures> body_figures(const std::string& label, const std::vector<SpecimenReport>& bodies)
 {
   std::vector<double> gaps, coordination, porosities;
@@ -38,13 +47,10 @@ std::optional<BodyFigures> body_figures(const std::string& label, const std::vec
 
 std::optional<BodyFigures> body_figures(const Series& series)
 {
-  std::map<std::uint64_t, SpecimenReport> by_seed;
-  if (series.kind != SeriesKind::laboratory_curve)
-    for (const FinishedTest& test : series.tests)
-      by_seed.emplace(test.record.seed, test.record.specimen);
   std::vector<SpecimenReport> bodies;
-  for (const auto& [seed, body] : by_seed)
-    bodies.push_back(body);
+  if (series.kind != SeriesKind::laboratory_curve)
+    for (const auto& [seed, body] : whole_bodies(series.tests))
+      bodies.push_back(body);
   return body_figures(series.label, bodies);
 }
 

@@ -4,6 +4,8 @@
 #include "results/runs/series.h"
 #include "results/statistics.h"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,9 @@ struct BodyFigures
   std::optional<Statistics> coordination_number_core;
   Statistics porosity;
 };
+
+/// The specimen of each seed, whole: a test on a part of it, such as a disc, has fewer grains.
+std::map<std::uint64_t, SpecimenReport> whole_bodies(const std::vector<FinishedTest>& tests);
 
 /// None of bodies without grains.
 std::optional<BodyFigures> body_figures(const std::string& label, const std::vector<SpecimenReport>& bodies);

@@ -376,7 +376,8 @@ TEST(Fault, KilledAtRandomMomentsTwiceInARowItIsResumedToTheSameBits)
   const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   int n_killed = 0;
   Random random(1, RandomStream::positions);
-  for (int k = 0; k < 3; ++k)
+  // A machine that is less busy than for the whole run is at the end before some of the moments come: then there are more.
+  for (int k = 0; k < 3 || (n_killed < 3 && k < 10); ++k)
     {
       const std::string out = fmt::format("out-{}", k);
       const auto killed_after = [&](const std::string& arguments) {

@@ -440,6 +440,20 @@ TEST(Bodies, OfDifferentGapsAreSaidToBeDifferentRocks)
   EXPECT_NEAR(*gap->ours->standard_deviation, 0.2 * 0.0457 / std::sqrt(2.0), 1e-12);
 }
 
+TEST(Bodies, OfASeedAreItsWholeSpecimen)
+{
+  // A disc that is tested first has fewer grains and a ragged rim.
+  std::vector<FinishedTest> tests{compression(1), compression(1)};
+  tests[1].record.specimen = {};
+  tests[1].record.specimen.n_grains = 149;
+  tests[1].record.specimen.porosity = 0.19;
+  tests[0].record.specimen = tests[1].record.specimen;
+  tests[0].record.specimen.n_grains = 97;
+  tests[0].record.specimen.porosity = 0.33;
+  EXPECT_EQ(whole_bodies(tests).at(1).porosity, 0.19);
+  EXPECT_EQ(body_figures({"rock", SeriesKind::specimens, {}, tests, {}})->porosity.mean, 0.19);
+}
+
 TEST(Trust, SaysWhatIsOutOfItsBounds)
 {
   // Energies of compression(): 1 - 0.7 - 3·0.1 - 1e-5 of the work is unaccounted, 0.001 %.
