@@ -68,7 +68,8 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
                    [&](const FinishedTest& test) { return test.variant == variant.label; });
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
-      text += as_text(compare(of_variant, reference_of(variant.input))) + "\n";
+      const auto reference = reference_of(variant.input);
+      text += as_text(compare(of_variant, reference), reference) + "\n";
       if (const Table stages = stage_table(of_variant); !stages.rows.empty())
         text += as_text(stages) + "\n";
       if (const auto found = envelopes.find(variant.label);

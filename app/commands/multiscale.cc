@@ -41,7 +41,7 @@ std::string describe_run(const Input& input, const std::vector<Rock>& rocks, con
   std::optional<Reference> reference;
   if (!input.reference_file.empty())
     reference = read_reference(input.reference_file, test_kinds());
-  text += as_text(compare(tests, reference)) + "\n";
+  text += as_text(compare(tests, reference), reference) + "\n";
   if (const Table stages = stage_table(tests); !stages.rows.empty())
     text += as_text(stages) + "\n";
   if (const auto found = envelopes.find(""); found != envelopes.end() && found->second.data.points.size() > 1)

@@ -59,7 +59,8 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
 
   std::optional<StrayGrain> beyond_wall;
   walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
-    if (!beyond_wall && touch.overlap > touch.zero_distance)
+    // Not by where its centre stands: a cut specimen may begin with one just inside the wall.
+    if (!beyond_wall && touch.overlap > body.grains.radius[touch.grain])
       beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall", true};
   });
   return beyond_wall;

@@ -1,7 +1,7 @@
 #include "report/pictures/stress_plane_pictures.h"
 
 #include "report/live/chart.h"
-#include "report/pictures/envelope_pictures.h"
+#include "report/pictures/envelope_plot.h"
 #include "report/pictures/plane_plot.h"
 #include "report/pictures/plot_style.h"
 #include "results/fits/residual_strength.h"
@@ -45,16 +45,6 @@ void add_circle(PlanePlot& plotted, const double sigma_3, const double sigma_1, 
                               0.5 * (sigma_1 - sigma_3) * std::sin(angle) / mega});
     }
   plotted.add(std::move(looks));
-}
-
-/// Intact, with the tension point; it is drawn only where it has more points than parameters.
-const HoekBrownFit* intact_of(const StrengthEnvelopes& envelopes)
-{
-  for (const auto& pair : envelopes.hoek_brown)
-    if (const auto& fit = pair.with_tension_point.fit;
-        pair.form == HoekBrownForm::intact && fit && fit->quality.degrees_of_freedom > 0)
-      return &*fit;
-  return nullptr;
 }
 
 std::string name_for_files(const Series& series) { return file_name(series.label); }
@@ -104,9 +94,9 @@ std::vector<Picture> mohr_picture(const Series& series, const std::size_t which,
                   .width = 1.0,
                   .dashes = 3});
     }
-  if (const HoekBrownFit* const fit = intact_of(envelopes))
+  if (const HoekBrownFit* const fit = envelopes.representative())
     {
-      ChartLine line{.label = "H–B intact, with σ_t", .colour = of_colour, .width = 2.4};
+      ChartLine line{.label = label_of(*fit), .colour = of_colour, .width = 2.4};
       const double begin = fit->quality.lowest_sigma_3();
       // At its beginning the envelope may stand upright.
       for (const double sigma_3 : abscissas(begin + 1e-9 * std::abs(begin), fit->quality.highest_sigma_3()))
@@ -171,10 +161,10 @@ std::vector<Picture> p_q_picture(const std::vector<Series>& all, const std::vect
         marks.points.push_back(of_state(point.sigma_3, point.sigma_1));
       if (data.tensile_strength) // the two other principal stresses are 0
         marks.points.push_back({-*data.tensile_strength / 3.0 / mega, *data.tensile_strength / mega});
-      if (const HoekBrownFit* const fit = intact_of(envelopes[n]))
+      if (const HoekBrownFit* const fit = envelopes[n].representative())
         {
           // Of confined compression; between it and tension no path of states is unique.
-          ChartLine line{.label = all[n].label + ": H–B intact, with σ_t",
+          ChartLine line{.label = all[n].label + ": " + label_of(*fit),
                          .colour = colour(all[n], n),
                          .width = 2.0,
                          .dashes = dashes(n)};

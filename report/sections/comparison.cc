@@ -163,7 +163,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
     std::vector<double> scaled;
     for (const auto& [seed, value] : values)
       scaled.push_back(value / scale);
-    ComparisonRow row{property, unit, decimals, statistics(scaled), std::nullopt, std::nullopt};
+    ComparisonRow row{property, unit, decimals, statistics(scaled), std::nullopt, std::nullopt, key};
     if (reference)
       {
         row.model = reference->model.find(key, reference_scale);
@@ -261,6 +261,8 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
 
 namespace
 {
+constexpr std::size_t page = 80; // characters of a line
+
 /// A heading in lines of at most so many characters, where words allow it; all but the first are indented.
 std::vector<std::string> in_lines(const std::string& heading, const std::size_t most)
 {
@@ -278,10 +280,34 @@ std::vector<std::string> in_lines(const std::string& heading, const std::size_t 
 }
 } // namespace
 
-std::string as_text(const std::vector<ComparisonRow>& rows)
+std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
+                                                   const std::optional<Reference>& reference)
+{
+  std::vector<std::string> keys;
+  if (reference)
+    for (const auto& [key, value] : reference->experiment.values)
+      if (key != "density_kg_per_m3" &&
+          std::none_of(rows.begin(), rows.end(),
+                       [&, wanted = key](const ComparisonRow& row) { return row.ours && row.key == wanted; }))
+        keys.push_back(key);
+  return keys;
+}
+
+std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& rows,
+                                              const std::optional<Reference>& reference)
+{
+  const std::vector<std::string> keys = properties_without_a_test(rows, reference);
+  std::string text;
+  if (!keys.empty())
+    for (const std::string& line :
+         in_lines(fmt::format("Not tested here: the experiment's {}.", fmt::join(keys, ", ")), page))
+      text += line + '\n';
+  return text;
+}
+
+std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference)
 {
   constexpr std::size_t n_columns = 4;
-  constexpr std::size_t page = 80;
   constexpr std::size_t narrowest = 20; // of the headings
   std::vector<std::array<std::string, n_columns>> cells;
   cells.push_back({"", "this run", "reference model", "experiment"});
@@ -320,6 +346,6 @@ std::string as_text(const std::vector<ComparisonRow>& rows)
       for (std::size_t k = 1; k < heading.size(); ++k)
         text += heading[k] + '\n';
     }
-  return text;
+  return text + text_of_properties_without_a_test(rows, reference);
 }
 } // namespace feldspar

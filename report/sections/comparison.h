@@ -19,6 +19,7 @@ struct ComparisonRow
   std::optional<Statistics> ours;      ///< over the seeds
   std::optional<ReferenceValue> model; ///< of the paper
   std::optional<ReferenceValue> experiment;
+  std::string key = {}; ///< of a reference file; empty where it has no such property
 
   /// The deviation of our mean from that of the experiment, over the latter; none without either.
   std::optional<double> deviation() const;
@@ -35,6 +36,15 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
 /// of tests.
 std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value, const std::string& unit = "");
 
-/// For a terminal.
-std::string as_text(const std::vector<ComparisonRow>& rows);
+/// What the experiment gives that no test of these rows has, by its names in the reference file; not the density, which is
+/// given to a model.
+std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
+                                                   const std::optional<Reference>& reference);
+
+/// For a terminal, with the properties that were not tested.
+std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference);
+
+/// Those in a paragraph for a terminal; empty where there are none.
+std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& rows,
+                                              const std::optional<Reference>& reference);
 } // namespace feldspar

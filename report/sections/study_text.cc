@@ -1,5 +1,6 @@
 #include "report/sections/study_text.h"
 
+#include "base/append.h"
 #include "report/sections/comparison.h"
 #include "report/sections/text.h"
 #include "results/runs/trust.h"
@@ -117,6 +118,11 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
     text += "\nthe same in all variants\n";
   for (const Column& column : constant)
     text += fmt::format("  {}   {}\n", column.heading, column.cells.front());
+  std::vector<ComparisonRow> rows;
+  for (const auto& of_variant : of_variants)
+    append(rows, of_variant);
+  if (const std::string untested = text_of_properties_without_a_test(rows, reference); !untested.empty())
+    text += "\n" + untested;
   return text + "\nAll results of each test stand in tests.csv, the fits of each variant in summary.json.\n";
 }
 } // namespace feldspar

@@ -30,7 +30,8 @@ std::string beside_experiment(const ComparisonRow& row)
 }
 } // namespace
 
-Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reason_for_no_reference)
+Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
+                const std::string& reason_for_no_reference)
 {
   std::vector<std::string> in;
   std::vector<std::string> out;
@@ -46,6 +47,7 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reaso
       }
 
   Verdict result;
+  const std::vector<std::string> untested = properties_without_a_test(rows, reference);
   if (in.empty() && out.empty() && open.empty())
     {
       result.headline =
@@ -77,6 +79,8 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reaso
   add("✗ Out of range", out);
   add("✓ In range", in);
   add("No range given", open);
+  if (!untested.empty())
+    result.points.push_back(fmt::format("Not tested here: the experiment's {}.", fmt::join(untested, ", ")));
   return result;
 }
 } // namespace feldspar

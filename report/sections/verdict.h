@@ -2,6 +2,7 @@
 
 #include "report/sections/comparison.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,7 @@ struct Verdict
   std::vector<std::string> points; ///< property by property
 };
 
-Verdict verdict(const std::vector<ComparisonRow>& rows, const std::string& reason_for_no_reference);
+/// `reason_for_no_reference`: why there is none although there should be one.
+Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference,
+                const std::string& reason_for_no_reference);
 } // namespace feldspar

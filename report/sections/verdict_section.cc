@@ -125,7 +125,7 @@ PageSection verdict_section(const Findings& findings)
         }
       else
         {
-          const Verdict found = verdict(findings.comparisons[n], findings.reference_problem);
+          const Verdict found = verdict(findings.comparisons[n], findings.reference, findings.reference_problem);
           if (findings.all[n].kind == SeriesKind::finite_elements)
             block.paragraphs.push_back(
               fmt::format("Made on a sample of finite elements{}, and evaluated as tests on specimens of grains are.",

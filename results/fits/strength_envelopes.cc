@@ -108,6 +108,30 @@ std::string table(const std::vector<Row>& rows)
   return result;
 }
 
+/// With the tension point, and more points than parameters; null if there is none.
+const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const HoekBrownForm form)
+{
+  for (const auto& pair : envelopes.hoek_brown)
+    if (const auto& fit = pair.with_tension_point.fit; pair.form == form && fit && fit->quality.degrees_of_freedom > 0)
+      return &*fit;
+  return nullptr;
+}
+
+/// Where the intact form is no envelope of these strengths; begins with a space, empty where it is.
+std::string remark_on_intact_form(const StrengthEnvelopes& envelopes)
+{
+  const auto miss = miss_of_intact_form(envelopes);
+  if (miss.value_or(0.0) <= largest_miss)
+    return "";
+  std::string result = fmt::format(" The intact form (s = 1, a = 0.5) misses the strengths by {:.0f} % of the uniaxial "
+                                   "one (root mean square), so its sigma_ci and m do not describe them.",
+                                   100.0 * *miss);
+  if (const HoekBrownFit* const general = fit_with_freedom(envelopes, HoekBrownForm::general))
+    result += fmt::format(" The general form (a = {:.2f}) misses them by {:.0f} %.", general->a.value,
+                          100.0 * general->quality.root_mean_square / *envelopes.data.uniaxial_compressive_strength);
+  return result;
+}
+
 /// The points rise more steeply after the uniaxial test than before it, which no envelope with a <= 1 can follow.
 bool rises_more_steeply_under_confinement(const StrengthData& data)
 {
@@ -120,6 +144,25 @@ bool rises_more_steeply_under_confinement(const StrengthData& data)
            *data.uniaxial_compressive_strength / *data.tensile_strength;
 }
 } // namespace
+
+const HoekBrownFit* StrengthEnvelopes::representative() const
+{
+  const HoekBrownFit* const intact = fit_with_freedom(*this, HoekBrownForm::intact);
+  const HoekBrownFit* const general = fit_with_freedom(*this, HoekBrownForm::general);
+  const bool misses = miss_of_intact_form(*this).value_or(0.0) > largest_miss;
+  const bool general_is_nearer =
+    misses && general && general->quality.root_mean_square < 0.5 * intact->quality.root_mean_square;
+  return general_is_nearer ? general : intact;
+}
+
+std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes)
+{
+  const HoekBrownFit* const intact = fit_with_freedom(envelopes, HoekBrownForm::intact);
+  const auto& measured = envelopes.data.uniaxial_compressive_strength;
+  if (!intact || !measured)
+    return std::nullopt;
+  return intact->quality.root_mean_square / *measured;
+}
 
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data)
 {
@@ -198,7 +241,8 @@ std::string as_text(const StrengthEnvelopes& envelopes)
 
 std::string remark(const StrengthEnvelopes& envelopes)
 {
-  std::string result = "Admissible is s <= 1: with s > 1 the rock would be stronger than intact.";
+  std::string result =
+    "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
   const auto paper = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
                                   [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
   const auto& measured = envelopes.data.uniaxial_compressive_strength;

@@ -3,6 +3,7 @@
 #include "results/fits/hoek_brown.h"
 #include "results/fits/mohr_coulomb.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,19 @@ struct StrengthEnvelopes
   StrengthData data;
   std::vector<HoekBrownPair> hoek_brown; ///< as_paper, intact, general
   FitOrReason<MohrCoulombFit> mohr_coulomb;
+
+  /// The envelope that stands for these strengths where only one is drawn: the intact form with the tension point. Where
+  /// that misses its points and the general form does by less than half as much, the latter. Null where the intact form
+  /// has no freedom left.
+  const HoekBrownFit* representative() const;
 };
+
+/// By how much the intact form with the tension point misses its points: the root mean square over the measured uniaxial
+/// strength. None where it has no freedom left, or the uniaxial strength is not measured.
+std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes);
+
+/// From this share of the uniaxial strength on an envelope is said to miss its points.
+inline constexpr double largest_miss = 0.1;
 
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data);
 

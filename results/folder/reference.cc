@@ -404,6 +404,8 @@ Reference read_reference(const std::filesystem::path& file, const std::vector<Te
         reference.citations.push_back(printable(fmt::format("{}: {}", name, text(words, top / "citation" / name))));
     }
   reference.experiment = source_of(json["experiment"], "experiment", kinds, top / "experiment");
+  if (reference.experiment.values.empty() && !reference.experiment.envelope)
+    (top / "experiment").refuse("has no property; give one, such as uniaxial_compressive_strength_MPa");
   reference.model.label = "reference model";
   if (json.contains("paper_model"))
     reference.model = source_of(json["paper_model"], reference.model.label, kinds, top / "paper_model");

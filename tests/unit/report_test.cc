@@ -8,6 +8,7 @@
 #include "report/page/table.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/envelope_pictures.h"
+#include "report/pictures/envelope_plot.h"
 #include "report/pictures/maps/crack_map.h"
 #include "report/pictures/maps/map_marks.h"
 #include "report/pictures/stress_plane_pictures.h"
@@ -371,7 +372,7 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   // 120 and 132 MPa: mean 126, 95 % of the mean ± 12.706·8.485/sqrt(2) = 76 MPa.
   const std::vector<FinishedTest> tests{compression(3), compression(4, 1.1)};
   const auto said = [&](const std::optional<Reference>& reference, const std::string& problem) {
-    const Verdict answer = verdict(compare(tests, reference), problem);
+    const Verdict answer = verdict(compare(tests, reference), reference, problem);
     std::string text = answer.headline + "\n";
     for (const auto& point : answer.points)
       text += point + "\n";
@@ -646,6 +647,17 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   const std::string rows = curve.substr(7, curve.find("EOD\n", 7) - 7);
   const std::string last_row = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
   EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
+
+  // A printed envelope ends where the points of its source do, though the plot goes on to those of the model.
+  Reference printed;
+  printed.experiment.values = {{"strength_at_20_MPa", {300.0, std::nullopt, std::nullopt}},
+                               {"friction_angle_deg", {40.0, std::nullopt, std::nullopt}},
+                               {"cohesion_MPa", {30.0, std::nullopt, std::nullopt}}};
+  plot::EnvelopePlot plotted;
+  plotted.take_in(60e6, 500e6);
+  plotted.add_printed(printed.experiment, plot::black);
+  const auto chart = nlohmann::json::parse(plotted.json());
+  EXPECT_NEAR(chart["lines"].back()["points"].back()[0].get<double>(), 20.0, 1e-9) << chart;
 }
 
 /// Those of the strength alone.
@@ -854,15 +866,31 @@ TEST(TerminalText, OfAComparisonFitsAndLeavesOutWhatIsEmpty)
     {"uniaxial compressive strength", "MPa", 1, Statistics{3, 176.0, 5.1, 2.9, 12.7}, std::nullopt, measured},
     {"Young's modulus, tangent 40-60 % of peak", "GPa", 1, Statistics{3, 55.5, 0.4, 0.2, 1.0}, std::nullopt,
      std::nullopt}};
-  EXPECT_EQ(as_text(rows).find("reference model"), std::string::npos);
+  EXPECT_EQ(as_text(rows, std::nullopt).find("reference model"), std::string::npos);
   // There is room for 80 - 2 - 11 - 2 - 22 = 43 characters of a heading; the second has 46.
-  EXPECT_NE(as_text(rows).find("uniaxial compressive strength [MPa] "), std::string::npos) << as_text(rows);
-  EXPECT_NE(as_text(rows).find("\n  [GPa]\n"), std::string::npos) << as_text(rows);
+  EXPECT_NE(as_text(rows, std::nullopt).find("uniaxial compressive strength [MPa] "), std::string::npos)
+    << as_text(rows, std::nullopt);
+  EXPECT_NE(as_text(rows, std::nullopt).find("\n  [GPa]\n"), std::string::npos) << as_text(rows, std::nullopt);
   rows[0].model = ReferenceValue{167.4, std::nullopt, std::nullopt};
-  const std::string text = as_text(rows);
+  const std::string text = as_text(rows, std::nullopt);
   EXPECT_NE(text.find("reference model"), std::string::npos);
   EXPECT_LE(widest_line(text), 80u) << text;
   EXPECT_NE(text.find("\n  40-60 % of peak [GPa]\n"), std::string::npos) << text;
+}
+
+TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
+{
+  Reference reference = granite(120.0, 130.0);
+  reference.experiment.values["tensile_strength_MPa"] = {9.5, std::nullopt, std::nullopt};
+  reference.experiment.values["strength_at_30_MPa"] = {400.0, std::nullopt, std::nullopt};
+  reference.experiment.values["density_kg_per_m3"] = {2700.0, std::nullopt, std::nullopt};
+  const auto rows = compare({compression(3), compression(4, 1.1)}, reference);
+  EXPECT_EQ(properties_without_a_test(rows, reference),
+            (std::vector<std::string>{"strength_at_30_MPa", "tensile_strength_MPa"}));
+  const std::string sentence = "Not tested here: the experiment's strength_at_30_MPa, tensile_strength_MPa.";
+  EXPECT_EQ(verdict(rows, reference, "").points.back(), sentence);
+  EXPECT_NE(as_text(rows, reference).find(sentence), std::string::npos);
+  EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
 }
 
 TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
@@ -1165,6 +1193,8 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
   };
   expect(refusal("{\n  \"experiment\": {\n}"), ":3:2: is not valid JSON");
   expect(refusal("{}"), "experiment is missing");
+  expect(of_experiment(""), "experiment: has no property; give one, such as uniaxial_compressive_strength_MPa");
+  expect(of_experiment(R"("label": "a rock")"), "experiment: has no property");
   expect(refusal(R"({"experiment": {}, "model": {}})"), "model: no such key; there are rock, citation, experiment");
   expect(of_experiment(R"("tensil_strength_MPa": 9)"),
          "experiment/tensil_strength_MPa: no such property; there are density_kg_per_m3, tensile_strength_MPa");

@@ -472,6 +472,29 @@ TEST(StrengthEnvelopes, RemarkSaysWhyThePapersFormIsNotAdmissible)
   EXPECT_NE(as_text(envelopes).find(text), std::string::npos);
 }
 
+TEST(StrengthEnvelopes, AreRepresentedByTheIntactFormUnlessItMissesThem)
+{
+  const auto on_curve = [](const double a) {
+    StrengthData data{{}, 150 * MPa, 7.5 * MPa}; // m = 20, s = 1
+    for (const double sigma_3 : {0.0, 5 * MPa, 10 * MPa, 20 * MPa, 40 * MPa, 60 * MPa})
+      data.points.push_back({sigma_3, hoek_brown_sigma_1(sigma_3, 150 * MPa, 20.0, 1.0, a)});
+    return fit_strength_envelopes(data);
+  };
+  const auto intact = on_curve(0.5);
+  ASSERT_TRUE(intact.representative());
+  EXPECT_EQ(intact.representative()->form, HoekBrownForm::intact);
+  EXPECT_LT(*miss_of_intact_form(intact), 1e-3);
+  EXPECT_EQ(remark(intact).find("misses"), std::string::npos);
+  // Steeper, as specimens of clumps are: no curve with a = 0.5 follows it. The general form does but for the tension point,
+  // whose σ₁ is 0 where the curve begins at −7.5 MPa.
+  const auto steep = on_curve(0.8);
+  ASSERT_TRUE(steep.representative());
+  EXPECT_EQ(steep.representative()->form, HoekBrownForm::general);
+  EXPECT_GT(*miss_of_intact_form(steep), largest_miss);
+  EXPECT_NE(remark(steep).find("The general form (a = 0.81) misses them by 0 %"), std::string::npos) << remark(steep);
+  EXPECT_FALSE(miss_of_intact_form(fit_strength_envelopes({})));
+}
+
 TEST(StrengthEnvelopes, AreSilentAndTheSameBitsEveryTime)
 {
   testing::internal::CaptureStderr();
