@@ -233,9 +233,26 @@ private:
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(error);
     const auto subcommands = app.get_subcommands();
-    fmt::print(stderr, "feldspar: {}; see feldspar {}--help\n", error.what(),
+    const std::string unknown = subcommands.empty() ? "" : unknown_option(*subcommands.front());
+    fmt::print(stderr, "feldspar: {}; see feldspar {}--help\n", unknown.empty() ? error.what() : unknown,
                subcommands.empty() ? "" : subcommands.front()->get_name() + " ");
     return exit_code::user_error;
+  }
+
+  /// Names the first option of a command line that this command does not have, and those that are near; else empty.
+  static std::string unknown_option(const CLI::App& command)
+  {
+    const std::vector<std::string> words = command.remaining();
+    const auto word = std::find_if(words.begin(), words.end(), [](const auto& one) { return one.starts_with("--"); });
+    if (word == words.end())
+      return "";
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : command.get_options())
+      for (const std::string& name : option->get_lnames())
+        names.push_back("--" + name);
+    const std::string given = word->substr(0, word->find('='));
+    return fmt::format("{}: {} has no such option{}", given, command.get_name(),
+                       suggestion(given, {names.begin(), names.end()}));
   }
 
   /// CLI11 would only say that the word was not expected.

@@ -1,5 +1,6 @@
 #include "report/report.h"
 
+#include "base/append.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
 #include "report/pictures/lab_pictures.h"
@@ -96,8 +97,15 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
-  if (!findings.has_many()) // the key of many curves would push the tables off the first screen
-    page.sections.front().blocks.front().lead = lead_of(page.sections);
+  const auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
+  if (findings.has_many()) // the key of many curves would push the tables off the first screen
+    book.keep_as_files(overview);
+  else
+    {
+      std::vector<PagePicture>& lead = page.sections.front().blocks.front().lead;
+      lead = lead_of(page.sections);
+      append(lead, book.keep(overview));
+    }
   return page;
 }
 
@@ -106,7 +114,6 @@ void keep_pictures_of_single_tests(const std::vector<Series>& all, PictureBook& 
 {
   for (const auto& series : all)
     book.keep_as_files(single_test_pictures(series));
-  book.keep_as_files(overview_picture(all.front()));
 }
 
 void write_tables(const Page& page, const std::filesystem::path& folder)

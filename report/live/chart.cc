@@ -61,8 +61,12 @@ std::string json_of(const ChartLine& line)
 std::string Chart::json() const
 {
   std::string result =
-    fmt::format(R"({{"what":"chart","x":{},"y":{},"right":{},"from_zero":{},"equal":{},"lines":[)", live::text(x_label),
+    fmt::format(R"({{"what":"chart","x":{},"y":{},"right":{},"from_zero":{},"equal":{},)", live::text(x_label),
                 live::text(y_label), live::text(right_label), from_zero, equal_scales);
+  if (part)
+    result += fmt::format(R"("part":[{},{},{},{}],)", live::number((*part)[0]), live::number((*part)[1]),
+                          live::number((*part)[2]), live::number((*part)[3]));
+  result += "\"lines\":[";
   for (const auto& line : lines)
     result += json_of(line) + ",";
   if (result.back() == ',')

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,10 @@ struct Chart
 {
   std::string x_label;
   std::string y_label;
-  std::string right_label = {}; ///< of the axis to the right; empty without one
-  bool from_zero = true;        ///< the axes of ordinates begin there
-  bool equal_scales = false;    ///< of both axes, so that a circle is one
+  std::string right_label = {};                   ///< of the axis to the right; empty without one
+  bool from_zero = true;                          ///< the axes of ordinates begin there
+  bool equal_scales = false;                      ///< of both axes, so that a circle is one
+  std::optional<std::array<double, 4>> part = {}; ///< shown of the plane: from and to on x, then on y; none: all
   std::vector<ChartLine> lines = {};
 
   /// Five digits of each number, `null` in gaps; no `<` in it, so that it may stand in a page.

@@ -228,10 +228,12 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   result.set("warnings", list(block.warnings));
   result.set("tables", tables);
   result.set("has_lead", data(!block.lead.empty()));
-  data lead = data::type::list;
-  for (const auto& picture : block.lead)
-    lead << shelf.describe(picture);
-  result.set("lead", lead);
+  data beside = data::type::list;
+  data below = data::type::list;
+  for (std::size_t k = 0; k < block.lead.size(); ++k)
+    (k == 0 ? beside : below) << shelf.describe(block.lead[k]);
+  result.set("beside", beside);
+  result.set("below", below);
   result.set("has_figures", data(!block.pictures.empty()));
   result.set("figures", figures);
   return result;

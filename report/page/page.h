@@ -29,7 +29,8 @@ struct PageBlock
   std::vector<Table> tables;
   std::vector<Table> tables_as_files; ///< beside the page alone
   std::vector<PagePicture> pictures;
-  std::vector<PagePicture> lead; ///< beside the words above, where the screen is wide enough; at most one
+  std::vector<PagePicture>
+    lead; ///< the first beside the words above, where the screen is wide enough; others below them
 };
 
 struct PageSection

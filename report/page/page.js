@@ -130,6 +130,10 @@
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", figure.alternative);
     const scales = {x: axis(data.x, "bottom", false), y: axis(data.y, "left", data.from_zero)};
+    if (data.part) {
+      [scales.x.min, scales.x.max] = data.part;
+      [scales.y.min, scales.y.max] = data.part.slice(2);
+    }
     if (data.right)
       scales.right = axis(data.right, "right", true);
     const plot = new Chart(canvas, {
@@ -205,7 +209,7 @@
     const draw = () => {
       const margin = 40;
       const width = box.clientWidth;
-      const scale = Math.min((width - margin - 10) / (high[0] - low[0]), (Math.min(0.75 * innerHeight, 720) - margin) / (high[1] - low[1]));
+      const scale = Math.min((width - margin - 24) / (high[0] - low[0]), (Math.min(0.75 * innerHeight, 720) - margin) / (high[1] - low[1]));
       const height = scale * (high[1] - low[1]) + margin + 6;
       const pixels = devicePixelRatio || 1;
       canvas.width = width * pixels;

@@ -70,14 +70,14 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
   // Near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
     {
-      const double sigma_3 = 0.2 * plotted.highest_3;
-      pictures.push_back(
-        {.name = "envelope_near_uniaxial" + of_series,
-         .caption = "The same near the uniaxial and the tension test",
-         .alternative = "The strength envelope between tension and low confinement, enlarged.",
-         .width = plotted.width,
-         .height = plotted.height(),
-         .script = plotted.script(EnvelopePoint{sigma_3, 2.2 * *envelopes.data.uniaxial_compressive_strength})});
+      const EnvelopePoint upper{0.2 * plotted.highest_3, 2.2 * *envelopes.data.uniaxial_compressive_strength};
+      pictures.push_back({.name = "envelope_near_uniaxial" + of_series,
+                          .caption = "The same near the uniaxial and the tension test",
+                          .alternative = "The strength envelope between tension and low confinement, enlarged.",
+                          .width = plotted.width,
+                          .height = plotted.height(),
+                          .script = plotted.script(upper),
+                          .live = plotted.json(upper)});
     }
   return pictures;
 }

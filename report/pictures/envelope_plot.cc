@@ -240,13 +240,18 @@ void EnvelopePlot::add_cut_off(const HoekBrownFit& fit, const std::string& of_co
     {.label = label, .colour = of_colour, .width = 1.0, .dashes = 3, .points = {{sigma_3, 0.0}, {sigma_3, top}}});
 }
 
+std::array<double, 4> EnvelopePlot::part_up_to(const std::optional<EnvelopePoint>& upper) const
+{
+  return {(lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
+          (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega, 0.0,
+          (upper ? upper->sigma_1 : 1.08 * highest_1) / mega};
+}
+
 std::string EnvelopePlot::script(const std::optional<EnvelopePoint>& upper) const
 {
+  const auto [left, right, bottom, top] = part_up_to(upper);
   std::string text = data + frame(x_label, y_label);
-  fmt::format_to(std::back_inserter(text), "set xrange [{}:{}]; set yrange [0:{}]\n",
-                 (lowest_3 < 0.0 ? 1.25 * lowest_3 : 0.0) / mega,
-                 (upper ? upper->sigma_3 : std::max(1.05 * highest_3, 1e6)) / mega,
-                 (upper ? upper->sigma_1 : 1.08 * highest_1) / mega);
+  fmt::format_to(std::back_inserter(text), "set xrange [{}:{}]; set yrange [{}:{}]\n", left, right, bottom, top);
   text += "set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.8 lc rgb '#b0b0b0' back\n" + key.set_up(width) +
           " font ',12'\nplot ";
   const auto add = [&](const std::vector<std::string>& entries) {
@@ -259,9 +264,11 @@ std::string EnvelopePlot::script(const std::optional<EnvelopePoint>& upper) cons
   return text + "\n";
 }
 
-std::string EnvelopePlot::json() const
+std::string EnvelopePlot::json(const std::optional<EnvelopePoint>& upper) const
 {
   Chart chart{.x_label = x_label, .y_label = y_label};
+  if (upper)
+    chart.part = part_up_to(upper);
   chart.lines = of_page;
   return chart.json();
 }

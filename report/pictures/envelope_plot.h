@@ -6,6 +6,7 @@
 #include "results/folder/reference.h"
 #include "results/runs/series.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -35,8 +36,8 @@ public:
   void add_residual(const Series& series, std::size_t n);
 
   /// Between two confinements.
-  void add_curve(const std::function<double(double)>& sigma_1, double begin, double end,
-                 const CurveLooks& looks, const std::string& label);
+  void add_curve(const std::function<double(double)>& sigma_1, double begin, double end, const CurveLooks& looks,
+                 const std::string& label);
 
   /// As far as its points go, beyond which nothing is known of it.
   template <typename Fit>
@@ -63,8 +64,8 @@ public:
   /// The part up to these stresses, or all of it [Pa].
   std::string script(const std::optional<EnvelopePoint>& upper = std::nullopt) const;
 
-  /// All of it: who looks closer enlarges it there.
-  std::string json() const;
+  /// The same for the page.
+  std::string json(const std::optional<EnvelopePoint>& upper = std::nullopt) const;
 
   bool empty() const { return first.empty() && later.empty(); }
 
@@ -83,6 +84,9 @@ private:
   static constexpr int mark_of_model = 4;      // open square
 
   void draw_strengths(const ReferenceSource& source, int mark, const std::string& looks, const char* of_colour);
+
+  /// From and to on either axis [MPa].
+  std::array<double, 4> part_up_to(const std::optional<EnvelopePoint>& upper) const;
 
   std::string add_data(const std::string& rows);
 

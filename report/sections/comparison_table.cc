@@ -141,19 +141,21 @@ Table comparison_table(const Findings& findings)
   const std::vector<std::string> properties = properties_of(findings, compared);
   const bool one = compared.size() == 1;
 
-  Table table{"comparison",
-              "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
-              "Student's t. Range: does our mean lie in that of the experiments?",
-              {"property"},
-              {},
-              comparison_frame(findings)};
+  Table table{
+    "comparison",
+    "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
+    "Student's t, and is left out where it would reach 0. Range: does our mean lie in that of the experiments?",
+    {"property"},
+    {},
+    comparison_frame(findings)};
   // Of one series the model stands beside the rock; of several each is held against the rock, which comes first.
   std::vector<std::string> rock;
   if (findings.reference)
     rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};
   std::vector<std::string> of_series;
   for (const std::size_t n : compared)
-    append(of_series, {one && any_model ? "model" : findings.all[n].label, "against experiment", "95 % of the mean"});
+    append(of_series,
+           {one && any_model ? "model" : findings.all[n].label, "against experiment", "95 % interval of the mean"});
   table.header = arranged("property", rock, of_series, one);
   for (const auto& property : properties)
     {

@@ -52,7 +52,7 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
       "Envelopes, Hoek–Brown and Mohr–Coulomb: parameters ± half of the 95 % interval, stresses in MPa; fitted strengths "
       "with their deviation from the measured ones, UCS {} and σ_t {}",
       stress(measured.uniaxial_compressive_strength, 1), stress(measured.tensile_strength, 2)),
-    {"form", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t", "admissible"},
+    {"form", "admissible", "σ_ci", "m", "s", "a", "R²", "RMS", "fitted UCS", "fitted σ_t"},
     {}};
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
@@ -63,28 +63,28 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
         if (!either->fit)
           {
             table.rows.push_back(
-              {form, none, none, none, none, none, none, none, none, "no fit: " + with_symbols(either->reason)});
+              {form, "no fit: " + with_symbols(either->reason), none, none, none, none, none, none, none, none});
             continue;
           }
         const HoekBrownFit& fit = *either->fit;
-        table.rows.push_back(
-          {form, estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
-           estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
-           number(fit.quality.root_mean_square / mega, 1),
-           estimate(fit.uniaxial_compressive_strength, mega, 1) +
-             beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
-           number(-fit.tensile_cut_off.value / mega, 2) + beside(-fit.tensile_cut_off.value, measured.tensile_strength),
-           verdict_on(fit.quality, fit.s.value > 1.0005 ? "✗ s > 1" : "✓")});
+        table.rows.push_back({form, verdict_on(fit.quality, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
+                              estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
+                              estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
+                              number(fit.quality.root_mean_square / mega, 1),
+                              estimate(fit.uniaxial_compressive_strength, mega, 1) +
+                                beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
+                              number(-fit.tensile_cut_off.value / mega, 2) +
+                                beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
       }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
-    table.rows.push_back({"Mohr–Coulomb", none, none, none, none, number(fit->quality.r_squared, 1.0, 4),
-                          number(fit->quality.root_mean_square / mega, 1),
+    table.rows.push_back({"Mohr–Coulomb", verdict_on(fit->quality, "✓"), none, none, none, none,
+                          number(fit->quality.r_squared, 1.0, 4), number(fit->quality.root_mean_square / mega, 1),
                           estimate(fit->uniaxial_strength, mega, 1) +
                             beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
-                          none, verdict_on(fit->quality, "✓")});
+                          none});
   else
-    table.rows.push_back({"Mohr–Coulomb", none, none, none, none, none, none, none, none,
-                          "no fit: " + with_symbols(envelopes.mohr_coulomb.reason)});
+    table.rows.push_back({"Mohr–Coulomb", "no fit: " + with_symbols(envelopes.mohr_coulomb.reason), none, none, none,
+                          none, none, none, none, none});
   return table;
 }
 

@@ -23,8 +23,8 @@ Table strength_table(const Findings& findings)
 {
   Table table{"strengths",
               "Strengths of every kind of test [MPa]",
-              {"test", "series", "n", "mean ± s.d.", "95 % of the mean", "shear share of cracks at the peak [%]",
-               "deviator at the end over peak"},
+              {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",
+               "shear share of cracks at the peak [%]", "deviator at the end over peak"},
               {}};
   for (const auto& series : findings.all)
     for (const auto& group : groups_of(series))

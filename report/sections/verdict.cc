@@ -18,14 +18,15 @@ std::string beside_experiment(const ComparisonRow& row)
                                      as_text(row, row.experiment, unit));
   if (const auto deviation = row.deviation())
     sentence += "; " + text::signed_percent(*deviation);
-  if (!row.in_range() || !row.ours->confidence_95)
+  const std::string interval = text::interval(*row.ours, 1.0, row.decimals);
+  if (!row.in_range() || interval == text::none)
     return sentence;
   const double low = row.ours->mean - *row.ours->confidence_95;
   const double high = row.ours->mean + *row.ours->confidence_95;
   const bool is_in = *row.in_range();
   if (is_in ? row.surely_in_range() == false : high >= *row.experiment->low && low <= *row.experiment->high)
-    sentence += fmt::format("; the 95 % interval of the mean, {:.{}f} to {:.{}f}, reaches {} the range", low,
-                            row.decimals, high, row.decimals, is_in ? "out of" : "into");
+    sentence +=
+      fmt::format("; the 95 % interval of the mean, {}, reaches {} the range", interval, is_in ? "out of" : "into");
   return sentence;
 }
 } // namespace

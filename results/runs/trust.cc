@@ -115,6 +115,20 @@ bool ended_near_its_peak(const FinishedTest& test)
          record.kind.strain(record.curve.back()) < least_way * *test.results.strain_at_peak.value;
 }
 
+/// The highest stress after the first fall of a test whose strength is the peak before it, over that strength; none where
+/// it stayed below.
+std::optional<double> rise_after_first_fall(const FinishedTest& test)
+{
+  const TestRecord& record = test.record;
+  if (record.kind.peak_rule != PeakRule::first_before_a_fall || record.curve.empty())
+    return std::nullopt;
+  double highest = 0.0;
+  for (const CurveSample& row : record.curve)
+    highest = std::max(highest, record.kind.stress(row));
+  const double ratio = highest / *test.results.peak_stress.value;
+  return ratio > 1.0 ? std::optional(ratio) : std::nullopt;
+}
+
 /// Why a test of these has no result, or not all of it; empty if it has.
 std::string shortcoming(const FinishedTest& test)
 {
@@ -126,6 +140,9 @@ std::string shortcoming(const FinishedTest& test)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
   if (!record.ended_early.empty())
     return fmt::format("{} ended early: {}.", test.name, record.ended_early);
+  if (const auto rise = rise_after_first_fall(test))
+    return fmt::format("{} bore {:.2f} times its strength after its first fall, by which the strength is taken.",
+                       test.name, *rise);
   if (ended_near_its_peak(test))
     return fmt::format(
       "{} ended at {:.2f} times the strain of its peak and still bore {:.0f} % of the strength: a higher peak may lie "

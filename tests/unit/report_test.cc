@@ -397,6 +397,33 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
 }
 
+TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
+{
+  FinishedTest test = compression(1);
+  test.record.kind = brazilian.kind;
+  test.name = "brazilian_seed_1";
+  test.record.curve.clear();
+  for (const double stress : {0.0, 4e6, 8e6, 10e6, 7e6, 9e6, 12e6})
+    {
+      CurveSample row;
+      row.axial_strain = -1e-4 * double(test.record.curve.size());
+      row.axial_stress = -stress;
+      test.record.curve.push_back(row);
+    }
+  test.results = evaluate(test.record);
+  EXPECT_EQ(*test.results.peak_stress.value, 10e6);
+  for (const Figure& after_peak : {test.results.post_peak_drop, test.results.residual_deviator_ratio})
+    {
+      EXPECT_FALSE(after_peak.value);
+      EXPECT_NE(after_peak.reason.find("before the first fall"), std::string::npos) << after_peak.reason;
+    }
+  const auto said = warnings({"one", SeriesKind::specimens, {}, {test}, {}});
+  EXPECT_NE(std::find(said.begin(), said.end(),
+                      "brazilian_seed_1 bore 1.20 times its strength after its first fall, by which the strength is "
+                      "taken."),
+            said.end());
+}
+
 /// Compressions of two seeds of a body.
 Series body(const std::string& label, const SeriesKind kind, const double gap, const double in_the_bulk)
 {

@@ -185,7 +185,7 @@ std::optional<Picture> crack_rate_picture(const SameTests& same, const std::stri
   return Picture{
     .name = name + "_crack_rate",
     .caption = "Crack rate, to be held against acoustic emission: cracks and the energy they released, per strain" +
-               std::string(any_has_several(same) ? "; mean of the tests" : ""),
+               std::string(any_has_several(same) ? "; mean of the tests of a series" : ""),
     .alternative = fmt::format("Histogram of cracks and of the energy they released over {} in {}.",
                                same.front().group.kind.channel.strain_name, of_tests),
     .width = CurvePlot::width,

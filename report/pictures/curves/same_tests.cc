@@ -21,9 +21,17 @@ bool any_has_several(const SameTests& same)
   return std::any_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
 }
 
-std::string means_of_several(const SameTests& same)
+std::string means_of_several(const SameTests& same, const bool shows_single_tests)
 {
-  return any_has_several(same) ? ". Lines: means; bands: ± standard deviation" : "";
+  if (!any_has_several(same))
+    return "";
+  const bool all_have =
+    std::all_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+  if (all_have)
+    return std::string(". Lines: means; bands: ± standard deviation") +
+           (shows_single_tests ? "; thin lines: single tests" : "");
+  return std::string(". Of a series with several tests the line is the mean and the band ± standard deviation") +
+         (shows_single_tests ? "; thin lines are single tests" : "");
 }
 
 std::string abscissa_name(const SameTests& same)

@@ -30,7 +30,7 @@ using Quantity = std::function<double(const CurveSample&)>;
 bool any_has_several(const SameTests& same);
 
 /// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
-std::string means_of_several(const SameTests& same);
+std::string means_of_several(const SameTests& same, bool shows_single_tests = false);
 
 /// Of what the quantities of a test are followed along, and of its axis.
 std::string abscissa_name(const SameTests& same);

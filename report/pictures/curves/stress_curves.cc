@@ -16,12 +16,6 @@ using namespace plot;
 
 constexpr std::size_t most_rows = 250; ///< of a single test in a picture
 
-/// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
-std::string means_and_bands(const bool several)
-{
-  return several ? ". Lines: means; bands: ± standard deviation; thin lines: single tests" : "";
-}
-
 std::string with_capital(const std::string_view words)
 {
   std::string text(words);
@@ -129,7 +123,7 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
                              : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
   return Picture{
     .name = name + "_stress",
-    .caption = what + (kind.follows_stages ? "" : means_and_bands(any_has_several(same))) +
+    .caption = what + (kind.follows_stages ? "" : means_of_several(same, true)) +
                (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
     .alternative = what + " in " + of_tests + ".",
     .width = CurvePlot::width,
