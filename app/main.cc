@@ -164,10 +164,11 @@ private:
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
   }
 
-  /// CLI::App::help() would speak of the command that was given, which is `help`.
-  static std::string help_on(const CLI::App& command, const std::string& name)
+  /// On this command; null: on the program.
+  void print_help(const CLI::App* const command) const
   {
-    return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+    print_result(
+      "{}", help_on(command ? *command : app, app.get_name() + (command ? " " + command->get_name() : std::string())));
   }
 
   void add_help()
@@ -177,8 +178,7 @@ private:
     help.callback([this] {
       chosen = [this] {
         check_name(helped.empty() ? "help" : helped);
-        print_result("{}", helped.empty() ? help_on(app, app.get_name())
-                                          : help_on(*app.get_subcommand(helped), app.get_name() + " " + helped));
+        print_help(helped.empty() ? nullptr : app.get_subcommand(helped));
         return 0;
       };
     });
@@ -211,7 +211,7 @@ private:
   {
     for (const auto& [command, example] :
          {std::pair("lab", "feldspar lab granite.prm --output granite --threads 4\n"
-                           "  feldspar lab granite.prm --set 'Seeds/Seeds = 1..10' --set 'Specimen/Width = 30 mm'\n"
+                           "  feldspar lab granite.prm --set 'Seeds/Seeds = 1..10'\n"
                            "  feldspar lab --resume granite"),
           {"rve", "feldspar rve cell.prm"},
           {"multiscale", "feldspar multiscale sample.prm\n  mpirun -np 8 feldspar multiscale sample.prm\n"
@@ -230,9 +230,14 @@ private:
   /// Prints help or version, which CLI11 throws too, or what is wrong.
   int explain(const CLI::ParseError& error) const
   {
+    const auto subcommands = app.get_subcommands();
+    if (error.get_name() == "CallForHelp")
+      {
+        print_help(subcommands.empty() ? nullptr : subcommands.front());
+        return 0;
+      }
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(error);
-    const auto subcommands = app.get_subcommands();
     const std::string unknown = subcommands.empty() ? "" : unknown_option(*subcommands.front());
     fmt::print(stderr, "feldspar: {}; see feldspar {}--help\n", unknown.empty() ? error.what() : unknown,
                subcommands.empty() ? "" : subcommands.front()->get_name() + " ");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <system_error>
 
 namespace feldspar
@@ -28,6 +29,21 @@ std::string_view trim(const std::string_view text)
 std::size_t width_of(const std::string_view text)
 {
   return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::vector<std::string> in_lines(const std::string_view words, const std::size_t most, const std::string_view indent)
+{
+  std::vector<std::string> lines{""};
+  std::istringstream in{std::string(words)};
+  for (std::string word; in >> word;)
+    {
+      std::string& line = lines.back();
+      if (!line.empty() && width_of(line) + 1 + width_of(word) > most)
+        lines.push_back(std::string(indent) + word);
+      else
+        line += (line.empty() ? "" : " ") + word;
+    }
+  return lines;
 }
 
 std::vector<std::string_view> split_at_commas(std::string_view text)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,9 @@ std::string_view trim(std::string_view text);
 
 /// Characters of UTF-8, which is the width on a terminal but for combining and double ones.
 std::size_t width_of(std::string_view text);
+
+/// Words in lines of at most so many characters, as far as the words allow it; all but the first begin with `indent`.
+std::vector<std::string> in_lines(std::string_view words, std::size_t most, std::string_view indent = "");
 
 /// The pieces between commas, trimmed; one at least.
 std::vector<std::string_view> split_at_commas(std::string_view text);

@@ -39,7 +39,7 @@ std::optional<Reference> reference_of(const Input& input)
   return read_reference(input.reference_file, test_kinds());
 }
 
-std::string in_lines(const std::vector<std::string>& sentences)
+std::string line_by_line(const std::vector<std::string>& sentences)
 {
   return sentences.empty() ? "" : fmt::format("{}\n", fmt::join(sentences, "\n"));
 }
@@ -60,7 +60,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
       text += body;
   if (variants.size() > most_in_full)
     return text + study_as_text(tests, reference_of(variants.front().input)) + "\n" + trust_as_text(tests) +
-           in_lines(missing);
+           line_by_line(missing);
   for (const Variant& variant : variants)
     {
       std::vector<FinishedTest> of_variant;
@@ -76,7 +76,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
           found != envelopes.end() && found->second.data.points.size() > 1)
         text += as_text(found->second) + "\n";
     }
-  return text + trust_as_text(tests) + in_lines(missing);
+  return text + trust_as_text(tests) + line_by_line(missing);
 }
 
 /// Several processes make the specimens, each its share, and then the tests, each its share: what has ended lies in the

@@ -1,10 +1,12 @@
 #include "app/commands/manual.h"
 
 #include "app/input/parameter_table.h"
+#include "base/text.h"
 #include "feldspar_version.h"
 
 #include <fmt/format.h>
 
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -53,7 +55,32 @@ std::string roff_of_options(const CLI::App& command)
     text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", in_roff(usage(*option)), in_roff(option->get_description()));
   return text;
 }
+
+/// A line of CLI11's help, whose description begins in this column; others stay as they are.
+std::string folded(const std::string& line, const std::size_t column)
+{
+  constexpr std::size_t page = 80;
+  const bool is_description =
+    line.size() > column && line.starts_with("  ") && line[column - 1] == ' ' && line[column] != ' ';
+  if (width_of(line) <= page || !is_description)
+    return line;
+  const std::string indent(column, ' ');
+  std::string text;
+  for (const std::string& words : in_lines(line.substr(column), page - column))
+    text += (text.empty() ? line.substr(0, column) : "\n" + indent) + words;
+  return text;
+}
 } // namespace
+
+std::string help_on(const CLI::App& command, const std::string& name)
+{
+  const auto formatter = command.get_formatter();
+  std::istringstream lines(formatter->make_help(&command, name, CLI::AppFormatMode::Normal));
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+    text += folded(line, formatter->get_column_width()) + "\n";
+  return text;
+}
 
 std::string manual_page(const CLI::App& command_line)
 {

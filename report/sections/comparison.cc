@@ -13,7 +13,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 namespace feldspar
@@ -263,21 +262,6 @@ namespace
 {
 constexpr std::size_t page = 80; // characters of a line
 
-/// A heading in lines of at most so many characters, where words allow it; all but the first are indented.
-std::vector<std::string> in_lines(const std::string& heading, const std::size_t most)
-{
-  std::vector<std::string> lines{""};
-  std::istringstream words(heading);
-  for (std::string word; words >> word;)
-    {
-      std::string& line = lines.back();
-      if (!line.empty() && width_of(line) + 1 + width_of(word) > most)
-        lines.push_back("  " + word);
-      else
-        line += (line.empty() ? "" : " ") + word;
-    }
-  return lines;
-}
 } // namespace
 
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
@@ -300,7 +284,7 @@ std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& 
   std::string text;
   if (!keys.empty())
     for (const std::string& line :
-         in_lines(fmt::format("Not tested here: the experiment's {}.", fmt::join(keys, ", ")), page))
+         in_lines(fmt::format("Not tested here: the experiment's {}.", fmt::join(keys, ", ")), page, "  "))
       text += line + '\n';
   return text;
 }
@@ -338,7 +322,7 @@ std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<
   std::string text;
   for (const auto& line : cells)
     {
-      const std::vector<std::string> heading = in_lines(line[0], of_headings);
+      const std::vector<std::string> heading = in_lines(line[0], of_headings, "  ");
       text += heading.front() + std::string(of_headings - std::min(of_headings, width_of(heading.front())), ' ');
       for (const std::size_t c : columns)
         text += "  " + std::string(widest[c] - width_of(line[c]), ' ') + line[c];

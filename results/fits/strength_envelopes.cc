@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace feldspar
 {
@@ -81,8 +82,6 @@ std::string text(const Figure& figure, const int decimals, const double unit = 1
 {
   return figure.value ? fmt::format("{:.{}f}", *figure.value / unit, decimals) : "-";
 }
-
-std::string words(const bool with_tension_point) { return with_tension_point ? "with" : "without"; }
 
 using Row = std::array<std::string, 5>;
 
@@ -195,8 +194,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
-        const std::string title =
-          fmt::format("{}, {} tension point", name(pair.form), words(either == &pair.with_tension_point));
+        const std::string title = name(pair.form) + (either == &pair.with_tension_point ? "" : ", no sigma_t");
         if (!either->fit)
           {
             notes.push_back(fmt::format("{}: no fit: {}", title, either->reason));
@@ -210,14 +208,20 @@ std::string as_text(const StrengthEnvelopes& envelopes)
                              text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
         // A value that the form itself fixes is no result.
         const bool fixes_s = pair.form != HoekBrownForm::as_paper;
-        if (!fit.m.half_width.value)
-          notes.push_back(fmt::format("{}: m has no interval: {}", title, fit.m.half_width.reason));
-        if (fixes_s && !fit.sigma_ci.half_width.value)
-          notes.push_back(fmt::format("{}: sigma_ci has no interval: {}", title, fit.sigma_ci.half_width.reason));
-        if (!fixes_s && !fit.s.half_width.value)
-          notes.push_back(fmt::format("{}: s has no interval: {}", title, fit.s.half_width.reason));
-        if (pair.form != HoekBrownForm::intact && !fit.a.half_width.value)
-          notes.push_back(fmt::format("{}: a has no interval: {}", title, fit.a.half_width.reason));
+        std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+        const auto add_reason = [&](const std::string& parameter, const Figure& half_width) {
+          if (half_width.value)
+            return;
+          if (reasons.empty() || reasons.back().first != half_width.reason)
+            reasons.push_back({half_width.reason, {}});
+          reasons.back().second.push_back(parameter);
+        };
+        add_reason("m", fit.m.half_width);
+        add_reason(fixes_s ? "sigma_ci" : "s", fixes_s ? fit.sigma_ci.half_width : fit.s.half_width);
+        if (pair.form != HoekBrownForm::intact)
+          add_reason("a", fit.a.half_width);
+        for (const auto& [reason, parameters] : reasons)
+          notes.push_back(fmt::format("{}: no interval of {}: {}", title, fmt::join(parameters, ", "), reason));
       }
   const auto measured = [](const std::optional<double>& value, const int decimals) {
     return value ? fmt::format("{:.{}f}", *value / 1e6, decimals) : std::string("-");
@@ -225,11 +229,12 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   strengths.push_back({"measured", "", "", measured(envelopes.data.uniaxial_compressive_strength, 1),
                        measured(envelopes.data.tensile_strength, 2)});
 
-  std::string result =
-    "Strength envelopes: compression positive, MPa, ± 95 % confidence\n" + table(rows) + table(strengths);
+  std::string result = "Strength envelopes: compression positive, MPa, ± 95 % confidence;\n"
+                       "no sigma_t: without the tensile strength as a point\n" +
+                       table(rows) + table(strengths);
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     result +=
-      fmt::format("Mohr-Coulomb: friction angle {} deg, cohesion {} MPa, R² {}, RMS {:.1f} MPa, UCS {} MPa\n",
+      fmt::format("Mohr-Coulomb: friction angle {} deg, cohesion {} MPa,\n  R² {}, RMS {:.1f} MPa, UCS {} MPa\n",
                   text(fit->friction_angle, 1, degree), text(fit->cohesion, 1, 1e6), text(fit->quality.r_squared, 4),
                   fit->quality.root_mean_square / 1e6, text(fit->uniaxial_strength, 1, 1e6));
   else

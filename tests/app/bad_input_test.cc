@@ -273,7 +273,8 @@ TEST(BadCommandLine, IsToldInOneLine)
   expect_mistake(folder, "contact good.prm --threads 0", "--threads: ");
   expect_mistake(folder, "contact good.prm --sideways", "--sideways: contact has no such option; there are --help");
   expect_mistake(folder, "lab good.prm --thread 2", "--thread: lab has no such option; did you mean \"--threads\"?");
-  expect_mistake(folder, "report a --refernce=b", "--refernce: report has no such option; did you mean \"--reference\"?");
+  expect_mistake(folder, "report a --refernce=b",
+                 "--refernce: report has no such option; did you mean \"--reference\"?");
   expect_mistake(folder, "--sideways", "The following argument was not expected: --sideways");
   expect_mistake(
     folder, "parameters 'Flat joints'",

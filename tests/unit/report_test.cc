@@ -920,6 +920,30 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
 }
 
+TEST(TerminalText, OfATableHasHeadingsNoWiderThanItsColumns)
+{
+  const Table table{"stages",
+                    "Stages",
+                    {"stage", "confinement [MPa]", "n"},
+                    {{"first", "5.0", "120"}, {"b", "10.0", "7"}}};
+  EXPECT_EQ(as_text(table), "Stages\n"
+                            "        confinement\n"
+                            "stage         [MPa]     n\n"
+                            "first           5.0   120\n"
+                            "b              10.0     7\n");
+}
+
+TEST(TerminalText, OfEnvelopesFitsOnAScreen)
+{
+  StrengthData data{{}, 223.8e6, 12.67e6};
+  for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
+    data.points.push_back({sigma_3, sigma_1});
+  const std::string text = as_text(fit_strength_envelopes(data));
+  const std::string tables = text.substr(0, text.find("as_paper, no sigma_t: ")); // sentences are wrapped on a terminal
+  EXPECT_LE(widest_line(tables), 80u) << tables;
+  EXPECT_NE(text.find("as_paper, no sigma_t: no interval of m, s, a: "), std::string::npos) << text;
+}
+
 TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
 {
   const std::string table = "tensile strength [MPa]                              10.01            9.07     9.53";
