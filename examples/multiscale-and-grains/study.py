@@ -47,6 +47,14 @@ UNTURNED = "Sample/Orientation = fixed"
 OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packing of its own at every point
 
 
+PRESSURES_MPA = (5, 20, 60)
+CONFINED = (
+    "Tests/List = triaxial_compression",
+    "Tests/Confinements = 5, 20, 60 MPa",
+    "Tests/Stop strain = 12e-3",  # at 60 MPa not every sample has a peak
+)
+
+
 def at_boundary(boundary):
     return f"Representative volume/Boundary = {boundary}"
 
@@ -64,6 +72,8 @@ EXPERIMENTS = {
     "sample-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, UNTURNED)),
     "sample-own": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN)),
     "sample-own-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN, UNTURNED)),
+    "confined": Experiment("lab", "confined"),
+    "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
 for way, sizes in (("tension", SIZES_MM), ("compression", SIZES_MM[:3])):
@@ -160,12 +170,23 @@ def run(feldspar, name):
         keep(name, outs)
 
 
+def add_ends(out, summary):
+    """Adds the last row of its curve to each test."""
+    for test in summary["tests"]:
+        with open(os.path.join(out, "curves", test["name"] + ".csv"), encoding="utf-8") as file:
+            row = list(csv.DictReader(file))[-1]
+        test["strain_at_end"] = abs(float(row["axial_strain"]))
+        test["stress_at_end_Pa"] = abs(float(row["axial_stress_Pa"]))
+
+
 def keep(name, outs):
     """The summaries of result folders as results/NAME.json: that of the first, with the tests or paths of all."""
     summaries = []
     for out in outs:
         with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
             summaries.append(json.load(file))
+        if name == "sample-confined":
+            add_ends(out, summaries[-1])
     summary = summaries[0]
     command = EXPERIMENTS[name].command
     if command == "multiscale":
@@ -321,6 +342,35 @@ def print_dealings():
             shown(column(crushed, "strain_at_peak", 1e-3), 2),
             shown(column(crushed, "crack_initiation_stress_Pa", 1e6), 0),
             shown(ratios, 2),
+        ]
+        print(f"| {' | '.join(cells)} |")
+    print()
+
+
+def print_confined():
+    """Strengths under pressure beside those without; where a sample has no peak, what it bore at the end."""
+    print("| pressure [MPa] | grains, 1/s: σ_1 [MPa] | sample: σ_1 [MPa] | sample from grains | σ_ci: grains, sample [MPa] |")
+    print("|---|---|---|---|---|")
+    for pressure in PRESSURES_MPA:
+        bodies = [
+            [test for test in results(name)["tests"] if round(test["confining_pressure_Pa"] / 1e6) == pressure]
+            for name in ("confined", "sample-confined")
+        ]
+        highest = [
+            [(test["peak_stress_Pa"] or test["stress_at_end_Pa"]) / 1e6 for test in tests] for tests in bodies
+        ]
+        initiation = [
+            [test["crack_initiation_stress_Pa"] / 1e6 for test in tests if test["crack_initiation_stress_Pa"] is not None]
+            for tests in bodies
+        ]
+        n_rising = sum(test["peak_stress_Pa"] is None for test in bodies[1])
+        without_peak = f", {n_rising} of {len(bodies[1])} without a peak up to 1.2 %" if n_rising else ""
+        cells = [
+            str(pressure),
+            shown(highest[0], 0),
+            shown(highest[1], 0) + without_peak,
+            difference(highest[1], highest[0]),
+            f"{shown(initiation[0], 0)}, {shown(initiation[1], 0)}",
         ]
         print(f"| {' | '.join(cells)} |")
     print()
@@ -533,6 +583,7 @@ def main():
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
     print_dealings()
+    print_confined()
     print_same_cells()
     print_angles()
     print_weak_cells()

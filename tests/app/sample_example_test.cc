@@ -147,6 +147,33 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
       shown(fmt::format("| {} | {} | {} |", rate, mean_and_deviation(strengths, 1), mean_and_deviation(shares, 3)));
     }
 
+  // Under pressure: means of the strengths, and of the stress at the end where a sample has no peak.
+  const auto grains_under_pressure = committed("confined");
+  const auto sample_under_pressure = committed("sample-confined");
+  for (const int pressure : {5, 20, 60})
+    {
+      std::size_t n_samples = 0, n_without_peak = 0;
+      const auto highest = [&](const nlohmann::json& study) {
+        std::vector<double> values;
+        n_samples = n_without_peak = 0;
+        for (const auto& test : study["tests"])
+          if (std::lround(test["confining_pressure_Pa"].get<double>() / 1e6) == pressure)
+            {
+              const bool has_peak = !test["peak_stress_Pa"].is_null();
+              values.push_back(test[has_peak ? "peak_stress_Pa" : "stress_at_end_Pa"].get<double>() / 1e6);
+              ++n_samples;
+              n_without_peak += !has_peak;
+            }
+        return mean_and_deviation(values, 0);
+      };
+      const std::string of_grains = highest(grains_under_pressure);
+      EXPECT_EQ(n_samples, 10u);
+      const std::string of_sample = highest(sample_under_pressure);
+      const std::string without_peak =
+        n_without_peak > 0 ? fmt::format(", {} of {} without a peak up to 1.2 %", n_without_peak, n_samples) : "";
+      shown(fmt::format("| {} | {} | {}{} |", pressure, of_grains, of_sample, without_peak));
+    }
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {
@@ -377,10 +404,17 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
   // The sample beside specimens of two sizes: strength [MPa] at strain [1e-3].
   const auto pressed = nlohmann::json::parse(content(folder + "results/compression.json"));
   const auto with_edges = nlohmann::json::parse(content(folder + "results/compression-edges.json"));
+  const auto whole = nlohmann::json::parse(content(folder + "results/compression-whole.json"));
   const std::string specimens = std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/results/";
   const auto small = nlohmann::json::parse(content(specimens + "beishan-cylinder.json"));
   const auto peak_of = [](const nlohmann::json& test) {
     return number(test["peak_stress_Pa"], 1e6, 0) + " at " + number(test["strain_at_peak"], 1e-3, 1);
+  };
+  const auto peak_if_pressed = [&](const nlohmann::json& study, const std::string& kind) -> std::string {
+    for (const auto& test : study["tests"])
+      if (test["name"] == kind + "_seed_1")
+        return peak_of(test);
+    return "–";
   };
   for (const auto& [name, kind, of_large] : {std::tuple("uniaxial", "uniaxial_compression", "full-size-tests"),
                                              {"at 10 MPa", "triaxial_compression_10_MPa", "full-size-triaxial-10"},
@@ -389,7 +423,7 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
       const auto& test = test_of(pressed, std::string(kind) + "_seed_1");
       const std::string large = specimens + of_large + ".json"; // at 40 MPa it takes hours
       const std::string row =
-        fmt::format("| {} | {} | {} | {} | {} at {} |", name, peak_of(test),
+        fmt::format("| {} | {} | {} | {} | {} | {} at {} |", name, peak_of(test), peak_if_pressed(whole, kind),
                     kind == std::string("uniaxial_compression") ? peak_of(with_edges["tests"][0]) : "–",
                     std::filesystem::exists(large)
                       ? peak_of(test_of(nlohmann::json::parse(content(large)), std::string(kind) + "_seed_1"))
@@ -397,6 +431,13 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
                     mean_and_deviation(small, kind, "peak_stress_Pa", 1e6, 0),
                     mean_and_deviation(small, kind, "strain_at_peak", 1e-3, 1));
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+      if (const auto peak = peak_if_pressed(whole, kind); peak != "–")
+        {
+          const auto& test_of_whole = test_of(whole, std::string(kind) + "_seed_1");
+          const std::string costs = fmt::format("| whole, `cylinder.prm`, {} | 200 | {} | {} |", name,
+                                                test_of_whole["steps"].get<int>(), shown_work(test_of_whole, 200));
+          EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+        }
       const std::string costs = fmt::format("| section, `compression.prm`, {} | 16 | {} | {} |", name,
                                             test["steps"].get<int>(), shown_work(test, 16));
       EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
