@@ -62,11 +62,14 @@ void expect_to_run_as_printed(const fs::path& page)
   const TemporaryFolder folder;
   const TemporaryFolder path;
   fs::create_symlink(FELDSPAR_COMMAND, path.path() / "feldspar");
+  // As root too, and on cores that are fewer than ranks.
+  fs::create_symlink(fs::path(FELDSPAR_SOURCE_DIR) / "tests/app/in_pieces/mpirun", path.path() / "mpirun");
+  const std::string environment = "FELDSPAR_PROGRAM='" FELDSPAR_COMMAND "'";
   std::size_t n_commands = 0;
   for (const Block& block : read_page(page).blocks)
     if (block.language == "sh")
       {
-        expect_to_run(folder.path(), block.text, path.path());
+        expect_to_run(folder.path(), block.text, path.path(), environment);
         ++n_commands;
       }
     else if (block.language == "python" || block.language == "r")
