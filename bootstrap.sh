@@ -62,6 +62,8 @@ need_packages()
   done
   ((${#missing[@]})) || return 0
 
+  ((EUID == 0)) || command -v sudo >/dev/null ||
+    die "neither root nor sudo is at hand; let root run: apt-get update && apt-get install --no-install-recommends ${missing[*]}"
   say "installing ${missing[*]}"
   as_root apt-get update --quiet
   as_root env DEBIAN_FRONTEND=noninteractive \
