@@ -452,8 +452,8 @@ TestResults evaluate(const TestRecord& record)
           &TestResults::crack_damage_stress, &TestResults::post_peak_drop, &TestResults::residual_deviator_ratio})
       results.*member = unknown(of_stages);
   if (record.kind.peak_rule == PeakRule::first_before_a_fall)
-    results.post_peak_drop = results.residual_deviator_ratio = unknown(
-      "the strength is the stress before the first fall, and what is left of the body may bear more");
+    results.post_peak_drop = results.residual_deviator_ratio =
+      unknown("the strength is the stress before the first fall, and what is left of the body may bear more");
   evaluate_smooth_joints(record, at_peak, results);
   evaluate_elasticity(record, branch, results);
   evaluate_trust(record, branch, results);
