@@ -103,14 +103,14 @@ work_through()
 {
   local name
   name=$(basename "$1" .md)
-  { echo "mkdir '$name' && cd '$name'" && as_script "$1"; } | inside reader
+  { echo "mkdir '$name'; cd '$name'" && as_script "$1"; } | inside reader
 }
 
 stage "a bare Debian 12" make_root
 clone=$root/home/reader/feldspar
 stage "a clone" clone
 while read -r command; do
-  stage "$command" inside reader <<<"cd feldspar && $command"
+  stage "$command" inside reader <<<"cd feldspar; $command"
 done < <(as_script "$clone/README.md" | grep --after-context=1 '^./bootstrap.sh install ' | sed 's/ *#.*//')
 stage "feldspar version" inside reader <<<"feldspar version"
 for page in "$clone"/docs/tutorials/*.md; do

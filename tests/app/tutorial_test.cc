@@ -5,11 +5,14 @@
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <string>
 #include <vector>
@@ -57,9 +60,8 @@ void expect_to_read(const TemporaryFolder& folder, const Block& block)
     expect_to_run(folder.path(), interpreter + " read\n", folder.path());
 }
 
-void expect_to_run_as_printed(const fs::path& page)
+void expect_to_run_as_printed(const fs::path& page, const TemporaryFolder& folder)
 {
-  const TemporaryFolder folder;
   const TemporaryFolder path;
   fs::create_symlink(FELDSPAR_COMMAND, path.path() / "feldspar");
   // As root too, and on cores that are fewer than ranks.
@@ -83,6 +85,80 @@ void expect_to_run_as_printed(const fs::path& page)
   EXPECT_GT(n_commands, 0u);
 }
 
+/// A figure that a page states of its own runs: its words with `{}` for each number, a file of results and where in it.
+struct StatedFigure
+{
+  const char* words;
+  const char* file;
+  std::vector<const char*> places; ///< JSON pointers, one for each `{}`
+  double scale;
+  int decimals;
+};
+
+const std::map<std::string, std::vector<StatedFigure>> figures_of_pages{
+  {"first-run.md",
+   {{"bears {} MPa in compression", "first/summary.json", {"/tests/1/peak_stress_Pa"}, 1e6, 0},
+    {"with {} grains", "first/summary.json", {"/tests/1/n_grains"}, 1.0, 0}}},
+  {"hole-and-notch.md",
+   {{"the fracture toughness, {} MPa √m", "beam/summary.json", {"/tests/0/fracture_toughness_Pa_sqrt_m"}, 1e6, 2},
+    {"work of fracture, {} J/m²", "beam/summary.json", {"/tests/0/fracture_energy_J_per_m2"}, 1.0, 0}}},
+  {"multiscale.md",
+   {{"has the {} segments", "further/summary.json", {"/rves/0/highest_stress/xx/n_tension_cracks"}, 1.0, 0}}},
+  {"representative-volume.md",
+   {{"bears {} MPa at most", "cell/summary.json", {"/rves/0/highest_stress/yy/stress_Pa"}, 1e6, 1}}},
+  {"your-own-rock.md",
+   {{"0° (above) | {} ± {} |",
+     "marble/summary.json",
+     {"/ensemble/direct_tension/peak_stress_Pa/mean", "/ensemble/direct_tension/peak_stress_Pa/standard_deviation"},
+     1e6,
+     2},
+    {"| {} ± {} | 48.9 ± 0.9 |",
+     "marble/summary.json",
+     {"/ensemble/uniaxial_compression/peak_stress_Pa/mean",
+      "/ensemble/uniaxial_compression/peak_stress_Pa/standard_deviation"},
+     1e6,
+     1},
+    {"| 95.4 ± 9.0 | {} ± {} |",
+     "marble/summary.json",
+     {"/ensemble/uniaxial_compression/youngs_modulus_tangent_Pa/mean",
+      "/ensemble/uniaxial_compression/youngs_modulus_tangent_Pa/standard_deviation"},
+     1e9,
+     1},
+    {"| 48.9 ± 0.9 | {} ± {} |",
+     "marble/summary.json",
+     {"/ensemble/triaxial_compression_5_MPa/peak_stress_Pa/mean",
+      "/ensemble/triaxial_compression_5_MPa/peak_stress_Pa/standard_deviation"},
+     1e6,
+     1}}},
+};
+
+/// The page in one line, whatever its lines are.
+std::string on_one_line(std::string text)
+{
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// The page states the figures that its commands gave in `folder`.
+void expect_stated_figures(const std::string& page, const fs::path& folder)
+{
+  const auto figures = figures_of_pages.find(page);
+  if (figures == figures_of_pages.end())
+    return;
+  const std::string prose = on_one_line(read_page(docs / "tutorials" / page).prose);
+  for (const StatedFigure& figure : figures->second)
+    {
+      const auto results = nlohmann::json::parse(content(folder / figure.file));
+      std::string words = figure.words;
+      for (const char* const place : figure.places)
+        words.replace(words.find("{}"), 2,
+                      fmt::format("{:.{}f}",
+                                  results.at(nlohmann::json::json_pointer(place)).get<double>() / figure.scale,
+                                  figure.decimals));
+      EXPECT_NE(prose.find(words), std::string::npos) << page << " does not say: " << words;
+    }
+}
+
 class Tutorial : public testing::TestWithParam<std::string>
 {
 };
@@ -90,7 +166,9 @@ class Tutorial : public testing::TestWithParam<std::string>
 
 TEST_P(Tutorial, RunsAsItIsPrinted)
 {
-  expect_to_run_as_printed(docs / "tutorials" / GetParam());
+  const TemporaryFolder folder;
+  expect_to_run_as_printed(docs / "tutorials" / GetParam(), folder);
+  expect_stated_figures(GetParam(), folder.path());
   EXPECT_NE(content(docs / "tutorials/index.md").find("(" + GetParam() + ")"), std::string::npos)
     << "docs/tutorials/index.md";
 }
@@ -98,5 +176,9 @@ TEST_P(Tutorial, RunsAsItIsPrinted)
 INSTANTIATE_TEST_SUITE_P(Pages, Tutorial, testing::ValuesIn(tutorials()),
                          [](const auto& page) { return name_of_page(page.param); });
 
-TEST(Recipes, RunAsTheyArePrinted) { expect_to_run_as_printed(docs / "recipes.md"); }
+TEST(Recipes, RunAsTheyArePrinted)
+{
+  const TemporaryFolder folder;
+  expect_to_run_as_printed(docs / "recipes.md", folder);
+}
 } // namespace feldspar::tests
