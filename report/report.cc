@@ -97,7 +97,9 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
     page.sections.push_back(std::move(sample));
   page.sections.push_back(crack_section(findings, book));
   page.sections.push_back(trust_section(findings));
-  const auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
+  auto overview = findings.one_folder ? overview_picture(findings.all.front()) : std::vector<Picture>();
+  for (Picture& picture : overview)
+    picture.caption = findings.titled(picture.caption, findings.all.front());
   if (findings.has_many()) // the key of many curves would push the tables off the first screen
     book.keep_as_files(overview);
   else

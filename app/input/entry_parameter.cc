@@ -128,7 +128,8 @@ ValueForm<std::string> file_form()
             const std::filesystem::path path = text.empty() || text == none ? "" : input.folder / text;
             std::error_code ignored;
             if (!path.empty() && !std::filesystem::exists(path, ignored))
-              throw InputError(fmt::format("there is no file {}", excerpt(path.string(), longest_path)));
+              throw InputError(fmt::format("there is no file {}; a path is taken from the folder of the input",
+                                           excerpt(path.string(), longest_path)));
             if (std::filesystem::is_directory(path, ignored))
               throw InputError(fmt::format("{} is a folder; a file is needed", excerpt(path.string(), longest_path)));
             return path.string();

@@ -42,7 +42,7 @@ int go_on(const RunCommand& command, const Run& run)
         std::filesystem::remove_all(run.folder / "checkpoints");
         mark_complete(run.folder);
         if (!end.failure.empty())
-          fmt::print(stderr, "feldspar: {}\n", end.failure);
+          fmt::print(stderr, "feldspar: {}; the other results are in {}\n", end.failure, run.folder.string());
       });
       return end.failure.empty() ? 0 : exit_code::user_error;
     }

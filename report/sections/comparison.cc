@@ -277,14 +277,19 @@ std::vector<std::string> properties_without_a_test(const std::vector<ComparisonR
   return keys;
 }
 
+std::string sentence_on_untested(const std::vector<std::string>& keys)
+{
+  return fmt::format("Not tested here: the experiment's {}; Tests/List and Tests/Confinements add tests.",
+                     fmt::join(keys, ", "));
+}
+
 std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& rows,
                                               const std::optional<Reference>& reference)
 {
   const std::vector<std::string> keys = properties_without_a_test(rows, reference);
   std::string text;
   if (!keys.empty())
-    for (const std::string& line :
-         in_lines(fmt::format("Not tested here: the experiment's {}.", fmt::join(keys, ", ")), page, "  "))
+    for (const std::string& line : in_lines(sentence_on_untested(keys), page, "  "))
       text += line + '\n';
   return text;
 }

@@ -41,6 +41,9 @@ std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
                                                    const std::optional<Reference>& reference);
 
+/// Names them and says how to test them.
+std::string sentence_on_untested(const std::vector<std::string>& keys);
+
 /// For a terminal, with the properties that were not tested.
 std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference);
 

@@ -144,7 +144,7 @@ Table comparison_table(const Findings& findings)
   Table table{
     "comparison",
     "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
-    "Student's t, and is left out where it would reach 0. Range: does our mean lie in that of the experiments?",
+    "Student's t, from three specimens on and where it does not reach 0. Range: does our mean lie in that of the experiments?",
     {"property"},
     {},
     comparison_frame(findings)};

@@ -218,7 +218,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
           block.paragraphs.push_back(printed);
       block.paragraphs.push_back("Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
-                                 "has more points than parameters.");
+                                 "has more points than parameters; q over p shows the part under compression.");
       block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
       append(block.pictures, book.keep(mohr_picture(findings.all[n], n, envelopes)));
       if (!findings.has_several())

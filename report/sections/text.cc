@@ -31,8 +31,9 @@ std::string mean_and_deviation(const Statistics& over_seeds, const double unit, 
 
 std::string interval(const Statistics& over_seeds, const double unit, const int decimals)
 {
-  // From two seeds it is thirteen standard deviations wide: where it would reach 0 it says nothing.
-  if (!over_seeds.confidence_95 || *over_seeds.confidence_95 >= std::abs(over_seeds.mean))
+  // From two it is thirteen standard deviations wide.
+  constexpr std::size_t fewest = 3;
+  if (over_seeds.n < fewest || !over_seeds.confidence_95 || *over_seeds.confidence_95 >= std::abs(over_seeds.mean))
     return none;
   return fmt::format("{} to {}", number((over_seeds.mean - *over_seeds.confidence_95) / unit, decimals),
                      number((over_seeds.mean + *over_seeds.confidence_95) / unit, decimals));

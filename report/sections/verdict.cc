@@ -10,24 +10,35 @@ namespace feldspar
 {
 namespace
 {
-/// 167.6 MPa (experiment 161.5 (160.0 to 170.0) MPa, +3.8 %)
+/// How sure it is on which side of the range our mean lies, from the second clause on; empty where it is.
+std::string caveat(const ComparisonRow& row)
+{
+  if (!row.in_range())
+    return "";
+  const bool is_in = *row.in_range();
+  const std::string interval = text::interval(*row.ours, 1.0, row.decimals);
+  if (interval == text::none)
+    return row.ours->n == 1   ? "; a single specimen does not tell how sure that is"
+           : row.ours->n == 2 ? "; two specimens do not tell how sure that is"
+                              : "; the scatter is so large that this is not sure";
+  const double low = row.ours->mean - *row.ours->confidence_95;
+  const double high = row.ours->mean + *row.ours->confidence_95;
+  if (is_in ? row.surely_in_range() == false : high >= *row.experiment->low && low <= *row.experiment->high)
+    return fmt::format("; the 95 % interval of the mean, {}, reaches {} the range", interval,
+                       is_in ? "out of" : "into");
+  return "";
+}
+
+/// tensile strength 9.90 ± 0.40 MPa, n = 3; experiment 9.53 (6.95 to 12.33) MPa; +3.9 %
 std::string beside_experiment(const ComparisonRow& row)
 {
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-  std::string sentence = fmt::format("{} {:.{}f}{}; experiment {}", row.property, row.ours->mean, row.decimals, unit,
-                                     as_text(row, row.experiment, unit));
+  std::string sentence =
+    fmt::format("{} {}{}, n = {}; experiment {}", row.property, text::mean_and_deviation(*row.ours, 1.0, row.decimals),
+                unit, row.ours->n, as_text(row, row.experiment, unit));
   if (const auto deviation = row.deviation())
     sentence += "; " + text::signed_percent(*deviation);
-  const std::string interval = text::interval(*row.ours, 1.0, row.decimals);
-  if (!row.in_range() || interval == text::none)
-    return sentence;
-  const double low = row.ours->mean - *row.ours->confidence_95;
-  const double high = row.ours->mean + *row.ours->confidence_95;
-  const bool is_in = *row.in_range();
-  if (is_in ? row.surely_in_range() == false : high >= *row.experiment->low && low <= *row.experiment->high)
-    sentence +=
-      fmt::format("; the 95 % interval of the mean, {}, reaches {} the range", interval, is_in ? "out of" : "into");
-  return sentence;
+  return sentence + caveat(row);
 }
 } // namespace
 
@@ -81,7 +92,7 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
   add("✓ In range", in);
   add("No range given", open);
   if (!untested.empty())
-    result.points.push_back(fmt::format("Not tested here: the experiment's {}.", fmt::join(untested, ", ")));
+    result.points.push_back(sentence_on_untested(untested));
   return result;
 }
 } // namespace feldspar

@@ -95,7 +95,10 @@ PageBlock verdict_of_many(const Findings& findings)
 
 PageSection verdict_section(const Findings& findings)
 {
-  PageSection section{"verdict", "Verdict", "Is the model the rock?", {}};
+  PageSection section{"verdict",
+                      "Verdict",
+                      findings.reference ? "Does the model match the rock?" : "Results and how far to trust them",
+                      {}};
   if (findings.has_many())
     section.blocks.push_back(verdict_of_many(findings));
   // What keeps all models from being compared is said once: of one model in its headline, of several below them.

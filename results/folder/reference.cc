@@ -39,7 +39,7 @@ struct Property
 constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
                                    {"tensile_strength_MPa", 1e-3, 1000.0},
                                    {"strain_at_tensile_peak", 1e-7, 0.1},
-                                   {"uniaxial_compressive_strength_MPa", 0.1, 5000.0}, // below 0.25 MPa it is a soil
+                                   {"uniaxial_compressive_strength_MPa", 0.25, 5000.0}, // below it is a soil
                                    {"tension_to_compression", 1e-4, 1.0},
                                    {"strain_at_compressive_peak", 1e-6, 0.2},
                                    {"youngs_modulus_GPa", 1e-3, 1000.0},
@@ -249,6 +249,9 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
   return points;
 }
 
+/// From two, the range in which 95 % of further tests would lie holds nearly every rock.
+constexpr std::size_t fewest_for_a_range = 3;
+
 /// Means of the single tests under the names of mean strengths, where those are not given themselves.
 void add_means(ReferenceSource& source)
 {
@@ -260,7 +263,7 @@ void add_means(ReferenceSource& source)
       const Statistics over_tests = *statistics(tests);
       ReferenceValue value{over_tests.mean, std::nullopt, std::nullopt, over_tests.standard_deviation,
                            static_cast<unsigned int>(over_tests.n)};
-      if (value.standard_deviation)
+      if (value.standard_deviation && over_tests.n >= fewest_for_a_range)
         set_range_by_deviation(value);
       source.values.emplace(key, value);
     }

@@ -125,7 +125,7 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   EXPECT_GE(n_sliders, 4u);
   EXPECT_EQ(count(words, "<span class=\"of-live\">"), n_sliders);
   EXPECT_EQ(count(words, "<span class=\"of-picture\">"), n_sliders);
-  holds(words, {"Test granite: model and rock", "Is the model the rock?", "Not in every respect: 1 of 2 properties",
+  holds(words, {"Test granite: model and rock", "Does the model match the rock?", "Not in every respect: 1 of 2 properties",
                 "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
                 "Only 2 specimens", "a model", "made up", "Width"});
 }

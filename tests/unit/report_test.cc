@@ -369,8 +369,8 @@ Reference granite(const double low, const double high)
 
 TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
 {
-  // 120 and 132 MPa: mean 126, 95 % of the mean ± 12.706·8.485/sqrt(2) = 76 MPa.
-  const std::vector<FinishedTest> tests{compression(3), compression(4, 1.1)};
+  // 120, 126 and 132 MPa: mean 126, 95 % of the mean ± 4.303·6/sqrt(3) = 15 MPa.
+  std::vector<FinishedTest> tests{compression(3), compression(4, 1.1), compression(5, 1.05)};
   const auto said = [&](const std::optional<Reference>& reference, const std::string& problem) {
     const Verdict answer = verdict(compare(tests, reference), reference, problem);
     std::string text = answer.headline + "\n";
@@ -383,8 +383,9 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
       EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
   };
   holds(said(granite(120.0, 130.0), ""),
-        {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 MPa", "+0.8 %",
-         "reaches out of the range", "No range given: Young's modulus"});
+        {"Yes, by the 1 property", "✓ In range: uniaxial compressive strength 126.0 ± 6.0 MPa, n = 3; experiment 125.0",
+         "+0.8 %", "the 95 % interval of the mean, 111.1 to 140.9, reaches out of the range",
+         "No range given: Young's modulus"});
   holds(said(granite(127.0, 130.0), ""), {"Not in every respect: 1 of 1", "✗ Out of range",
                                           "experiment 125.0 (127.0 to 130.0) MPa", "reaches into the range"});
   // All of the interval inside, or all of it outside: no such remark.
@@ -395,6 +396,11 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   of_tests.experiment.values["uniaxial_compressive_strength_MPa"].n = 6;
   holds(said(of_tests, ""), {"experiment 125.0 MPa, n = 6 (120.0 to 130.0); +0.8 %"});
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
+  // Fewer specimens have no such interval, which is said instead.
+  tests.pop_back();
+  holds(said(granite(1.0, 500.0), ""), {"126.0 ± 8.5 MPa, n = 2;", "two specimens do not tell how sure that is"});
+  tests.pop_back();
+  holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "a single specimen does not tell how sure that is"});
 }
 
 TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
@@ -914,9 +920,11 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
   const auto rows = compare({compression(3), compression(4, 1.1)}, reference);
   EXPECT_EQ(properties_without_a_test(rows, reference),
             (std::vector<std::string>{"strength_at_30_MPa", "tensile_strength_MPa"}));
-  const std::string sentence = "Not tested here: the experiment's strength_at_30_MPa, tensile_strength_MPa.";
-  EXPECT_EQ(verdict(rows, reference, "").points.back(), sentence);
-  EXPECT_NE(as_text(rows, reference).find(sentence), std::string::npos);
+  EXPECT_EQ(
+    verdict(rows, reference, "").points.back(),
+    "Not tested here: the experiment's strength_at_30_MPa, tensile_strength_MPa; Tests/List and Tests/Confinements "
+    "add tests.");
+  EXPECT_NE(as_text(rows, reference).find("Not tested here: the experiment's strength_at_30_MPa"), std::string::npos);
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
 }
 
@@ -1199,6 +1207,9 @@ TEST(Reference, TakesWhatLaboratoriesHave)
     "friction_angle_deg": 30, "cohesion_MPa": 50,
     "triaxial": [{"confining_pressure_MPa": 20, "strength_MPa": 310}, {"confining_pressure_MPa": 10, "strength_MPa": 250},
                  {"confining_pressure_MPa": 10, "strength_MPa": 270}, {"confining_pressure_MPa": 0, "strength_MPa": 190}]}})");
+  const auto with_third = folder.write("three.json", R"({"experiment": {"triaxial": [
+    {"confining_pressure_MPa": 10, "strength_MPa": 250}, {"confining_pressure_MPa": 10, "strength_MPa": 270},
+    {"confining_pressure_MPa": 10, "strength_MPa": 260}]}})");
   const ReferenceSource rock = read_reference(file, test_kinds()).experiment;
   // 95 % of further tests: t_{0.975, 4} = 2.776445 (any table), times 22·sqrt(1 + 1/5).
   const auto uniaxial = *rock.find("uniaxial_compressive_strength_MPa");
@@ -1213,6 +1224,10 @@ TEST(Reference, TakesWhatLaboratoriesHave)
   EXPECT_NEAR(*confined.mean, 260.0, 1e-9);
   EXPECT_NEAR(*confined.standard_deviation, 20.0 / std::sqrt(2.0), 1e-9);
   EXPECT_EQ(*confined.n, 2u);
+  // Two give no range: t_{0.975, 1} = 12.7 would make one that holds nearly every rock. Three do, t_{0.975, 2} = 4.302653.
+  EXPECT_FALSE(confined.low || confined.high);
+  const auto of_three = *read_reference(with_third, test_kinds()).experiment.find("strength_at_10_MPa");
+  EXPECT_NEAR(*of_three.high - 260.0, 4.302653 * 10.0 * std::sqrt(4.0 / 3.0), 1e-4);
   // sin 30° = 1/2: N = 3, q_u = 2·50·sqrt(3).
   EXPECT_NEAR(rock.line()->sigma_1(10e6), 1e6 * (100.0 * std::sqrt(3.0) + 30.0), 1.0);
   // Least squares through the four tests: slope Σ(x - 10)(y - 255)/Σ(x - 10)² = (650 + 550)/200.
