@@ -31,10 +31,19 @@ std::string with_symbols(std::string text)
   return text;
 }
 
-/// Without freedom there is nothing to be judged.
-std::string verdict_on(const FitQuality& quality, const std::string& otherwise)
+/// Whether its interval reaches 0, so that the points do not determine it.
+bool is_undetermined(const Estimate& parameter)
 {
-  return quality.degrees_of_freedom > 0 ? otherwise : "no more points than parameters: not drawn";
+  return parameter.half_width.value && *parameter.half_width.value >= std::abs(parameter.value);
+}
+
+/// Without freedom there is nothing to be judged, and parameters that the points leave open are not admissible.
+std::string verdict_on(const FitQuality& quality, const std::vector<Estimate>& parameters, const std::string& otherwise)
+{
+  if (quality.degrees_of_freedom == 0)
+    return "no more points than parameters: not drawn";
+  return std::any_of(parameters.begin(), parameters.end(), is_undetermined) ? "not determined: an interval reaches 0"
+                                                                            : otherwise;
 }
 
 Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
@@ -67,18 +76,19 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
             continue;
           }
         const HoekBrownFit& fit = *either->fit;
-        table.rows.push_back({form, verdict_on(fit.quality, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
-                              estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2),
-                              estimate(fit.a, 1.0, 3), number(fit.quality.r_squared, 1.0, 4),
-                              number(fit.quality.root_mean_square / mega, 1),
-                              estimate(fit.uniaxial_compressive_strength, mega, 1) +
-                                beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
-                              number(-fit.tensile_cut_off.value / mega, 2) +
-                                beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
+        table.rows.push_back(
+          {form, verdict_on(fit.quality, {fit.sigma_ci, fit.m, fit.s, fit.a}, fit.s.value > 1.0005 ? "✗ s > 1" : "✓"),
+           estimate(fit.sigma_ci, mega, 1), estimate(fit.m, 1.0, 1), estimate(fit.s, 1.0, 2), estimate(fit.a, 1.0, 3),
+           number(fit.quality.r_squared, 1.0, 4), number(fit.quality.root_mean_square / mega, 1),
+           estimate(fit.uniaxial_compressive_strength, mega, 1) +
+             beside(fit.uniaxial_compressive_strength.value, measured.uniaxial_compressive_strength),
+           number(-fit.tensile_cut_off.value / mega, 2) +
+             beside(-fit.tensile_cut_off.value, measured.tensile_strength)});
       }
   if (const auto& fit = envelopes.mohr_coulomb.fit)
-    table.rows.push_back({"Mohr–Coulomb", verdict_on(fit->quality, "✓"), none, none, none, none,
-                          number(fit->quality.r_squared, 1.0, 4), number(fit->quality.root_mean_square / mega, 1),
+    table.rows.push_back({"Mohr–Coulomb", verdict_on(fit->quality, {fit->friction_angle, fit->cohesion}, "✓"), none,
+                          none, none, none, number(fit->quality.r_squared, 1.0, 4),
+                          number(fit->quality.root_mean_square / mega, 1),
                           estimate(fit->uniaxial_strength, mega, 1) +
                             beside(fit->uniaxial_strength.value, measured.uniaxial_compressive_strength),
                           none});
@@ -160,9 +170,9 @@ PageBlock experiment_block(const ReferenceSource& experiment)
   block.subheading = experiment.label + ": fits of its own points";
   block.tables.push_back(fit_table(experiment.fitted, "envelopes_experiment"));
   if (const auto& fit = experiment.fitted.mohr_coulomb.fit)
-    block.paragraphs.push_back(fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa.",
-                                           estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
-                                           estimate(fit->cohesion, mega, 1)));
+    block.paragraphs.push_back(
+      fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa (± half of the 95 % interval of this fit).",
+                  estimate(fit->friction_angle, std::numbers::pi / 180.0, 1), estimate(fit->cohesion, mega, 1)));
   return block;
 }
 } // namespace
@@ -227,9 +237,9 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       PageBlock figures;
       figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
       if (const auto& fit = envelopes.mohr_coulomb.fit)
-        figures.paragraphs.push_back(fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa.",
-                                                 estimate(fit->friction_angle, std::numbers::pi / 180.0, 1),
-                                                 estimate(fit->cohesion, mega, 1)));
+        figures.paragraphs.push_back(
+          fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa (± half of the 95 % interval of this fit).",
+                      estimate(fit->friction_angle, std::numbers::pi / 180.0, 1), estimate(fit->cohesion, mega, 1)));
       figures.paragraphs.push_back(
         "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");

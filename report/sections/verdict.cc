@@ -18,9 +18,9 @@ std::string caveat(const ComparisonRow& row)
   const bool is_in = *row.in_range();
   const std::string interval = text::interval(*row.ours, 1.0, row.decimals);
   if (interval == text::none)
-    return row.ours->n == 1   ? "; a single specimen does not tell how sure that is"
-           : row.ours->n == 2 ? "; two specimens do not tell how sure that is"
-                              : "; the scatter is so large that this is not sure";
+    return row.ours->n == 1   ? "; one specimen is too few to be sure"
+           : row.ours->n == 2 ? "; two specimens are too few to be sure"
+                              : "; the scatter is too large to be sure";
   const double low = row.ours->mean - *row.ours->confidence_95;
   const double high = row.ours->mean + *row.ours->confidence_95;
   if (is_in ? row.surely_in_range() == false : high >= *row.experiment->low && low <= *row.experiment->high)

@@ -15,6 +15,7 @@
 #include "report/pictures/study_pictures.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
+#include "report/sections/sections.h"
 #include "report/sections/study_text.h"
 #include "report/sections/verdict.h"
 #include "results/fits/residual_strength.h"
@@ -38,6 +39,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -398,9 +400,9 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {"126.0 ± 8.5 MPa, n = 2;", "two specimens do not tell how sure that is"});
+  holds(said(granite(1.0, 500.0), ""), {"126.0 ± 8.5 MPa, n = 2;", "two specimens are too few to be sure"});
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "a single specimen does not tell how sure that is"});
+  holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "one specimen is too few to be sure"});
 }
 
 TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
@@ -691,6 +693,29 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
   plotted.add_printed(printed.experiment, plot::black);
   const auto chart = nlohmann::json::parse(plotted.json());
   EXPECT_NEAR(chart["lines"].back()["points"].back()[0].get<double>(), 20.0, 1e-9) << chart;
+}
+
+TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
+{
+  // Four means that no smooth curve follows: with three parameters nothing is known of them, with two a little.
+  StrengthData data{{}, 223.8e6, 12.67e6};
+  for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
+    data.points.push_back({sigma_3, sigma_1});
+  const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1)}, {}}};
+  const std::optional<Reference> no_reference;
+  const std::string no_problem;
+  Findings findings{all, all, no_reference, no_problem, true, {}, {fit_strength_envelopes(data)}};
+  PictureBook book;
+  std::map<std::string, std::string> admissible;
+  for (const PageBlock& block : envelope_section(findings, book).blocks)
+    for (const Table& table : block.tables)
+      if (table.name == "envelopes")
+        for (const auto& row : table.rows)
+          admissible[row[0]] = row[1];
+  EXPECT_EQ(admissible["intact, with σ_t"], "✓");
+  EXPECT_EQ(admissible["general, with σ_t"], "not determined: an interval reaches 0");
+  EXPECT_EQ(admissible["general, without σ_t"], "no more points than parameters: not drawn");
+  EXPECT_EQ(admissible["Mohr–Coulomb"], "not determined: an interval reaches 0");
 }
 
 /// Those of the strength alone.
