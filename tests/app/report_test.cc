@@ -125,9 +125,10 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   EXPECT_GE(n_sliders, 4u);
   EXPECT_EQ(count(words, "<span class=\"of-live\">"), n_sliders);
   EXPECT_EQ(count(words, "<span class=\"of-picture\">"), n_sliders);
-  holds(words, {"Test granite: model and rock", "Does the model match the rock?", "Not in every respect: 1 of 2 properties",
-                "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
-                "Only 2 specimens", "a model", "made up", "Width"});
+  holds(words,
+        {"Test granite: model and rock", "Does the model match the rock?", "Not in every respect: 1 of 2 properties",
+         "✗ Out of range: uniaxial compressive strength", "✓ In range: tensile strength", "Strength envelope",
+         "Only 2 specimens", "a model", "made up", "Width"});
 }
 
 // Each of the 2 x 26 series is a copy of the tests of one specimen under a label of its own: 52 are more than the 12 that a page
