@@ -31,6 +31,12 @@ std::string with_symbols(std::string text)
   return text;
 }
 
+std::string text_of(const MohrCoulombFit& fit)
+{
+  return fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa (± half of the 95 % interval of this fit).",
+                     estimate(fit.friction_angle, std::numbers::pi / 180.0, 1), estimate(fit.cohesion, mega, 1));
+}
+
 /// Whether its interval reaches 0, so that the points do not determine it.
 bool is_undetermined(const Estimate& parameter)
 {
@@ -170,9 +176,7 @@ PageBlock experiment_block(const ReferenceSource& experiment)
   block.subheading = experiment.label + ": fits of its own points";
   block.tables.push_back(fit_table(experiment.fitted, "envelopes_experiment"));
   if (const auto& fit = experiment.fitted.mohr_coulomb.fit)
-    block.paragraphs.push_back(
-      fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa (± half of the 95 % interval of this fit).",
-                  estimate(fit->friction_angle, std::numbers::pi / 180.0, 1), estimate(fit->cohesion, mega, 1)));
+    block.paragraphs.push_back(text_of(*fit));
   return block;
 }
 } // namespace
@@ -237,9 +241,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       PageBlock figures;
       figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
       if (const auto& fit = envelopes.mohr_coulomb.fit)
-        figures.paragraphs.push_back(
-          fmt::format("Mohr–Coulomb: friction angle {}°, cohesion {} MPa (± half of the 95 % interval of this fit).",
-                      estimate(fit->friction_angle, std::numbers::pi / 180.0, 1), estimate(fit->cohesion, mega, 1)));
+        figures.paragraphs.push_back(text_of(*fit));
       figures.paragraphs.push_back(
         "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");
