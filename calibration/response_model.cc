@@ -37,6 +37,8 @@ double ResponseModel::base(const std::size_t j, const UnitPoint& point, const do
 {
   if (all[j].scale == ResponseScale::strength)
     return log_strength;
+  if (all[j].scale == ResponseScale::ratio)
+    return 0.0;
   const MicroParameters parameters = parameters_at(point, unknown, fixed_values);
   const ElasticTable::Constants intact = table.at(parameters.stiffness_ratio, parameters.gap.value_or(gap));
   return all[j].scale == ResponseScale::modulus ? log_modulus + std::log(intact.modulus_ratio) : intact.poissons_ratio;

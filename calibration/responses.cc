@@ -3,6 +3,7 @@
 #include "base/prefixes.h"
 
 #include "base/input_error.h"
+#include "results/fits/hoek_brown.h"
 
 #include <fmt/format.h>
 
@@ -27,14 +28,40 @@ std::string words(const ElasticFigure which)
                                            : "secant at 50 % of peak";
 }
 
-/// Of the tests of one case.
-std::function<std::optional<double>(const FinishedTest&)> figure(const TestCase& of, Figure TestResults::*which)
+/// Of the test of one case.
+std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(const TestCase& of,
+                                                                              Figure TestResults::*which)
 {
-  return [of, which](const FinishedTest& test) -> std::optional<double> {
-    if (!test.was_made() || test.record.kind != of.kind || test.record.confining_pressure != of.confining_pressure)
-      return std::nullopt;
-    return (test.results.*which).value;
+  return [of, which](const std::vector<FinishedTest>& of_specimen) -> std::optional<double> {
+    for (const FinishedTest& test : of_specimen)
+      if (test.was_made() && test.record.kind == of.kind && test.record.confining_pressure == of.confining_pressure)
+        return (test.results.*which).value;
+    return std::nullopt;
   };
+}
+
+/// m_i by all tests in compression; none where one of them broke down.
+std::optional<double> rock_constant_of(const std::vector<FinishedTest>& of_specimen)
+{
+  std::vector<EnvelopePoint> points;
+  for (const FinishedTest& test : of_specimen)
+    if (test.record.envelope_role() == EnvelopeRole::compression)
+      {
+        if (!test.was_made() || !test.results.peak_stress.value)
+          return std::nullopt;
+        points.push_back({test.record.confining_pressure, *test.results.peak_stress.value});
+      }
+  return rock_constant(points);
+}
+
+bool gives_rock_constant(const std::vector<TestCase>& programme)
+{
+  const auto has = [&](const bool confined) {
+    return std::any_of(programme.begin(), programme.end(), [&](const TestCase& test) {
+      return test.kind.envelope_role == EnvelopeRole::compression && test.kind.takes_confining_pressure == confined;
+    });
+  };
+  return has(false) && has(true);
 }
 
 /// How far the mean of the rock may lie from the figure of the reference, and by what.
@@ -115,6 +142,8 @@ std::vector<Response> responses(const std::vector<TestCase>& programme, const Ca
       case EnvelopeRole::none:
         break;
       }
+  if (gives_rock_constant(programme))
+    all.push_back({"m_i", "m_i of Hoek and Brown", "", 1.0, 1, "m_i", 1.0, ResponseScale::ratio, rock_constant_of});
   return all;
 }
 
@@ -124,10 +153,7 @@ std::vector<std::optional<double>> values_of(const std::vector<Response>& respon
   std::vector<std::optional<double>> values;
   for (const Response& response : responses)
     {
-      std::optional<double> value;
-      for (const FinishedTest& test : of_specimen)
-        if (!value)
-          value = response.value(test);
+      std::optional<double> value = response.value(of_specimen);
       if (value && response.scale != ResponseScale::none && !(*value > 0.0))
         value.reset(); // no logarithm
       values.push_back(value);

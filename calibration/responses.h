@@ -19,7 +19,8 @@ enum class ResponseScale
 {
   modulus,  ///< of the joints
   strength, ///< of the bonds in tension
-  none
+  ratio,    ///< of strengths: with neither
+  none      ///< Poisson's ratio
 };
 
 /// A figure of a specimen.
@@ -33,10 +34,11 @@ struct Response
   std::string reference_key;
   double reference_unit; ///< in SI
   ResponseScale scale;
-  std::function<std::optional<double>(const FinishedTest&)> value; ///< SI; none of a test of another kind
+  /// SI, by the tests of one specimen; none where they do not give it.
+  std::function<std::optional<double>(const std::vector<FinishedTest>&)> value;
 
-  /// Responses with a scale are products of it, and their scatter is a share of them: they are compared by logarithms.
-  /// Poisson's ratio, which may be 0, is not.
+  /// The scatter of a response is a share of it: responses are compared by logarithms. Poisson's ratio, which may be 0, is
+  /// not.
   double in_model(double si_value) const;
   double in_si(double model_value) const;
   /// A small share of a value is this times the share in the model.

@@ -379,7 +379,7 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
                           }},
            "figures of the experiment in the reference file that `feldspar calibrate` is to reach: youngs_modulus, "
            "poissons_ratio, tensile_strength, brazilian_strength, uniaxial_compressive_strength, strength_at_P_MPa, "
-           "crack_initiation_stress, crack_damage_stress; all: those that the tests give",
+           "m_i, crack_initiation_stress, crack_damage_stress; all: those that the tests give",
            {}},
           bounds_entry("Stiffness ratio", &P::stiffness_ratio, {'(', 0.0, most, ')'}, nullptr, "of the joints"),
           bounds_entry("Cohesion ratio", &P::cohesion_ratio, {'(', 0.0, most, ')'}, nullptr,

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "results/fits/direct_shear.h"
+#include "results/fits/hoek_brown.h"
 #include "results/fits/mohr_coulomb.h"
 #include "results/runs/bodies.h"
 #include "results/runs/test_groups.h"
@@ -47,18 +48,34 @@ std::map<std::uint64_t, double> of_bodies(const std::vector<FinishedTest>& tests
   return values;
 }
 
+std::map<std::uint64_t, std::vector<EnvelopePoint>> points_by_seed(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::uint64_t, std::vector<EnvelopePoint>> points;
+  for (const auto& test : tests)
+    if (test.record.envelope_role() == EnvelopeRole::compression && test.results.peak_stress.value)
+      points[test.record.seed].push_back({test.record.confining_pressure, *test.results.peak_stress.value});
+  return points;
+}
+
 /// Of each seed with more points of compression than such a line has parameters.
 std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<FinishedTest>& tests)
 {
-  std::map<std::uint64_t, StrengthData> data;
-  for (const auto& test : tests)
-    if (test.record.envelope_role() == EnvelopeRole::compression && test.results.peak_stress.value)
-      data[test.record.seed].points.push_back({test.record.confining_pressure, *test.results.peak_stress.value});
   std::map<std::uint64_t, MohrCoulombFit> lines;
-  for (const auto& [seed, points] : data)
-    if (const auto line = fit_mohr_coulomb(points).fit; line && line->quality.degrees_of_freedom > 0)
+  for (const auto& [seed, points] : points_by_seed(tests))
+    if (const auto line = fit_mohr_coulomb({points, std::nullopt, std::nullopt}).fit;
+        line && line->quality.degrees_of_freedom > 0)
       lines[seed] = *line;
   return lines;
+}
+
+/// m_i of each seed that was also tested without confinement.
+std::map<std::uint64_t, double> rock_constants_by_seed(const std::vector<FinishedTest>& tests)
+{
+  std::map<std::uint64_t, double> constants;
+  for (const auto& [seed, points] : points_by_seed(tests))
+    if (const auto constant = rock_constant(points))
+      constants[seed] = *constant;
+  return constants;
 }
 
 std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
@@ -211,6 +228,8 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
           "friction_angle_deg");
       add("cohesion, Mohr-Coulomb", "MPa", 1, 1e6, of_lines(&MohrCoulombFit::cohesion), "cohesion_MPa");
     }
+  if (reference && (reference->experiment.find("m_i") || reference->model.find("m_i")))
+    add("m_i of Hoek and Brown, compression", "", 1, 1.0, rock_constants_by_seed(tests), "m_i");
 
   // Then the strengths by the other tests, each under each of its pressures.
   std::vector<std::pair<TestGroup, std::map<std::uint64_t, double>>> others;

@@ -343,4 +343,14 @@ FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, const HoekBro
     result.fit->with_tension_point = with_tension_point;
   return result;
 }
+
+std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compression)
+{
+  const auto is_confined = [](const EnvelopePoint& point) { return point.sigma_3 > 0.0; };
+  const auto uniaxial = std::find_if_not(in_compression.begin(), in_compression.end(), is_confined);
+  if (uniaxial == in_compression.end() || std::none_of(in_compression.begin(), in_compression.end(), is_confined))
+    return std::nullopt;
+  const auto answer = fit_hoek_brown({in_compression, uniaxial->sigma_1, std::nullopt}, HoekBrownForm::intact, false);
+  return answer.fit ? std::optional(answer.fit->m.value) : std::nullopt;
+}
 } // namespace feldspar

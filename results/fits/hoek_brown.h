@@ -41,4 +41,8 @@ struct HoekBrownFit
 /// measured tensile strength counts as one point more, (-sigma_t, 0), at which the bracket stays >= 0. The same data
 /// give the same bits.
 FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, HoekBrownForm form, bool with_tension_point);
+
+/// m_i of intact rock by its strengths in compression: m of the intact form through these points, two of which suffice. None
+/// without a confined one beside the uniaxial one.
+std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compression);
 } // namespace feldspar

@@ -339,6 +339,35 @@ TEST(TargetOutcomes, AreToldInASentence)
             "specimens.");
 }
 
+FinishedTest crushed(const TestKind& kind, const double confining_pressure, const double strength)
+{
+  FinishedTest test;
+  test.record.kind = kind;
+  test.record.confining_pressure = confining_pressure;
+  test.results.peak_stress = {strength, ""};
+  return test;
+}
+
+TEST(Responses, GiveTheRockConstantOfHoekAndBrown)
+{
+  // Of a specimen with a uniaxial strength of 160 MPa and m_i = 25: 20 + sqrt(25 * 160 * 20 + 160^2) at 20 MPa.
+  const KnownRock rock;
+  const Response& response = rock.all[rock.number("m_i")];
+  const double at_20 = 20e6 + std::sqrt(25.0 * 160e6 * 20e6 + 160e6 * 160e6);
+  const std::vector<FinishedTest> of_specimen{crushed(uniaxial_compression.kind, 0.0, 160e6),
+                                              crushed(triaxial_compression.kind, 20e6, at_20)};
+  EXPECT_NEAR(*response.value(of_specimen), 25.0, 1e-4);
+  EXPECT_FALSE(response.value({of_specimen[0]})) << "no confined test";
+  EXPECT_FALSE(response.value({of_specimen[1]})) << "no uniaxial test";
+  // It goes with no scale: a rock of twice the bond strength has twice the strengths and the same m_i under twice the
+  // pressure.
+  EXPECT_EQ(response.scale, ResponseScale::ratio);
+  EXPECT_NEAR(response.in_model(*response.value(of_specimen)), std::log(25.0), 1e-5);
+  const CalibrationParameters wanted;
+  for (const Response& one : responses(test_cases({triaxial_compression.kind}, {20e6}), wanted))
+    EXPECT_NE(one.name, "m_i") << "without a uniaxial test there is none";
+}
+
 TEST(Targets, AreThoseThatTheTestsGiveWithTheDeviationOfTheRocksMean)
 {
   const KnownRock rock;

@@ -656,15 +656,18 @@ TEST(Summary, AveragesTheTestsThatWereMade)
   EXPECT_EQ(summary["tests"][1]["n_tension_cracks_reason"], "the platens slipped");
 }
 
+/// A test on the specimen of a seed that gave a point of an envelope.
+FinishedTest pressed(const double confinement, const double strength, const std::uint64_t seed = 1)
+{
+  FinishedTest test = compression(seed);
+  test.record.kind = confinement > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+  test.record.confining_pressure = confinement;
+  test.results.peak_stress = {strength, ""};
+  return test;
+}
+
 TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
 {
-  const auto pressed = [](const double confinement, const double strength) {
-    FinishedTest test = compression(1);
-    test.record.kind = confinement > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
-    test.record.confining_pressure = confinement;
-    test.results.peak_stress = {strength, ""};
-    return test;
-  };
   const auto script_of = [&](const std::vector<FinishedTest>& tests) {
     const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
     // The rock was tested to 60 MPa, so that the plot goes on beyond the points of the model.
@@ -951,6 +954,27 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
     "add tests.");
   EXPECT_NE(as_text(rows, reference).find("Not tested here: the experiment's strength_at_30_MPa"), std::string::npos);
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
+}
+
+TEST(Comparison, HasTheRockConstantWhereTheReferenceDoes)
+{
+  // Two seeds on envelopes of 160 MPa with m_i = 24 and 26; a third was not tested without confinement.
+  const auto at_20 = [](const double m) { return 20e6 + std::sqrt(m * 160e6 * 20e6 + 160e6 * 160e6); };
+  const std::vector<FinishedTest> tests{pressed(0.0, 160e6, 1), pressed(20e6, at_20(24.0), 1), pressed(0.0, 160e6, 2),
+                                        pressed(20e6, at_20(26.0), 2), pressed(20e6, 400e6, 3)};
+  Reference reference = granite(150.0, 170.0);
+  const auto row_of = [&]() -> std::optional<ComparisonRow> {
+    for (const ComparisonRow& row : compare(tests, reference))
+      if (row.key == "m_i")
+        return row;
+    return std::nullopt;
+  };
+  EXPECT_FALSE(row_of());
+  reference.experiment.values["m_i"] = {28.0, std::nullopt, std::nullopt};
+  ASSERT_TRUE(row_of());
+  EXPECT_EQ(row_of()->ours->n, 2u);
+  EXPECT_NEAR(row_of()->ours->mean, 25.0, 1e-3);
+  EXPECT_NEAR(*row_of()->deviation(), 25.0 / 28.0 - 1.0, 1e-4);
 }
 
 TEST(TerminalText, OfATableHasHeadingsNoWiderThanItsColumns)
