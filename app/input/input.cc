@@ -26,7 +26,7 @@ void settle_dimension(Input& input, const GivenEntries& values)
   if (input.specimen.dimension == 2)
     return;
   if (!values.has("Specimen", "Porosity"))
-    input.specimen.porosity = 0.36;
+    input.specimen.porosity = porosity_in_space;
   for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
     const std::string section = section_of(law);
     if (!values.has(section, "Coordination number") && !values.has(section, "Installation gap ratio"))
