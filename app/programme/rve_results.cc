@@ -244,8 +244,12 @@ std::string describe(const FinishedRve<dim>& rve)
     {
       const auto& high = extreme(rve.record, k, 1.0);
       const auto& low = extreme(rve.record, k, -1.0);
+      const auto megapascals = [](const double stress) {
+        constexpr double shown = 1e3; // of three decimals; the 0 takes the sign of what vanishes by rounding
+        return std::round(stress / 1e6 * shown) / shown + 0.0;
+      };
       text += fmt::format("  stress {:<22} {:.3f} MPa at {:.3e} to {:.3f} MPa at {:.3e}\n", voigt_name<dim>(k),
-                          low.stress[k] / 1e6, outside(low, k), high.stress[k] / 1e6, outside(high, k));
+                          megapascals(low.stress[k]), outside(low, k), megapascals(high.stress[k]), outside(high, k));
     }
   text += fmt::format("  cracks, tension / shear       {} / {}\n"
                       "  energy imbalance              {:.1e}\n"

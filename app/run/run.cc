@@ -21,6 +21,15 @@ std::string how_to_resume(const RunCommand& command, const std::filesystem::path
   return fmt::format("go on with: feldspar {} --resume {}", command.name, folder.string());
 }
 
+/// What failed of a run that came to its end, if anything did.
+void tell_failure(const std::string& failure, const std::filesystem::path& folder)
+{
+  if (!failure.empty())
+    fmt::print(stderr, "feldspar: {}; the other results are in {}\n", failure, folder.string());
+}
+
+int exit_code_of(const std::string& failure) { return failure.empty() ? 0 : exit_code::user_error; }
+
 /// From wherever the run stands.
 int go_on(const RunCommand& command, const Run& run)
 {
@@ -40,11 +49,10 @@ int go_on(const RunCommand& command, const Run& run)
         return end_interrupted();
       processes.first([&] {
         std::filesystem::remove_all(run.folder / "checkpoints");
-        mark_complete(run.folder);
-        if (!end.failure.empty())
-          fmt::print(stderr, "feldspar: {}; the other results are in {}\n", end.failure, run.folder.string());
+        mark_complete(run.folder, end.failure);
+        tell_failure(end.failure, run.folder);
       });
-      return end.failure.empty() ? 0 : exit_code::user_error;
+      return exit_code_of(end.failure);
     }
   catch (const Interrupted&)
     {
@@ -68,8 +76,11 @@ int resume(const RunCommand& command, const CommonOptions& options)
   if (record.complete)
     {
       if (command.processes.is_first)
-        print_result("{}: this run is complete\n", options.resume->string());
-      return 0;
+        {
+          print_result("{}: this run is complete\n", options.resume->string());
+          tell_failure(record.failure, *options.resume);
+        }
+      return exit_code_of(record.failure);
     }
   command.check(record.input, record.input_file);
   return go_on(command, {*options.resume, record.input_file, record.input, options.quiet});

@@ -37,6 +37,7 @@ struct Contents
   std::vector<std::string> settings;
   bool variants_by_value; ///< how their files are named; not in the folders of before they were
   bool complete;
+  std::string failure;
 };
 
 void write(const std::filesystem::path& folder, const Contents& contents)
@@ -48,6 +49,8 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["settings"] = contents.settings;
   json["variants_named"] = contents.variants_by_value ? by_value : by_number;
   json["complete"] = contents.complete;
+  if (!contents.failure.empty())
+    json["failure"] = contents.failure;
   write_whole_file(folder / record_name, json.dump(2) + "\n");
 }
 
@@ -76,7 +79,8 @@ Contents read(const std::filesystem::path& folder)
           json["relative_to"].get<std::string>(),
           settings,
           holds("variants_named", Type::string) && json["variants_named"] == by_value,
-          json["complete"].get<bool>()};
+          json["complete"].get<bool>(),
+          holds("failure", Type::string) ? json["failure"].get<std::string>() : ""};
 }
 } // namespace
 
@@ -86,7 +90,7 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_whole_file(copy_of_input(folder, input_file), text);
-  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false});
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false, ""});
 }
 
 std::string run_identity(const Input& input, const std::string& part)
@@ -105,10 +109,11 @@ std::string run_identity(const Input& input, const std::string& part)
   return text;
 }
 
-void mark_complete(const std::filesystem::path& folder)
+void mark_complete(const std::filesystem::path& folder, const std::string& failure)
 {
   Contents contents = read(folder);
   contents.complete = true;
+  contents.failure = failure;
   write(folder, contents);
 }
 
@@ -138,6 +143,6 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
       fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
   Input input = read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings);
   input.variants.named_by_number = !contents.variants_by_value;
-  return {std::move(input), contents.input_file, contents.complete};
+  return {std::move(input), contents.input_file, contents.complete, contents.failure};
 }
 } // namespace feldspar

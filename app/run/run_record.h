@@ -14,6 +14,7 @@ struct RunRecord
   Input input;
   std::filesystem::path input_file; ///< as it was named
   bool complete = false;            ///< nothing is left to be resumed
+  std::string failure = {};         ///< of a complete run: which of its parts failed, and why; empty if none did
 };
 
 /// Puts a copy of the input, where it came from, the settings in place of its entries and the command that reads it into
@@ -24,8 +25,8 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
 /// The identity of a checkpoint of one part of a run: program, part and every parameter.
 std::string run_identity(const Input& input, const std::string& part);
 
-/// Notes that the run has come to its end.
-void mark_complete(const std::filesystem::path& folder);
+/// Notes that the run has come to its end, and what of it failed.
+void mark_complete(const std::filesystem::path& folder, const std::string& failure);
 
 /// Takes out whatever a run writes into its folder, and nothing else.
 void remove_run(const std::filesystem::path& folder);

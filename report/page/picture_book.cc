@@ -1,5 +1,7 @@
 #include "report/page/picture_book.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -11,8 +13,10 @@ std::vector<PagePicture> PictureBook::keep(std::vector<Picture> pictures)
   std::vector<PagePicture> places;
   for (auto& picture : pictures)
     {
-      while (is_taken(picture.name)) // labels that differ in signs alone make the same name
-        picture.name += "_again";
+      // Labels that differ in signs alone, or behind the place where long names are cut, make the same name.
+      const std::string name = picture.name;
+      for (unsigned int k = 2; is_taken(picture.name); ++k)
+        picture.name = fmt::format("{}_{}", name, k);
       places.push_back({picture, ""});
       all.push_back(std::move(picture));
     }

@@ -575,6 +575,10 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   ASSERT_EQ(json["tests"].size(), 4u);
   EXPECT_TRUE(json["tests"][2]["peak_stress_Pa"].is_number());
   EXPECT_NE(json["tests"][3]["peak_stress_Pa_reason"].get<std::string>().find("cannot hold"), std::string::npos);
+  // A run that is over says again how it ended.
+  const auto again = run_feldspar(folder.path(), "lab --resume out --quiet");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.error.find("the walls cannot hold 40000 MPa"), std::string::npos) << again.error;
 }
 
 TEST(Lab, ATestWhoseNumbersGoWrongKeepsItsRowsAndDoesNotCostTheOthers)

@@ -721,6 +721,18 @@ TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
   EXPECT_EQ(admissible["Mohr–Coulomb"], "not determined: an interval reaches 0");
 }
 
+TEST(PictureBook, NumbersPicturesOfOneName)
+{
+  PictureBook book;
+  Picture picture;
+  picture.name = "curves";
+  const auto places = book.keep({picture, picture, picture});
+  ASSERT_EQ(places.size(), 3u);
+  EXPECT_EQ(places[0].picture.name, "curves");
+  EXPECT_EQ(places[1].picture.name, "curves_2");
+  EXPECT_EQ(places[2].picture.name, "curves_3");
+}
+
 /// Those of the strength alone.
 std::vector<Picture> strength_pictures(const std::vector<Series>& all)
 {
