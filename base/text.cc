@@ -46,6 +46,13 @@ std::vector<std::string> in_lines(const std::string_view words, const std::size_
   return lines;
 }
 
+std::string duration_in_words(const double seconds)
+{
+  return seconds < 90.0     ? fmt::format("{:.0f} s", std::max(1.0, seconds))
+         : seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0)
+                            : fmt::format("{:.0f} h", seconds / 3600.0);
+}
+
 std::vector<std::string_view> split_at_commas(std::string_view text)
 {
   std::vector<std::string_view> pieces;

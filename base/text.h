@@ -17,6 +17,9 @@ std::size_t width_of(std::string_view text);
 /// Words in lines of at most so many characters, as far as the words allow it; all but the first begin with `indent`.
 std::vector<std::string> in_lines(std::string_view words, std::size_t most, std::string_view indent = "");
 
+/// About how long something takes: "40 s", "12 min", "3 h".
+std::string duration_in_words(double seconds);
+
 /// The pieces between commas, trimmed; one at least.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 

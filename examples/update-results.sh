@@ -17,7 +17,7 @@ studies=("$@")
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
   contact-models/{flat-joint,parallel-bond,grain-based,clumped,clump-size}
-  calibrate-beishan/calibrate
+  calibrate-{beishan,lac-du-bonnet,sandstone}/calibrate
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,softening,softening-strength}
   direct-shear/{smooth-plane,intact,stiff-rock}
@@ -35,7 +35,8 @@ for study in "${studies[@]}"; do
   if [[ $command == calibrate ]]; then
     # The answer becomes an input of its own; its tests are the results of that.
     here=$(dirname "$study")
-    sed 's|Reference file = reference.json|Reference file = ../beishan-granite/reference.json|' "$run/best.prm" >"$here/best.prm"
+    reference=$(sed -n 's/.*set Reference file *= *//p' "$study.prm")
+    sed "s|Reference file = reference.json|Reference file = $reference|" "$run/best.prm" >"$here/best.prm"
     cp "$run"/{calibration.json,design.csv} "$here/results/"
     cp "$run/summary.json" "$here/results/best.json"
   else

@@ -5,10 +5,14 @@
 #include "app/calibration/elastic_cells.h"
 #include "app/calibration/problem.h"
 #include "app/calibration/tested_points.h"
+#include "app/programme/genesis_effort.h"
 #include "app/programme/lab_run.h"
 #include "app/programme/specimen_source.h"
+#include "app/programme/test_effort.h"
 #include "app/run/interrupt.h"
 #include "app/screen/progress.h"
+#include "base/parallel.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "calibration/fit.h"
 #include "calibration/target_outcomes.h"
@@ -56,8 +60,10 @@ public:
 
   RunEnd go()
   {
-    tell_cost();
-    ResponseModel model = elastic_stage();
+    const Specimen<dim> first = packing_of<dim>(input, packings.next);
+    tell_cost(first);
+    ResponseModel model =
+      elastic_stage(input.flat_joint.installation_gap_ratio.value_or(first.report.installation_gap_ratio));
     if (const std::string objection = design_stage(model); !objection.empty())
       return {false, objection}; // its tests stay
 
@@ -72,25 +78,32 @@ public:
   }
 
 private:
-  void tell_cost()
+  /// By one of the packings.
+  void tell_cost(const Specimen<dim>& first)
   {
-    const std::size_t n_tests = test_cases(input.test_list, input.confinements).size();
-    const std::size_t n_design = wanted.n_points * wanted.n_packings;
-    const std::size_t n_of_steps = wanted.most_steps * wanted.n_step_packings;
+    const auto programme = test_cases(input.test_list, input.confinements);
+    std::vector<TestOrder<dim>> of_specimen;
+    for (const TestCase& test : programme)
+      of_specimen.push_back({&test, &input, &first});
+    const double seconds =
+      expected_effort<dim>(of_specimen).seconds + expected_effort(input.specimen).seconds / double(number_of_threads());
+    const auto cost = [&](const std::size_t n_specimens) {
+      return fmt::format("{} specimens ({})", n_specimens, duration_in_words(seconds * double(n_specimens)));
+    };
     progress.remark(fmt::format(
-      "{} target(s), {} unknown ratio(s){}{}.\nThe design takes {} specimens of some {:.0f} grains, {} test(s) each; "
-      "steps up to {} specimens, the answer up to {} for each of at most {} rounds.",
+      "{} target(s), {} unknown ratio(s){}{}.\nThe design takes {} of some {:.0f} grains, {} test(s) each; steps take up to "
+      "{}, the answer up to {} for each of at most {} rounds. Times are right within a factor of two or three.",
       problem.targets.size(), problem.unknowns.size(), problem.has_modulus ? ", the modulus" : "",
-      problem.has_strength ? ", the strength" : "", n_design, expected_grains(input.specimen), n_tests, n_of_steps,
-      wanted.most_packings, most_rounds));
+      problem.has_strength ? ", the strength" : "", cost(wanted.n_points * wanted.n_packings),
+      double(first.grains.size()), programme.size(), cost(wanted.most_steps * wanted.n_step_packings),
+      cost(wanted.most_packings), most_rounds));
   }
 
   /// The intact rock, and a place to begin at.
-  ResponseModel elastic_stage()
+  ResponseModel elastic_stage(const double gap)
   {
     progress.start("elastic constants of intact cells");
     const MicroParameters fixed = micro_parameters(input);
-    const double gap = installation_gap<dim>(input, packings.next);
     const ElasticTable elastic =
       elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap, progress);
     check_poissons_ratio(problem, wanted, elastic);

@@ -27,14 +27,6 @@ std::vector<double> spread(const Bounds& bounds, const std::size_t n)
   return values;
 }
 
-template <int dim>
-Specimen<dim> make(const Input& input, const std::uint64_t seed)
-{
-  return make_specimen<dim>(
-    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
-    end_if_interrupted);
-}
-
 /// The same rock as a periodic cell.
 Input cell_of(const Input& input)
 {
@@ -67,7 +59,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   constexpr std::size_t n_gaps = 9;
   const Input cell = cell_of(input);
   std::vector<Specimen<dim>> packings(n_packings);
-  for_each_job(n_packings, [&](const std::size_t k) { packings[k] = make<dim>(cell, k + 1); });
+  for_each_job(n_packings, [&](const std::size_t k) { packings[k] = packing_of<dim>(cell, k + 1); });
 
   const std::vector<double> ratios =
     stiffness_ratio ? spread(*stiffness_ratio, n_ratios) : std::vector{input.flat_joint.stiffness_ratio};
@@ -109,17 +101,17 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
 }
 
 template <int dim>
-double installation_gap(const Input& input, const std::uint64_t seed)
+Specimen<dim> packing_of(const Input& input, const std::uint64_t seed)
 {
-  if (input.flat_joint.installation_gap_ratio)
-    return *input.flat_joint.installation_gap_ratio;
-  return make<dim>(input, seed).report.installation_gap_ratio;
+  return make_specimen<dim>(
+    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
+    end_if_interrupted);
 }
 
 template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
                                            double, Progress&);
 template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
                                            double, Progress&);
-template double installation_gap<2>(const Input&, std::uint64_t);
-template double installation_gap<3>(const Input&, std::uint64_t);
+template Specimen<2> packing_of<2>(const Input&, std::uint64_t);
+template Specimen<3> packing_of<3>(const Input&, std::uint64_t);
 } // namespace feldspar::calibration

@@ -4,6 +4,7 @@
 #include "app/screen/progress.h"
 #include "calibration/elastic_table.h"
 #include "calibration/parameters.h"
+#include "dem/specimen/specimen.h"
 
 #include <optional>
 
@@ -16,7 +17,7 @@ template <int dim>
 ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
                                const std::optional<Bounds>& gap, double gap_of_specimens, Progress& progress);
 
-/// The gap of a specimen of the input; of one that asks for a coordination number, what genesis finds for it.
+/// A specimen of the input.
 template <int dim>
-double installation_gap(const Input& input, std::uint64_t seed);
+Specimen<dim> packing_of(const Input& input, std::uint64_t seed);
 } // namespace feldspar::calibration

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -111,11 +112,9 @@ std::string describe_effort(const std::vector<Variant>& variants, const std::vec
   if (sum.n_grains == 0.0)
     return "";
   const double n_at_a_time = std::min(double(orders.size()), double(number_of_threads()));
-  const double seconds = sum.seconds / n_at_a_time;
-  return fmt::format(
-    "genesis of {} specimen{}, some {:.0f} grains{}: about {:.0f} MB, {}", orders.size(), orders.size() == 1 ? "" : "s",
-    sum.n_grains, orders.size() == 1 ? "" : " each at most", std::max(1.0, sum.bytes / 1e6),
-    seconds < 90.0 ? fmt::format("{:.0f} s", std::max(1.0, seconds)) : fmt::format("{:.0f} min", seconds / 60.0));
+  return fmt::format("genesis of {} specimen{}, some {:.0f} grains{}: about {:.0f} MB, {}", orders.size(),
+                     orders.size() == 1 ? "" : "s", sum.n_grains, orders.size() == 1 ? "" : " each at most",
+                     std::max(1.0, sum.bytes / 1e6), duration_in_words(sum.seconds / n_at_a_time));
 }
 
 void check_memory(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)

@@ -5,6 +5,7 @@
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/text.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
@@ -61,13 +62,6 @@ double expected_time_step(const Specimen<dim>& specimen, const double safety)
   return largest > 0.0 ? safety / std::sqrt(largest) : 0.0;
 }
 
-std::string in_words(const double seconds)
-{
-  return seconds < 90.0     ? fmt::format("{:.0f} s", std::max(1.0, seconds))
-         : seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0)
-                            : fmt::format("{:.0f} h", seconds / 3600.0);
-}
-
 template <int dim>
 double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
 {
@@ -120,7 +114,8 @@ std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
   const TestEffort effort = expected_effort(tests);
   return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}",
                      effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,
-                     (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6, in_words(effort.seconds));
+                     (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6,
+                     duration_in_words(effort.seconds));
 }
 
 void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)

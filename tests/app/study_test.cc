@@ -187,7 +187,17 @@ const std::vector<Piece> pieces{
    "lab",
    "calibrate-beishan/best.prm",
    {"calibrate-beishan/results/best.json"},
-   {{"Tests", "List", "direct_tension"}, {"Seeds", "Seeds", "131"}, no_reference}},
+   {{"Tests", "List", "direct_tension"}, {"Seeds", "Seeds", "171"}, no_reference}},
+  {"CalibratedGraniteOfLacDuBonnetCrushed",
+   "lab",
+   "calibrate-lac-du-bonnet/best.prm",
+   {"calibrate-lac-du-bonnet/results/best.json"},
+   {{"Tests", "List", "uniaxial_compression"}, {"Seeds", "Seeds", "255"}, no_reference}},
+  {"CalibratedSandstoneCrushed",
+   "lab",
+   "calibrate-sandstone/best.prm",
+   {"calibrate-sandstone/results/best.json"},
+   {{"Tests", "List", "uniaxial_compression"}, {"Seeds", "Seeds", "503"}, no_reference}},
   {"ParallelBondsInTension",
    "lab",
    "contact-models/parallel-bond.prm",
@@ -636,6 +646,11 @@ TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
   EXPECT_TRUE(output_of("sha256sum '" + picture.string() + "'").starts_with(checksum + " "));
 }
 
+TEST(HiddenRocks, StandInTheReadmeWithTheCommittedFigures)
+{
+  EXPECT_EQ(rows_in_readme("calibrate-hidden-rocks", ""), 19u); // seven parameters, ten rocks, two headings
+}
+
 TEST(PlateWithHole, StandsInTheReadmeWithTheCommittedFigures)
 {
   EXPECT_EQ(rows_in_readme("plate-with-hole", "--tables"), 25u);
@@ -751,6 +766,7 @@ const std::map<std::string, std::string> without_piece{
   {"published-size.json", "core-hours"},
   {"mesh-study.json", "minutes for each of its curves; it keeps figures over the meshes only"},
   {"calibration.json", "Calibrate.* of this program run a calibration; the tests of its answer have a piece"},
+  {"hidden-rocks.json", "Calibrate.* of this program run a calibration; the laboratory of a rock takes a minute"},
   {"rate.json", "the same specimens in tension have a piece; those at its highest rate are compared with them"},
   {"angles-compression.json", "the same cells in tension have a piece; the path of a pressed one takes minutes"},
   {"free-sides-2d-32.5-mm-box.json", "the box of 16 mm has a piece"},
