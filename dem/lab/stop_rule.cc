@@ -18,10 +18,15 @@ bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure
   // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
   if (is_whole && deviator > 0.9 * peak.highest)
     return false;
+  const bool is_far_beyond_peak = strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
   if (wanted.stop_stress_over_peak)
-    return deviator <= *wanted.stop_stress_over_peak * peak.highest;
+    {
+      // Halves of a disc that carry more than the whole did never fall to that share.
+      const bool may_rise_again = peak.rule == PeakRule::first_before_a_fall && peak.fallen;
+      return deviator <= *wanted.stop_stress_over_peak * peak.highest || (may_rise_again && is_far_beyond_peak);
+    }
   if (wanted.stop_strain)
     return false;
-  return strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
+  return is_far_beyond_peak;
 }
 } // namespace feldspar

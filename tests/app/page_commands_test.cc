@@ -90,6 +90,7 @@ cp examples/beishan-granite/reference.json rock.json
 /// Scripts of the tree that call Feldspar, or that make their tables of committed results.
 const std::set<std::string> scripts_that_run{
   "examples/contact-models/four-models.sh",
+  "python3 examples/calibrate-hidden-rocks/study.py",
   "python3 examples/multiscale-and-grains/study.py build/release/app/feldspar",
 };
 

@@ -1,4 +1,5 @@
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/stop_rule.h"
 #include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
@@ -420,6 +421,28 @@ TEST(StopRules, AreKept)
   TestParameters long_grips = at_strain;
   long_grips.grip_ratio = 0.3;
   EXPECT_NEAR(run(long_grips).axial_strain, 5e-5, 1.1 * at_strain.tension_sampling_strain);
+}
+
+TEST(StopRules, EndADiscThatBearsMoreAfterItsFirstFall)
+{
+  // The whole disc bears 10 MPa at a strain of 1e-3; its halves fall to 9 MPa and rise to 30, never below the share of 0.7.
+  TestParameters wanted;
+  wanted.stop_stress_over_peak = 0.7;
+  const auto end = [&](const LaboratoryProtocol& protocol) {
+    StopRule rule(protocol.kind);
+    CurveSample row;
+    row.n_tension_cracks = 1;
+    for (int k = 1; k <= 60; ++k)
+      {
+        row.axial_strain = -1e-4 * k;
+        row.axial_stress = -1e6 * (k <= 10 ? k : k == 11 ? 9.0 : 9.0 + 0.43 * (k - 11));
+        if (rule.is_met_by(row, 0.0, wanted))
+          return k;
+      }
+    return 0;
+  };
+  EXPECT_EQ(end(brazilian), 16);
+  EXPECT_EQ(end(uniaxial_compression), 0); // where the highest stress is the strength, the share of it decides
 }
 
 TEST(Energies, ImbalanceSeesADoubledTerm)
