@@ -1,5 +1,7 @@
 #include "results/fits/strength_envelopes.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -91,11 +93,7 @@ std::string table(const std::vector<Row>& rows)
   std::array<std::size_t, std::tuple_size_v<Row>> width{};
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c)
-      {
-        const auto continues = [](const char byte) { return (byte & 0xC0) == 0x80; }; // a UTF-8 character
-        width[c] =
-          std::max(width[c], row[c].size() - std::size_t(std::count_if(row[c].begin(), row[c].end(), continues)));
-      }
+      width[c] = std::max(width[c], width_of(row[c]));
   std::string result;
   for (const auto& row : rows)
     {
