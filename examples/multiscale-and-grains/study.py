@@ -48,6 +48,7 @@ OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packin
 
 
 PRESSURES_MPA = (5, 20, 60)
+SLOW = "Tests/Compression strain rate = 0.25 1/s"
 CONFINED = (
     "Tests/List = triaxial_compression",
     "Tests/Confinements = 5, 20, 60 MPa",
@@ -73,6 +74,7 @@ EXPERIMENTS = {
     "sample-own": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN)),
     "sample-own-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN, UNTURNED)),
     "confined": Experiment("lab", "confined"),
+    "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
@@ -349,12 +351,15 @@ def print_dealings():
 
 def print_confined():
     """Strengths under pressure beside those without; where a sample has no peak, what it bore at the end."""
-    print("| pressure [MPa] | grains, 1/s: σ_1 [MPa] | sample: σ_1 [MPa] | sample from grains | σ_ci: grains, sample [MPa] |")
-    print("|---|---|---|---|---|")
+    print(
+        "| pressure [MPa] | grains, 1/s: σ_1 [MPa] | grains, 0.25/s: σ_1 [MPa] | over that at 1/s, seed by seed "
+        "| sample: σ_1 [MPa] | sample from grains at 1/s and at 0.25/s | σ_ci: grains at 1/s, sample [MPa] |"
+    )
+    print("|---|---|---|---|---|---|---|")
     for pressure in PRESSURES_MPA:
         bodies = [
             [test for test in results(name)["tests"] if round(test["confining_pressure_Pa"] / 1e6) == pressure]
-            for name in ("confined", "sample-confined")
+            for name in ("confined", "confined-slow", "sample-confined")
         ]
         highest = [
             [(test["peak_stress_Pa"] or test["stress_at_end_Pa"]) / 1e6 for test in tests] for tests in bodies
@@ -363,14 +368,17 @@ def print_confined():
             [test["crack_initiation_stress_Pa"] / 1e6 for test in tests if test["crack_initiation_stress_Pa"] is not None]
             for tests in bodies
         ]
-        n_rising = sum(test["peak_stress_Pa"] is None for test in bodies[1])
-        without_peak = f", {n_rising} of {len(bodies[1])} without a peak up to 1.2 %" if n_rising else ""
+        n_rising = sum(test["peak_stress_Pa"] is None for test in bodies[2])
+        without_peak = f", {n_rising} of {len(bodies[2])} without a peak up to 1.2 %" if n_rising else ""
+        fast = {test["seed"]: test["peak_stress_Pa"] for test in bodies[0]}
         cells = [
             str(pressure),
             shown(highest[0], 0),
-            shown(highest[1], 0) + without_peak,
-            difference(highest[1], highest[0]),
-            f"{shown(initiation[0], 0)}, {shown(initiation[1], 0)}",
+            shown(highest[1], 0),
+            shown([test["peak_stress_Pa"] / fast[test["seed"]] for test in bodies[1]], 3),
+            shown(highest[2], 0) + without_peak,
+            f"{difference(highest[2], highest[0])}, {difference(highest[2], highest[1])}",
+            f"{shown(initiation[0], 0)}, {shown(initiation[2], 0)}",
         ]
         print(f"| {' | '.join(cells)} |")
     print()

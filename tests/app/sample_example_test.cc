@@ -149,6 +149,7 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
 
   // Under pressure: means of the strengths, and of the stress at the end where a sample has no peak.
   const auto grains_under_pressure = committed("confined");
+  const auto slow_grains_under_pressure = committed("confined-slow");
   const auto sample_under_pressure = committed("sample-confined");
   for (const int pressure : {5, 20, 60})
     {
@@ -168,10 +169,20 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
       };
       const std::string of_grains = highest(grains_under_pressure);
       EXPECT_EQ(n_samples, 10u);
+      const std::string of_slow_grains = highest(slow_grains_under_pressure);
+      EXPECT_EQ(n_samples, 10u);
+      std::vector<double> shares;
+      for (const auto& slow : slow_grains_under_pressure["tests"])
+        for (const auto& fast : grains_under_pressure["tests"])
+          if (slow["seed"] == fast["seed"] && slow["confining_pressure_Pa"] == fast["confining_pressure_Pa"] &&
+              std::lround(slow["confining_pressure_Pa"].get<double>() / 1e6) == pressure)
+            shares.push_back(slow["peak_stress_Pa"].get<double>() / fast["peak_stress_Pa"].get<double>());
+      EXPECT_EQ(shares.size(), 10u);
       const std::string of_sample = highest(sample_under_pressure);
       const std::string without_peak =
         n_without_peak > 0 ? fmt::format(", {} of {} without a peak up to 1.2 %", n_without_peak, n_samples) : "";
-      shown(fmt::format("| {} | {} | {}{} |", pressure, of_grains, of_sample, without_peak));
+      shown(fmt::format("| {} | {} | {} | {} | {}{} |", pressure, of_grains, of_slow_grains,
+                        mean_and_deviation(shares, 3), of_sample, without_peak));
     }
 
   const auto tension = committed("angles-tension");
