@@ -60,7 +60,9 @@ public:
 
   RunEnd go()
   {
+    progress.start("a first packing");
     const Specimen<dim> first = packing_of<dim>(input, packings.next);
+    progress.finish(fmt::format("{} grains", first.grains.size()));
     tell_cost(first);
     ResponseModel model =
       elastic_stage(input.flat_joint.installation_gap_ratio.value_or(first.report.installation_gap_ratio));
@@ -78,15 +80,18 @@ public:
   }
 
 private:
-  /// By one of the packings.
+  /// By one of the packings, and by rough scales of the rock.
   void tell_cost(const Specimen<dim>& first)
   {
+    const MicroParameters guess = first_guess(problem, micro_parameters(input));
+    const Input rock = with_parameters(input, guess);
     const auto programme = test_cases(input.test_list, input.confinements);
     std::vector<TestOrder<dim>> of_specimen;
     for (const TestCase& test : programme)
-      of_specimen.push_back({&test, &input, &first});
-    const double seconds =
-      expected_effort<dim>(of_specimen).seconds + expected_effort(input.specimen).seconds / double(number_of_threads());
+      of_specimen.push_back({&test, &rock, &first});
+    const double of_waves = std::sqrt(guess.modulus / input.flat_joint.modulus); // steps are as short as they are fast
+    const double seconds = of_waves * expected_effort<dim>(of_specimen).seconds +
+                           expected_effort(input.specimen).seconds / double(number_of_threads());
     const auto cost = [&](const std::size_t n_specimens) {
       return fmt::format("{} specimens ({})", n_specimens, duration_in_words(seconds * double(n_specimens)));
     };

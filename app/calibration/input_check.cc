@@ -26,6 +26,8 @@ void check(const Input& input)
     refuse("Flaws: a calibration is of the intact rock; take the section out");
   if (!input.variants.entries.empty())
     refuse("Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
+  if (input.tests.intermediate_stress)
+    refuse("Tests/Intermediate stress: a calibration presses its specimens alike from all sides; take the entry out");
   if (input.seeds.size() > 1)
     refuse("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");
   check_specimen_and_tests(input);

@@ -43,6 +43,16 @@ double first_bond_strength(const Problem& problem, const double otherwise)
   return otherwise;
 }
 
+MicroParameters first_guess(const Problem& problem, const MicroParameters& fixed)
+{
+  MicroParameters guess = fixed;
+  if (const auto modulus = target_of(problem, ResponseScale::modulus))
+    guess.modulus = *modulus / 0.8;
+  if (problem.has_strength)
+    guess.bond_tensile_strength = first_bond_strength(problem, fixed.bond_tensile_strength);
+  return guess;
+}
+
 void check_poissons_ratio(const Problem& problem, const CalibrationParameters& wanted, const ElasticTable& elastic)
 {
   const auto target = target_of(problem, ResponseScale::none);

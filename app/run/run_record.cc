@@ -51,7 +51,7 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["complete"] = contents.complete;
   if (!contents.failure.empty())
     json["failure"] = contents.failure;
-  write_whole_file(folder / record_name, json.dump(2) + "\n");
+  write_whole_file(folder / record_name, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 Contents read(const std::filesystem::path& folder)

@@ -93,7 +93,8 @@ inline std::vector<Entry<TestParameters>> test_entries()
     entry::optional_number(
       "Stop stress over peak", &P::stop_stress_over_peak, {'(', 0.0, 1.0, ')'},
       "a test stops when its deviator has fallen to this share of the peak's, instead of at a "
-      "multiple of the strain there; with Stop strain too, whichever comes first; a stage of own_loading "
+      "multiple of the strain there (a Brazilian disc: or at that multiple after its first fall); with Stop strain too, "
+      "whichever comes first; a stage of own_loading "
       "towards a higher axial stress is given up when its stress, after cracks, has fallen back "
       "to this share of its rise in the stage, none: 0.5",
       varies)};

@@ -21,9 +21,10 @@ bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure
   const bool is_far_beyond_peak = strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
   if (wanted.stop_stress_over_peak)
     {
-      // Halves of a disc that carry more than the whole did never fall to that share.
+      // After its first fall a disc may bear more than before and never fall to that share.
       const bool may_rise_again = peak.rule == PeakRule::first_before_a_fall && peak.fallen;
-      return deviator <= *wanted.stop_stress_over_peak * peak.highest || (may_rise_again && is_far_beyond_peak);
+      return deviator <= *wanted.stop_stress_over_peak * peak.highest ||
+             (may_rise_again && is_far_beyond_peak && !wanted.stop_strain);
     }
   if (wanted.stop_strain)
     return false;

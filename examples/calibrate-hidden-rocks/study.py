@@ -113,6 +113,7 @@ def merged(work):
                       "targets": {name: {key: of[key] for key in ("target", "target_standard_deviation", "reached",
                                                                    "standard_error", "n_packings")}
                                   for name, of in answer["targets"].items()},
+                      "strain_scale_effects": answer["strain_scale_effects"],
                       "parameters": {name: {"truth": truth[name],
                                             **{key: of[key] for key in ("best", "lower_90", "upper_90", "verdict")}}
                                      for name, of in answer["parameters"].items()}})
@@ -127,7 +128,7 @@ def holds(parameter):
 def print_tables():
     with open(RESULTS) as file:
         rocks = json.load(file)["rocks"]
-    print("| | truth held by the 90 % interval | best from truth, root mean square | determined, bounded, not determined |")
+    print("| | truth held by the 90 % interval | root-mean-square deviation of the answer | determined, bounded, not determined |")
     print("|---|---|---|---|")
     for name, heading, unit, _, lower, upper, is_factor in (
             *PARAMETERS, ("bond_cohesion", "bond cohesion [MPa]", 1e6, 0, 0, 0, True)):

@@ -43,6 +43,6 @@ struct HoekBrownFit
 FitOrReason<HoekBrownFit> fit_hoek_brown(const StrengthData& data, HoekBrownForm form, bool with_tension_point);
 
 /// m_i of intact rock by its strengths in compression: m of the intact form through these points, two of which suffice. None
-/// without a confined one beside the uniaxial one.
+/// without a confined one beside the uniaxial one, and where the deviator does not grow with the pressure.
 std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compression);
 } // namespace feldspar

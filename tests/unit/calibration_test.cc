@@ -359,6 +359,8 @@ TEST(Responses, GiveTheRockConstantOfHoekAndBrown)
   EXPECT_NEAR(*response.value(of_specimen), 25.0, 1e-4);
   EXPECT_FALSE(response.value({of_specimen[0]})) << "no confined test";
   EXPECT_FALSE(response.value({of_specimen[1]})) << "no uniaxial test";
+  EXPECT_FALSE(response.value({of_specimen[0], crushed(triaxial_compression.kind, 20e6, 178e6)}))
+    << "the deviator falls with the pressure: no m_i";
   // It goes with no scale: a rock of twice the bond strength has twice the strengths and the same m_i under twice the
   // pressure.
   EXPECT_EQ(response.scale, ResponseScale::ratio);
