@@ -48,6 +48,7 @@ OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packin
 
 
 PRESSURES_MPA = (5, 20, 60)
+MESHES = ((2, 4), (3, 6), (4, 8))  # elements across and along
 SLOW = "Tests/Compression strain rate = 0.25 1/s"
 CONFINED = (
     "Tests/List = triaxial_compression",
@@ -78,6 +79,18 @@ EXPERIMENTS = {
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
+for across, along in MESHES[1:]:
+    EXPERIMENTS[f"sample-{across}-by-{along}"] = Experiment(
+        "multiscale",
+        "sample",
+        with_seeds(
+            1,
+            1,
+            "Tests/List = uniaxial_compression",
+            f"Sample/Elements across = {across}",
+            f"Sample/Elements along = {along}",
+        ),
+    )
 for way, sizes in (("tension", SIZES_MM), ("compression", SIZES_MM[:3])):
     for size in sizes:
         EXPERIMENTS[f"boundaries-{way}-{size:g}-mm"] = Experiment(
@@ -384,6 +397,30 @@ def print_confined():
     print()
 
 
+def print_meshes():
+    """One seed on each mesh; four points an element, cells of one size."""
+    print("| elements | points | UCS [MPa] | strain at it [1e-3] | σ_ci [MPa] | E_0 [GPa] | over that of 2 × 4 elements |")
+    print("|---|---|---|---|---|---|---|")
+    base = None
+    for across, along in MESHES:
+        name = "sample" if (across, along) == MESHES[0] else f"sample-{across}-by-{along}"
+        for test in tests_of(name, "uniaxial_compression"):
+            if test["seed"] == 1:
+                strength = test["peak_stress_Pa"] / 1e6
+                base = base or strength
+                cells = [
+                    f"{across} × {along}",
+                    str(4 * across * along),
+                    f"{strength:.1f}",
+                    f"{test['strain_at_peak'] * 1e3:.1f}",
+                    f"{test['crack_initiation_stress_Pa'] / 1e6:.0f}",
+                    f"{test['youngs_modulus_initial_Pa'] / 1e9:.1f}",
+                    f"{strength / base:.2f}",
+                ]
+                print(f"| {' | '.join(cells)} |")
+    print()
+
+
 SAME_CELLS = (
     ("grains side by side, 1/s", "same-cells-grains"),
     ("periodic", "same-cells-sample"),
@@ -592,6 +629,7 @@ def main():
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
     print_dealings()
     print_confined()
+    print_meshes()
     print_same_cells()
     print_angles()
     print_weak_cells()

@@ -203,6 +203,29 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 }
 
+TEST(Example, TheReadmeOfSampleAndGrainsShowsItsMeshes)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  double coarsest = 0.0;
+  for (const auto& [elements, points, study] :
+       {std::tuple("2 × 4", 32, "sample"), {"3 × 6", 72, "sample-3-by-6"}, {"4 × 8", 128, "sample-4-by-8"}})
+    {
+      const auto tests = results_of("multiscale-and-grains", study)["tests"];
+      const auto first = std::find_if(tests.begin(), tests.end(), [](const auto& test) {
+        return test["kind"] == "uniaxial_compression" && test["seed"] == 1;
+      });
+      ASSERT_NE(first, tests.end());
+      const double strength = (*first)["peak_stress_Pa"];
+      coarsest = coarsest > 0.0 ? coarsest : strength;
+      EXPECT_NEAR(strength, coarsest, 0.05 * coarsest);
+      const std::string row =
+        fmt::format("\n| {} | {} | {} | {} | {} | {} | {:.2f} |\n", elements, points, number(strength, 1e6, 1),
+                    number((*first)["strain_at_peak"], 1e-3, 1), number((*first)["crack_initiation_stress_Pa"], 1e6, 0),
+                    number((*first)["youngs_modulus_initial_Pa"], 1e9, 1), strength / coarsest);
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 // T8: of the first five seeds, and each over the turned sample of its seed.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsHowCellsAreDealt)
 {
