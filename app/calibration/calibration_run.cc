@@ -116,8 +116,7 @@ private:
                                 elastic.largest().modulus_ratio, elastic.least().poissons_ratio,
                                 elastic.largest().poissons_ratio));
     start.point.assign(problem.unknowns.size(), 0.5);
-    start.log_strength = std::log(problem.has_strength ? first_bond_strength(problem, fixed.bond_tensile_strength)
-                                                       : fixed.bond_tensile_strength);
+    start.log_strength = std::log(first_guess(problem, fixed).bond_tensile_strength);
     const MicroParameters middle = parameters_at(start.point, problem.unknowns, fixed);
     const auto modulus = target_of(problem, ResponseScale::modulus);
     start.log_modulus = std::log(

@@ -30,9 +30,6 @@ Problem problem_of(const Input& input);
 /// The target of a scale, the first if there are several [SI].
 std::optional<double> target_of(const Problem& problem, ResponseScale scale);
 
-/// A scale to begin with, of flat joints as they usually are: σ_t is some 0.45 of the bonds' strength, UCS some 7 times.
-double first_bond_strength(const Problem& problem, double otherwise);
-
 /// `fixed` with the scales of the targets: a rough one of stiffness, cells having some 0.8 of the modulus of their joints.
 MicroParameters first_guess(const Problem& problem, const MicroParameters& fixed);
 

@@ -130,8 +130,8 @@ def print_tables():
         rocks = json.load(file)["rocks"]
     print("| | truth held by the 90 % interval | root-mean-square deviation of the answer | determined, bounded, not determined |")
     print("|---|---|---|---|")
-    for name, heading, unit, _, lower, upper, is_factor in (
-            *PARAMETERS, ("bond_cohesion", "bond cohesion [MPa]", 1e6, 0, 0, 0, True)):
+    derived = ("bond_cohesion", "bond cohesion [MPa]", 1e6, 0, None, None, True)
+    for name, heading, unit, *_, is_factor in (*PARAMETERS, derived):
         of = [rock["parameters"][name] for rock in rocks]
         if is_factor:
             off = math.sqrt(statistics.mean((p["best"] / p["truth"] - 1.0) ** 2 for p in of))
@@ -157,12 +157,12 @@ def print_tables():
 def main():
     if len(sys.argv) > 2:
         feldspar, work = os.path.realpath(sys.argv[1]), os.path.realpath(sys.argv[2])
+        subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), feldspar], check=True)
         os.makedirs(work, exist_ok=True)
         for rock in map(int, sys.argv[3:] or range(1, N_ROCKS + 1)):
             calibrate(feldspar, work, rock)
         if not all(os.path.exists(os.path.join(work, f"rock-{rock}", "calibration.json")) for rock in range(1, N_ROCKS + 1)):
             return
-        os.makedirs(os.path.dirname(RESULTS), exist_ok=True)
         with open(RESULTS, "w") as file:
             json.dump(merged(work), file, indent=2)
             file.write("\n")

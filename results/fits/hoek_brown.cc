@@ -351,8 +351,8 @@ std::optional<double> rock_constant(const std::vector<EnvelopePoint>& in_compres
   if (uniaxial == in_compression.end() || std::none_of(in_compression.begin(), in_compression.end(), is_confined))
     return std::nullopt;
   const auto answer = fit_hoek_brown({in_compression, uniaxial->sigma_1, std::nullopt}, HoekBrownForm::intact, false);
-  constexpr double on_its_bound =
-    1e-6; // no curve through a confined strength that exceeds the uniaxial one by its pressure or less
+  // No curve goes through a confined strength that exceeds the uniaxial one by its pressure or less.
+  constexpr double on_its_bound = 1e-6;
   return answer.fit && answer.fit->m.value > on_its_bound ? std::optional(answer.fit->m.value) : std::nullopt;
 }
 } // namespace feldspar

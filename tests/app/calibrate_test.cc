@@ -223,6 +223,10 @@ TEST(Calibrate, RefusesWhatCannotBeCalibrated)
                  reference, "Calibration/Design points = 5: must be at least 6 for 3 unknown ratios");
   expect_mistake(small_calibration + "subsection Flaws\n  set Shapes = hole centre 6, 12 mm radius 2 mm\nend\n",
                  reference, "Flaws: a calibration is of the intact rock; take the section out");
+  expect_mistake(replaced(replaced(small_calibration, "set Width", "set Dimension = 3\n  set Width"), "set Stop stress",
+                          "set List = uniaxial_compression, triaxial_compression\n  set Confinements = 10 MPa\n"
+                          "  set Intermediate stress = 20 MPa\n  set Stop stress"),
+                 reference, "Tests/Intermediate stress: a calibration presses its specimens alike from all sides");
   // At once, before anything is broken.
   expect_mistake(replaced(small_calibration, "set Tolerance", "set Poissons ratio = initial\n  set Tolerance"),
                  replaced(reference, "\"youngs", "\"poissons_ratio\": 0.35, \"youngs"),
