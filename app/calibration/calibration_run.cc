@@ -110,7 +110,7 @@ private:
     progress.start("elastic constants of intact cells");
     const MicroParameters fixed = micro_parameters(input);
     const ElasticTable elastic =
-      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap, progress);
+      elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap, run.folder, progress);
     check_poissons_ratio(problem, wanted, elastic);
     progress.finish(fmt::format("E {:.2f} to {:.2f} of the joints', nu {:.3f} to {:.3f}", elastic.least().modulus_ratio,
                                 elastic.largest().modulus_ratio, elastic.least().poissons_ratio,

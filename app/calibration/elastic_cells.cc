@@ -1,8 +1,10 @@
 #include "app/calibration/elastic_cells.h"
 
 #include "app/calibration/calibrated_input.h"
+#include "app/calibration/kept_values.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
+#include "app/run/run_record.h"
 #include "coupling/network/network.h"
 #include "coupling/rve/homogenisation.h"
 #include "dem/genesis/genesis.h"
@@ -12,7 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace feldspar::calibration
@@ -52,49 +56,71 @@ Input cell_of(const Input& input)
 
 template <int dim>
 ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
-                               const std::optional<Bounds>& gap, const double gap_of_specimens, Progress& progress)
+                               const std::optional<Bounds>& gap, const double gap_of_specimens,
+                               const std::filesystem::path& folder, Progress& progress)
 {
   constexpr std::size_t n_packings = 3;
   constexpr std::size_t n_ratios = 17;
   constexpr std::size_t n_gaps = 9;
   const Input cell = cell_of(input);
-  std::vector<Specimen<dim>> packings(n_packings);
-  for_each_job(n_packings, [&](const std::size_t k) { packings[k] = packing_of<dim>(cell, k + 1); });
+  const std::filesystem::path kept = folder / "calibration";
+  std::filesystem::create_directories(kept);
 
   const std::vector<double> ratios =
     stiffness_ratio ? spread(*stiffness_ratio, n_ratios) : std::vector{input.flat_joint.stiffness_ratio};
   const std::vector<double> gaps = gap ? spread(*gap, n_gaps) : std::vector{gap_of_specimens};
   using Constants = ElasticTable::Constants;
   std::vector<std::vector<Constants>> constants(gaps.size(), std::vector<Constants>(ratios.size()));
-  const std::size_t n_jobs = gaps.size() * ratios.size();
+  struct Order
+  {
+    std::size_t gap, ratio;
+    Input rock;
+    std::filesystem::path file;
+    std::string identity;
+  };
+  std::vector<Order> orders; // that no earlier run has carried out
+  for (std::size_t g = 0; g < gaps.size(); ++g)
+    for (std::size_t r = 0; r < ratios.size(); ++r)
+      {
+        MicroParameters parameters = micro_parameters(cell);
+        parameters.stiffness_ratio = ratios[r];
+        parameters.gap = gaps[g];
+        const std::string name = fmt::format("elastic_gap_{}_ratio_{}", g, r);
+        Order order{g, r, with_parameters(cell, parameters), kept / (name + ".json"), ""};
+        order.identity = run_identity(order.rock, name);
+        if (const auto values = read_values(order.file, order.identity, 2); values && (*values)[0] && (*values)[1])
+          constants[g][r] = {*(*values)[0], *(*values)[1]};
+        else
+          orders.push_back(std::move(order));
+      }
+  std::vector<Specimen<dim>> packings(orders.empty() ? 0 : n_packings);
+  for_each_job(packings.size(), [&](const std::size_t k) { packings[k] = packing_of<dim>(cell, k + 1); });
+
   std::mutex showing;
   std::size_t n_done = 0;
   const auto show = [&](const std::size_t n_more) {
     const std::lock_guard lock(showing);
     n_done += n_more;
-    progress.update(double(n_done) / double(n_jobs), fmt::format("{} of {} done", n_done, n_jobs));
+    progress.update(orders.empty() ? 1.0 : double(n_done) / double(orders.size()),
+                    fmt::format("{} of {} done", n_done, orders.size()));
   };
   show(0);
-  for_each_job(n_jobs, [&](const std::size_t job) {
+  for_each_job(orders.size(), [&](const std::size_t job) {
     end_if_interrupted();
-    const std::size_t g = job / ratios.size();
-    const std::size_t r = job % ratios.size();
-    MicroParameters parameters = micro_parameters(cell);
-    parameters.stiffness_ratio = ratios[r];
-    parameters.gap = gaps[g];
-    const Input rock = with_parameters(cell, parameters);
+    const Order& order = orders[job];
     Constants mean{0.0, 0.0};
     for (const Specimen<dim>& packing : packings)
       {
         Specimen<dim> specimen = packing;
         specimen.joints = {};
-        specimen.particle_contact = rock.particle_contact;
-        install_joints(specimen, rock.flat_joint);
+        specimen.particle_contact = order.rock.particle_contact;
+        install_joints(specimen, order.rock.flat_joint);
         const IsotropicConstants of_cell = isotropic_constants<dim>(Network<dim>(specimen).intact_stiffness());
-        mean.modulus_ratio += of_cell.youngs_modulus / rock.flat_joint.modulus / double(n_packings);
+        mean.modulus_ratio += of_cell.youngs_modulus / order.rock.flat_joint.modulus / double(n_packings);
         mean.poissons_ratio += of_cell.poissons_ratio / double(n_packings);
       }
-    constants[g][r] = mean;
+    constants[order.gap][order.ratio] = mean;
+    write_values(order.file, order.identity, {mean.modulus_ratio, mean.poissons_ratio});
     show(1);
   });
   return {ratios, gaps, constants};
@@ -109,9 +135,9 @@ Specimen<dim> packing_of(const Input& input, const std::uint64_t seed)
 }
 
 template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double, Progress&);
+                                           double, const std::filesystem::path&, Progress&);
 template ElasticTable elastic_constants<3>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,
-                                           double, Progress&);
+                                           double, const std::filesystem::path&, Progress&);
 template Specimen<2> packing_of<2>(const Input&, std::uint64_t);
 template Specimen<3> packing_of<3>(const Input&, std::uint64_t);
 } // namespace feldspar::calibration

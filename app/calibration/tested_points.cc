@@ -1,64 +1,29 @@
 #include "app/calibration/tested_points.h"
 
 #include "app/calibration/calibrated_input.h"
+#include "app/calibration/kept_values.h"
 #include "app/programme/lab_run.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
-#include "base/json_text.h"
-#include "base/whole_file.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace feldspar::calibration
 {
 namespace
 {
-using Values = std::vector<std::optional<double>>;
-
-/// The contents of a point's file, if it belongs to this point, program and input.
-std::optional<Values> read_values(const std::filesystem::path& file, const std::string& identity, const std::size_t n)
-{
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return std::nullopt;
-  const auto json = nlohmann::ordered_json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
-  if (!json.is_object() || !json.contains("identity") || json["identity"] != identity || !json.contains("values") ||
-      !json["values"].is_array() || json["values"].size() != n)
-    return std::nullopt; // torn, or of another program: it is made again
-  Values values;
-  for (const auto& value : json["values"])
-    {
-      if (!value.is_number() && !value.is_null())
-        return std::nullopt;
-      values.push_back(value.is_number() ? std::optional(value.get<double>()) : std::nullopt);
-    }
-  return values;
-}
-
-void write_values(const std::filesystem::path& file, const std::string& identity, const Values& values)
-{
-  nlohmann::ordered_json json{{"identity", identity}, {"values", nlohmann::ordered_json::array()}};
-  for (const auto& value : values)
-    json["values"].push_back(value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json());
-  write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
 /// The strain at which a test will probably end.
 double expected_end(const TestCase& test, const Input& rock)
 {

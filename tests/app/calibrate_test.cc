@@ -151,7 +151,10 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   stop_when("rock.prm --output cut --threads 2", "design_1_seed_5.json", "KILL");
   ASSERT_TRUE(fs::exists(folder.path() / "cut/calibration/design_1_seed_5.json")) << "it had not begun";
   EXPECT_FALSE(fs::exists(folder.path() / "cut/calibration.json")) << "it had ended";
+  const fs::path of_a_cell = folder.path() / "cut/calibration/elastic_gap_0_ratio_0.json";
+  const auto time_of_the_cell = fs::last_write_time(of_a_cell);
   stop_when("--resume cut --threads 1", "step_1_0_seed_7.json", "INT");
+  EXPECT_EQ(fs::last_write_time(of_a_cell), time_of_the_cell) << "elastic cells were made again";
   const auto end = run_feldspar(folder.path(), "calibrate --resume cut --quiet --threads 2");
   ASSERT_TRUE(end.exit_code == 0 || end.exit_code == 2) << end.error;
   for (const char* const file : {"design.csv", "posterior.csv"})
