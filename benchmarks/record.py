@@ -4,7 +4,7 @@
     benchmarks/record.py BUILD PROGRAM ...
 
 BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. PROGRAM: dynamics_benchmark, space_benchmark,
-representative_volume_benchmark, explicit_volume_benchmark or contact_models_benchmark. Each gets results/PROGRAM.json
+representative_volume_benchmark, factor_benchmark, explicit_volume_benchmark or contact_models_benchmark. Each gets results/PROGRAM.json
 beside this file (with - for _): version, compiler flags and processor, and of each benchmark the least processor time of
 three runs with its counters. On a machine that does nothing else.
 """

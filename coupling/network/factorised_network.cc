@@ -1,7 +1,5 @@
 #include "coupling/network/factorised_network.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 
@@ -17,88 +15,20 @@ std::array<Eigen::Index, 2> first_motions(const Link<dim>& link)
 } // namespace
 
 template <int dim>
-StiffnessPattern<dim>::StiffnessPattern(const std::vector<Link<dim>>& links, const std::size_t n_grains)
-{
-  constexpr int n = n_motions<dim>;
-  std::vector<Eigen::Triplet<double>> neighbours;
-  for (const Link<dim>& link : links)
-    {
-      neighbours.emplace_back(int(link.grain_1), int(link.grain_2), 1.0);
-      neighbours.emplace_back(int(link.grain_2), int(link.grain_1), 1.0);
-    }
-  for (std::size_t i = 0; i < n_grains; ++i)
-    neighbours.emplace_back(int(i), int(i), 1.0);
-  Eigen::SparseMatrix<double> graph{Eigen::Index(n_grains), Eigen::Index(n_grains)};
-  graph.setFromTriplets(neighbours.begin(), neighbours.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph, order);
-
-  row_of_motion.resize(n * Eigen::Index(n_grains));
-  for (Eigen::Index k = 0; k < Eigen::Index(n_grains); ++k)
-    for (int c = 0; c < n; ++c)
-      row_of_motion[n * Eigen::Index(order.indices()[k]) + c] = int(n * k + c);
-
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < row_of_motion.size(); ++i)
-    entries.emplace_back(int(i), int(i), 0.0);
-  const auto for_each_entry = [&](const Link<dim>& link, const auto& visit) {
-    const auto first = first_motions(link);
-    for (int c = 0; c < 2 * n; ++c)
-      for (int r = 0; r < 2 * n; ++r)
-        {
-          const int row = row_of_motion[first[r / n] + r % n];
-          const int column = row_of_motion[first[c / n] + c % n];
-          if (row >= column)
-            visit(row, column, r, c);
-        }
-  };
-  for (const Link<dim>& link : links)
-    for_each_entry(link, [&](const int row, const int column, int, int) { entries.emplace_back(row, column, 0.0); });
-  lower.resize(row_of_motion.size(), row_of_motion.size());
-  lower.setFromTriplets(entries.begin(), entries.end());
-  lower.makeCompressed();
-
-  first_slot.push_back(0);
-  for (const Link<dim>& link : links)
-    {
-      for_each_entry(link, [&](const int row, const int column, const int r, const int c) {
-        const int* const begin = lower.innerIndexPtr() + lower.outerIndexPtr()[column];
-        const int* const end = lower.innerIndexPtr() + lower.outerIndexPtr()[column + 1];
-        slots.push_back({std::uint32_t(std::lower_bound(begin, end, row) - lower.innerIndexPtr()), std::uint16_t(r),
-                         std::uint16_t(c)});
-      });
-      first_slot.push_back(std::uint32_t(slots.size()));
-    }
-}
-
-template <int dim>
-void StiffnessPattern<dim>::add(const std::vector<Link<dim>>& links, const std::size_t link,
-                                const JointStiffness<dim>& stiffness, Eigen::SparseMatrix<double>& sum) const
-{
-  const LinkGradient<dim>& gradient = links[link].by_grains;
-  const Eigen::Matrix<double, 2 * n_motions<dim>, 2 * n_motions<dim>> of_link =
-    gradient.transpose() * (stiffness * gradient);
-  double* const values = sum.valuePtr();
-  for (std::uint32_t k = first_slot[link]; k < first_slot[link + 1]; ++k)
-    values[slots[k].value] += of_link(slots[k].row, slots[k].column);
-}
-
-template <int dim>
-FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern<dim>& where,
+FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern& pattern,
                                           std::shared_ptr<const BoundaryConditions<dim>> admitted,
                                           const StiffnessOf<dim>& stiffness_of, const Motion<dim>& lent)
-  : pattern(where)
-  , its_conditions(std::move(admitted))
+  : its_conditions(std::move(admitted))
   , of_strains(Stiffness<dim>::Zero())
 {
   constexpr int n = n_motions<dim>;
-  const Eigen::Index n_own = pattern.place().size();
-  Eigen::SparseMatrix<double> matrix = pattern.matrix();
+  const Eigen::Index n_own = n * Eigen::Index(pattern.n_grains());
+  const auto made = std::make_shared<BlockFactor<dim>>(pattern);
   Eigen::MatrixXd of_unit_strains = Eigen::MatrixXd::Zero(n_own, n_voigt<dim>);
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (const JointStiffness<dim>* const stiffness = stiffness_of(k))
       {
-        pattern.add(links, k, *stiffness, matrix);
+        made->add(links[k], k, *stiffness);
         const LinkStrainGradient<dim>& by_strain = links[k].by_strain;
         const Eigen::Matrix<double, 2 * n, n_voigt<dim>> forces =
           links[k].by_grains.transpose() * (*stiffness * by_strain);
@@ -108,30 +38,22 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
         of_strains += by_strain.transpose() * *stiffness * by_strain;
       }
   coupling = std::make_shared<const Eigen::MatrixXd>(std::move(of_unit_strains));
-  const auto diagonal_of = [&](const Eigen::Index i) -> double& {
-    return matrix.valuePtr()[matrix.outerIndexPtr()[pattern.place()[i]]]; // it leads its column
-  };
-  for (Eigen::Index i = 0; i < n_own; ++i)
-    diagonal_of(i) += diagonal_of(i) > 0.0 ? lent[i % n] : lent[i % n] + 1.0;
+  for (std::size_t i = 0; i < pattern.n_grains(); ++i)
+    for (int c = 0; c < n; ++c)
+      {
+        const double present = made->diagonal(i, c);
+        made->set_diagonal(i, c, present + (present > 0.0 ? lent[c] : lent[c] + 1.0));
+      }
   constexpr double rigid = 1e12; // over its own stiffness
   for (const std::uint32_t grain : its_conditions->held())
     for (int c = 0; c < dim; ++c)
-      diagonal_of(n * Eigen::Index(grain) + c) *= rigid;
-  const auto made = std::make_shared<Factor>();
-  made->analyzePattern(matrix);
-  made->factorize(matrix);
+      made->set_diagonal(grain, c, rigid * made->diagonal(grain, c));
+  made->factorise();
   factor = made;
   condense();
 
-  // Factorising takes the squares of the columns' lengths, a solution and the rest of an iteration some ten a value.
-  const auto& columns = factor->matrixL().nestedExpression();
-  double squares = 0.0;
-  for (Eigen::Index c = 0; c < n_own; ++c)
-    {
-      const double length = columns.outerIndexPtr()[c + 1] - columns.outerIndexPtr()[c];
-      squares += length * length;
-    }
-  cost = unsigned(std::clamp(squares / (10.0 * double(columns.nonZeros())), 8.0, 1000.0));
+  constexpr double iteration_over_solution = 2.0; // it also applies the matrix
+  cost = unsigned(std::clamp(made->cost_of_factor() / iteration_over_solution, 8.0, 1000.0));
 }
 
 template <int dim>
@@ -178,14 +100,10 @@ Eigen::VectorXd FactorisedNetwork<dim>::solve_unconditioned(const Eigen::VectorX
     for (Eigen::Index i = 0; i < n_grains; ++i)
       mean += forces.segment<n>(n * i) / double(n_grains);
   mean.template tail<n_rotations<dim>>().setZero();
-  Eigen::VectorXd ordered(forces.size());
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    ordered[pattern.place()[i]] = forces[i] - mean[i % n];
-  ordered = factor->solve(ordered).eval();
-  Eigen::VectorXd motions(forces.size());
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    motions[i] = ordered[pattern.place()[i]];
-  return motions;
+  Eigen::VectorXd balanced = forces;
+  for (Eigen::Index i = 0; i < n_grains; ++i)
+    balanced.segment<n>(n * i) -= mean;
+  return factor->solve(balanced);
 }
 
 template <int dim>
@@ -234,8 +152,6 @@ Unknowns FactorisedNetwork<dim>::solve(const Unknowns& forces,
   return result;
 }
 
-template class StiffnessPattern<2>;
 template class FactorisedNetwork<2>;
-template class StiffnessPattern<3>;
 template class FactorisedNetwork<3>;
 } // namespace feldspar

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "coupling/network/block_factor.h"
 #include "coupling/network/boundary_conditions.h"
 #include "coupling/network/link.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 
 #include <cstdint>
 #include <functional>
@@ -18,35 +18,6 @@ static_assert(EIGEN_MALLOC_ALREADY_ALIGNED && EIGEN_DEFAULT_ALIGN_BYTES == 16,
 
 namespace feldspar
 {
-/// Where the stiffness of each link goes in the matrix of a network's grains, whose grains are ordered for little fill.
-template <int dim>
-class StiffnessPattern
-{
-public:
-  StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains);
-
-  /// The lower triangle, all zero.
-  const Eigen::SparseMatrix<double>& matrix() const { return lower; }
-  /// Row of each motion; [n_motions * n_grains].
-  const Eigen::VectorXi& place() const { return row_of_motion; }
-  /// Adds Gᵀ D G of a link to the values of a matrix of this pattern.
-  void add(const std::vector<Link<dim>>& links, std::size_t link, const JointStiffness<dim>& stiffness,
-           Eigen::SparseMatrix<double>& sum) const;
-
-private:
-  /// An entry of the lower triangle and the one of a link's matrix that goes there.
-  struct Slot
-  {
-    std::uint32_t value;
-    std::uint16_t row, column;
-  };
-
-  Eigen::SparseMatrix<double> lower;
-  Eigen::VectorXi row_of_motion;
-  std::vector<std::uint32_t> first_slot; ///< of each link, [n_links + 1]
-  std::vector<Slot> slots;
-};
-
 /// Stiffness of a link, or nothing where it has none at present.
 template <int dim>
 using StiffnessOf = std::function<const JointStiffness<dim>*(std::uint32_t link)>;
@@ -59,7 +30,7 @@ class FactorisedNetwork
 public:
   /// `lent`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
   /// Motions are those that the conditions admit.
-  FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern<dim>& pattern,
+  FactorisedNetwork(const std::vector<Link<dim>>& links, const StiffnessPattern& pattern,
                     std::shared_ptr<const BoundaryConditions<dim>> conditions, const StiffnessOf<dim>& stiffness_of,
                     const Motion<dim>& lent);
 
@@ -81,11 +52,8 @@ private:
   Eigen::VectorXd solve_unconditioned(const Eigen::VectorXd& forces) const;
   void condense();
 
-  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-
-  const StiffnessPattern<dim>& pattern;
   std::shared_ptr<const BoundaryConditions<dim>> its_conditions;
-  std::shared_ptr<const Factor> factor;
+  std::shared_ptr<const BlockFactor<dim>> factor;
   std::shared_ptr<const Eigen::MatrixXd> coupling; ///< forces on grains under unit strains; [n_own × n_voigt]
   Stiffness<dim> of_strains;                       ///< volume × stiffness without motions of the grains [N m]
   Eigen::MatrixXd of_multipliers;                  ///< motions under the unit multipliers of the conditions

@@ -211,7 +211,7 @@ Unknowns Network<dim>::apply_bonded(const Unknowns& unknowns) const
 template <int dim>
 void Network<dim>::factorise_intact()
 {
-  pattern = std::make_unique<StiffnessPattern<dim>>(all_links, number_of_grains);
+  pattern = std::make_unique<StiffnessPattern>(all_links, number_of_grains);
   // Displacements and turns have their own scale each.
   stiffness_scale.setZero();
   for (std::size_t j = 0; j < number_of_joints; ++j)

@@ -139,7 +139,7 @@ private:
   std::vector<std::uint32_t> unbonded_at_rest;
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
-  std::unique_ptr<StiffnessPattern<dim>> pattern; ///< on the heap: what is factorised refers to it
+  std::unique_ptr<StiffnessPattern> pattern; ///< on the heap: what is factorised refers to it
   std::unique_ptr<FactorisedNetwork<dim>> factorised;
   std::unique_ptr<FactorisedNetwork<dim>> factorised_all;
   Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "base/simd_transpose.h"
+#include "coupling/network/stiffness_pattern.h"
+
+#include <type_traits>
+#include <vector>
+
+namespace feldspar
+{
+/// A symmetric matrix of a network's grains, then its factor L D Lᵀ, in blocks of the motions of two grains. A column of a
+/// block is one vector of the processor, with zeros below the motions of a grain: most of the time of a damaged
+/// representative volume goes into solving with this factor. A factor of Eigen's, number by number, takes four times as
+/// long, and CHOLMOD, by blocks of any size, no less than Eigen (benchmarks/README.md); its results would also depend on
+/// the library of linear algebra that a machine has. Sums are in one order, so that every processor gives the same bits.
+template <int dim>
+class BlockFactor
+{
+public:
+  using Column = std::conditional_t<dim == 2, simd::Four, simd::Eight>;
+
+  /// All zero.
+  explicit BlockFactor(const StiffnessPattern& pattern);
+
+  /// Adds Gᵀ D G of a link to the matrix.
+  void add(const Link<dim>& link, std::size_t number, const JointStiffness<dim>& stiffness);
+  /// The entry of a motion of a grain on the diagonal of the matrix.
+  double diagonal(std::size_t grain, int motion) const;
+  void set_diagonal(std::size_t grain, int motion, double value);
+
+  /// From the matrix to its factor; the matrix is positive definite.
+  void factorise();
+
+  /// x of A x = b; [n_motions * n_grains], grain by grain.
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+  /// Operations of factorise() over those of solve(), roughly.
+  double cost_of_factor() const;
+
+private:
+  static constexpr int n = n_motions<dim>;
+
+  void factorise_diagonal(std::size_t k);
+
+  const StiffnessPattern& pattern;
+  std::vector<Column> diagonals; ///< n for each grain, in their places
+  std::vector<Column> blocks;    ///< n for each block
+  std::vector<Column> pivots;    ///< D
+  std::vector<Column> inverse_pivots;
+};
+} // namespace feldspar

@@ -1,0 +1,89 @@
+#include "coupling/network/stiffness_pattern.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <iterator>
+
+namespace feldspar
+{
+namespace
+{
+/// The place of each grain.
+template <int dim>
+std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>& links, const std::size_t n_grains)
+{
+  std::vector<Eigen::Triplet<double>> neighbours;
+  for (const Link<dim>& link : links)
+    {
+      neighbours.emplace_back(int(link.grain_1), int(link.grain_2), 1.0);
+      neighbours.emplace_back(int(link.grain_2), int(link.grain_1), 1.0);
+    }
+  for (std::size_t i = 0; i < n_grains; ++i)
+    neighbours.emplace_back(int(i), int(i), 1.0);
+  Eigen::SparseMatrix<double> graph{Eigen::Index(n_grains), Eigen::Index(n_grains)};
+  graph.setFromTriplets(neighbours.begin(), neighbours.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(graph, order);
+  std::vector<std::uint32_t> places(n_grains);
+  for (std::size_t k = 0; k < n_grains; ++k)
+    places[std::size_t(order.indices()[Eigen::Index(k)])] = std::uint32_t(k);
+  return places;
+}
+} // namespace
+
+template <int dim>
+StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const std::size_t n_grains)
+  : places(ordered_for_little_fill(links, n_grains))
+{
+  std::vector<std::vector<std::uint32_t>> neighbours(n_grains); // of each column, in rows below it
+  for (const Link<dim>& link : links)
+    if (link.grain_1 != link.grain_2)
+      {
+        const auto [column, row] = std::minmax({places[link.grain_1], places[link.grain_2]});
+        neighbours[column].push_back(row);
+      }
+  find_fill(neighbours);
+  for (const Link<dim>& link : links)
+    {
+      const std::uint32_t first = places[link.grain_1], second = places[link.grain_2];
+      of_link.push_back({first, second,
+                         first == second ? none : block_at(std::max(first, second), std::min(first, second)),
+                         first < second});
+    }
+}
+
+/// Eliminating a grain couples all the later ones that it is coupled with; it is enough to hand them on to the first of these.
+void StiffnessPattern::find_fill(const std::vector<std::vector<std::uint32_t>>& neighbours)
+{
+  const std::size_t n = neighbours.size();
+  std::vector<std::vector<std::uint32_t>> columns = neighbours;
+  of_row.resize(n);
+  first_blocks.push_back(0);
+  for (std::size_t c = 0; c < n; ++c)
+    {
+      auto& column = columns[c];
+      std::sort(column.begin(), column.end());
+      column.erase(std::unique(column.begin(), column.end()), column.end());
+      if (column.size() > 1)
+        columns[column.front()].insert(columns[column.front()].end(), std::next(column.begin()), column.end());
+      for (const std::uint32_t row : column)
+        {
+          of_row[row].push_back({std::uint32_t(c), std::uint32_t(rows.size())});
+          rows.push_back(row);
+        }
+      first_blocks.push_back(std::uint32_t(rows.size()));
+    }
+}
+
+std::uint32_t StiffnessPattern::block_at(const std::uint32_t row, const std::uint32_t column) const
+{
+  const auto begin = rows.begin() + first_blocks[column];
+  const auto end = rows.begin() + first_blocks[column + 1];
+  return std::uint32_t(std::lower_bound(begin, end, row) - rows.begin());
+}
+
+template StiffnessPattern::StiffnessPattern(const std::vector<Link<2>>&, std::size_t);
+template StiffnessPattern::StiffnessPattern(const std::vector<Link<3>>&, std::size_t);
+} // namespace feldspar
