@@ -185,7 +185,7 @@ std::string shown(const ParameterAnswer& answer, const double value)
   return fmt::format("{:.3g}", value / answer.unit_size);
 }
 
-std::string sentence_of(const ParameterAnswer& answer, const std::string& helpful_title)
+std::string sentence_of(const ParameterAnswer& answer, const std::string& helpful_title, const bool has_confined_tests)
 {
   const std::string unit = answer.unit.empty() ? "" : " " + answer.unit;
   std::string text =
@@ -193,8 +193,10 @@ std::string sentence_of(const ParameterAnswer& answer, const std::string& helpfu
                 words(answer.verdict), shown(answer, answer.lower_90), shown(answer, answer.upper_90), unit);
   if (answer.verdict == Determination::determined)
     return text + ".";
-  return text + (helpful_title.empty() ? "; no other test of the programme would tell more of it."
-                                       : fmt::format("; a measured {} would help most.", helpful_title));
+  if (!helpful_title.empty())
+    return text + fmt::format("; a measured {} would help most.", helpful_title);
+  text += "; no other test of the programme would tell more of it.";
+  return has_confined_tests ? text : text + " The programme has no triaxial compression, which may.";
 }
 } // namespace
 
@@ -255,6 +257,9 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
           {j, response.in_si(median), response.in_si(median - below), response.in_si(median + above)});
       }
 
+  bool has_confined_tests = false;
+  for (std::size_t j = 0; j < model.n_responses(); ++j)
+    has_confined_tests |= model.response(j).name.starts_with("strength_at_");
   const MicroParameters at_best = model.parameters(best);
   for (const Quantity& quantity : quantities(model, freedom))
     {
@@ -303,7 +308,7 @@ Posterior posterior(const ResponseModel& model, const std::vector<Target>& targe
               helpful_title = model.response(j).title;
             }
         }
-      answer.sentence = sentence_of(answer, helpful_title);
+      answer.sentence = sentence_of(answer, helpful_title, has_confined_tests);
       result.parameters.push_back(answer);
     }
   return result;

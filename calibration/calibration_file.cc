@@ -4,6 +4,8 @@
 #include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -148,14 +150,23 @@ void write_calibration(const Provenance& made_by, const CalibrationOutcome& outc
     json["modulus_of_specimens_over_cells"] = *outcome.modulus_of_specimens_over_cells;
   json["n_steps"] = outcome.n_steps;
   write_whole_file(folder / calibration_file::answer, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_design(model, tested, folder);
+  if (!outcome.posterior.samples.empty())
+    write_whole_file(folder / calibration_file::posterior, posterior_table(outcome, model));
+}
+
+void write_design(const ResponseModel& model, const std::vector<TestedPoint>& tested,
+                  const std::filesystem::path& folder)
+{
   write_whole_file(folder / calibration_file::design, design_table(model, tested));
-  write_whole_file(folder / calibration_file::posterior, posterior_table(outcome, model));
 }
 
 std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model)
 {
+  const bool was_tested =
+    std::any_of(outcome.targets.begin(), outcome.targets.end(), [](const auto& target) { return target.reached; });
   std::string text;
-  text += fmt::format("{:44} {:>10} {:>19} {:>10}\n", "", "target", "reached", "deviation");
+  text += fmt::format("{:44} {:>10} {:>19} {:>10}\n", "", "target", was_tested ? "reached" : "predicted", "deviation");
   for (const TargetOutcome& target : outcome.targets)
     {
       const Response& response = model.response(target.target.response);
@@ -170,6 +181,9 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
                     response.unit.empty() ? response.title : fmt::format("{} [{}]", response.title, response.unit),
                     shown(target.target.value), reached, 100.0 * target.deviation());
     }
+  if (outcome.posterior.parameters.empty())
+    return text + fmt::format("\nThe parameters that come nearest stand in {}.\n\n{}\n", calibration_file::nearest,
+                              outcome.statement);
   text += fmt::format("\n{:44} {:>10} {:>10} {:>19}  {}\n", "", "best", "median", "90 % interval", "verdict");
   for (const ParameterAnswer& answer : outcome.posterior.parameters)
     {
@@ -189,7 +203,7 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
       const char* comma = "";
       for (const auto& [name, effect] : outcome.scale_effects)
         {
-          text += fmt::format("{} {} by {:+.1f} %", comma, name, 100.0 * effect);
+          text += fmt::format("{} {} by {:+.1f} %", comma, model.title(name), 100.0 * effect);
           comma = ",";
         }
       text += ".\n";

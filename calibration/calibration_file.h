@@ -39,9 +39,13 @@ struct CalibrationOutcome
   MicroParameters best{};
 };
 
-/// Writes calibration.json, design.csv and posterior.csv.
+/// Writes calibration.json, design.csv and, where there are samples, posterior.csv.
 void write_calibration(const Provenance& made_by, const CalibrationOutcome& outcome, const ResponseModel& model,
                        const std::vector<TestedPoint>& tested, const std::filesystem::path& folder);
+
+/// Writes design.csv alone.
+void write_design(const ResponseModel& model, const std::vector<TestedPoint>& tested,
+                  const std::filesystem::path& folder);
 
 /// For a terminal: targets, then parameters, then a sentence each.
 std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& model);

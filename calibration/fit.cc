@@ -3,7 +3,6 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -13,25 +12,50 @@ namespace
 {
 constexpr double weight_of_middle = 0.1; // its square beside 1 for a deviation of one tolerance
 
-Place place_of(const double* x, const std::size_t n) { return {UnitPoint(x, x + n), x[n], x[n + 1]}; }
-
 /// Deviations over the tolerance, then distances from the middle.
 struct Residuals
 {
   const ResponseModel& model;
   const std::vector<Target>& targets;
+  const FitFreedom& freedom;
+  const Place& start;
   std::vector<double> widths; ///< of the targets, in the model's measure
+
+  double deviation(const std::size_t t, const Place& place) const
+  {
+    const Response& response = model.response(targets[t].response);
+    return (model.predict(targets[t].response, place) - response.in_model(targets[t].value)) / widths[t];
+  }
+
+  /// Of all places with these ratios the nearest. A scale adds to the logarithms of its own responses, so that the best one
+  /// makes their weighted deviations sum up to nothing.
+  Place place_at(const double* const ratios) const
+  {
+    Place place{UnitPoint(ratios, ratios + model.unknowns().size()), start.log_modulus, start.log_strength};
+    const auto set_scale = [&](const ResponseScale of, double& log_scale) {
+      double sum = 0.0, weights = 0.0;
+      for (std::size_t t = 0; t < targets.size(); ++t)
+        if (model.response(targets[t].response).scale == of)
+          {
+            sum += deviation(t, place) / widths[t];
+            weights += 1.0 / (widths[t] * widths[t]);
+          }
+      if (weights > 0.0)
+        log_scale -= sum / weights;
+    };
+    if (freedom.modulus)
+      set_scale(ResponseScale::modulus, place.log_modulus);
+    if (freedom.strength)
+      set_scale(ResponseScale::strength, place.log_strength);
+    return place;
+  }
 
   bool operator()(const double* const* parameters, double* residuals) const
   {
-    const std::size_t n = model.unknowns().size();
-    const Place place = place_of(parameters[0], n);
+    const Place place = place_at(parameters[0]);
     for (std::size_t t = 0; t < targets.size(); ++t)
-      {
-        const Response& response = model.response(targets[t].response);
-        residuals[t] = (model.predict(targets[t].response, place) - response.in_model(targets[t].value)) / widths[t];
-      }
-    for (std::size_t k = 0; k < n; ++k)
+      residuals[t] = deviation(t, place);
+    for (std::size_t k = 0; k < place.point.size(); ++k)
       residuals[targets.size() + k] = weight_of_middle * (place.point[k] - 0.5);
     return true;
   }
@@ -43,30 +67,24 @@ struct Solution
   double cost;
 };
 
-Solution solve(const Residuals& residuals, std::vector<double> x, const FitFreedom& freedom)
+Solution solve(const Residuals& residuals, std::vector<double> x)
 {
+  const FitFreedom& freedom = residuals.freedom;
   const std::size_t n = residuals.model.unknowns().size();
   ceres::NumericDiffOptions steps;
   steps.relative_step_size = 1e-5;
   // The residuals outlive the problem.
   auto* const cost = new ceres::DynamicNumericDiffCostFunction<Residuals, ceres::CENTRAL>(
     &residuals, ceres::DO_NOT_TAKE_OWNERSHIP, steps); // owned by the problem
-  cost->AddParameterBlock(int(n + 2));
+  cost->AddParameterBlock(int(n));
   cost->SetNumResiduals(int(residuals.targets.size() + n));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, x.data());
-  std::vector<int> constant;
-  if (!freedom.modulus)
-    constant.push_back(int(n));
-  if (!freedom.strength)
-    constant.push_back(int(n + 1));
   for (std::size_t k = 0; k < n; ++k)
     {
       problem.SetParameterLowerBound(x.data(), int(k), std::max(0.0, freedom.centre[k] - freedom.half_width));
       problem.SetParameterUpperBound(x.data(), int(k), std::min(1.0, freedom.centre[k] + freedom.half_width));
     }
-  if (!constant.empty() && constant.size() < n + 2)
-    problem.SetManifold(x.data(), new ceres::SubsetManifold(int(n + 2), constant));
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1; // the same bits for any number of threads
@@ -82,7 +100,7 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
              const FitFreedom& freedom, const Place& start)
 {
   const std::size_t n = model.unknowns().size();
-  Residuals residuals{model, targets, {}};
+  Residuals residuals{model, targets, freedom, start, {}};
   for (const Target& target : targets)
     residuals.widths.push_back(std::hypot(tolerance * model.response(target.response).per_share(target.value),
                                           model.deviation(target.response, start.point)));
@@ -102,13 +120,11 @@ Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, con
       for (std::size_t k = 0; k < n; ++k)
         x[k] = std::clamp(x[k], std::max(0.0, freedom.centre[k] - freedom.half_width),
                           std::min(1.0, freedom.centre[k] + freedom.half_width));
-      x.push_back(start.log_modulus);
-      x.push_back(start.log_strength);
-      const Solution found = solve(residuals, x, freedom);
+      const Solution found = solve(residuals, x);
       if (!best || found.cost < best->cost)
         best = found;
     }
-  Fit fit{place_of(best->x.data(), n), 0.0, {}};
+  Fit fit{residuals.place_at(best->x.data()), 0.0, {}};
   for (const Target& target : targets)
     {
       const Response& response = model.response(target.response);

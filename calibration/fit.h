@@ -22,10 +22,9 @@ struct Fit
   std::vector<double> deviations; ///< of the targets, relative: prediction over target less 1
 };
 
-/// The place whose predictions are nearest to the targets, each over its tolerance and the model's
-/// error, by Ceres from several starts. Where
-/// targets leave unknowns open, those nearest to the middle of their bounds: a weight of a hundredth of a tolerance sees
-/// to that.
+/// The place whose predictions are nearest to the targets, each over its tolerance and the model's error: the ratios by
+/// Ceres from several starts, and for each set of them the best scales, which are known. Where targets leave unknowns open,
+/// those nearest to the middle of their bounds: a weight of a hundredth of a tolerance sees to that.
 Fit best_fit(const ResponseModel& model, const std::vector<Target>& targets, double tolerance,
              const FitFreedom& freedom, const Place& start);
 } // namespace feldspar::calibration

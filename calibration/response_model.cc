@@ -49,6 +49,12 @@ double ResponseModel::base(const std::size_t j, const TestedPoint& tested) const
   return base(j, tested.point, std::log(tested.parameters.modulus), std::log(tested.parameters.bond_tensile_strength));
 }
 
+std::string ResponseModel::title(const std::string& name) const
+{
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Response& one) { return one.name == name; });
+  return found == all.end() ? name : found->title;
+}
+
 void ResponseModel::learn(const std::vector<TestedPoint>& design)
 {
   std::size_t n_points = 0;

@@ -49,6 +49,8 @@ public:
 
   std::size_t n_responses() const { return all.size(); }
   const Response& response(const std::size_t j) const { return all[j]; }
+  /// Of the response of this name; the name itself where there is none.
+  std::string title(const std::string& name) const;
   const std::vector<Unknown>& unknowns() const { return unknown; }
   /// Whether the design gave enough values of it.
   bool knows(const std::size_t j) const { return surrogates[j].has_value(); }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace feldspar::calibration
 {
@@ -37,6 +38,16 @@ std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(co
       if (test.was_made() && test.record.kind == of.kind && test.record.confining_pressure == of.confining_pressure)
         return (test.results.*which).value;
     return std::nullopt;
+  };
+}
+
+/// A ratio above one half belongs to no elastic body: cracks opened before the stresses of an initial figure.
+std::function<std::optional<double>(const std::vector<FinishedTest>&)> elastic_ratio(
+  std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure)
+{
+  return [figure = std::move(figure)](const std::vector<FinishedTest>& of_specimen) {
+    const std::optional<double> ratio = figure(of_specimen);
+    return ratio && *ratio <= 0.5 ? ratio : std::nullopt;
   };
 }
 
@@ -130,11 +141,11 @@ std::vector<Response> responses(const std::vector<TestCase>& programme, const Ca
            giga, ResponseScale::modulus,
            figure(test, figure_of(wanted.youngs_modulus, &TestResults::youngs_modulus_tangent,
                                   &TestResults::youngs_modulus_initial, &TestResults::youngs_modulus_secant))});
-        all.push_back(
-          {"poissons_ratio", "Poisson's ratio, " + words(wanted.poissons_ratio), "", 1.0, 3, "poissons_ratio", 1.0,
-           ResponseScale::none,
-           figure(test, wanted.poissons_ratio == ElasticFigure::initial ? &TestResults::poissons_ratio_initial
-                                                                        : &TestResults::poissons_ratio_secant)});
+        all.push_back({"poissons_ratio", "Poisson's ratio, " + words(wanted.poissons_ratio), "", 1.0, 3,
+                       "poissons_ratio", 1.0, ResponseScale::none,
+                       wanted.poissons_ratio == ElasticFigure::initial
+                         ? elastic_ratio(figure(test, &TestResults::poissons_ratio_initial))
+                         : figure(test, &TestResults::poissons_ratio_secant)});
         strength(test, "uniaxial_compressive_strength", "uniaxial compressive strength", &TestResults::peak_stress, 1);
         strength(test, "crack_initiation_stress", "crack initiation stress", &TestResults::crack_initiation_stress, 1);
         strength(test, "crack_damage_stress", "crack damage stress", &TestResults::crack_damage_stress, 1);

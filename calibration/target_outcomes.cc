@@ -22,7 +22,8 @@ double standard_error(const TargetOutcome& outcome)
   return outcome.reached ? outcome.reached->standard_error.value_or(0.0) / std::abs(outcome.target.value) : 0.0;
 }
 
-std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+/// Titles have commas of their own.
+std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "; ")); }
 } // namespace
 
 std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, const std::vector<Target>& targets,
@@ -113,13 +114,14 @@ std::string statement_of(const std::vector<TargetOutcome>& outcomes, const Respo
     else if (standard_error(outcome) > 0.5 * tolerance)
       uncertain.push_back(model.response(outcome.target.response).title);
   if (!missed.empty())
-    return fmt::format("the targets were not all reached after {} steps: {} off by more than the tolerance of {:g} %",
-                       n_steps, listed(missed), 100.0 * tolerance);
+    return fmt::format("the targets were not all reached after {} step{}; off by more than the tolerance of {:g} %: {}",
+                       n_steps, n_steps == 1 ? "" : "s", 100.0 * tolerance, listed(missed));
   std::string text = fmt::format("All targets were reached within {:g} %", 100.0 * tolerance);
   if (!uncertain.empty())
-    text += fmt::format(" or within two standard errors, but the scatter of packings left those of {} above half of "
-                        "that: raise Calibration/Most packings, or test larger specimens",
-                        listed(uncertain));
+    text +=
+      fmt::format(" or within two standard errors, but the scatter of packings left the standard errors of some above "
+                  "half of that ({}): raise Calibration/Most packings, or test larger specimens",
+                  listed(uncertain));
   return text + ".";
 }
 } // namespace feldspar::calibration

@@ -53,9 +53,11 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
                     input.reference_problem,
                     input.one_folder,
                     {},
-                    input.envelopes};
+                    input.envelopes,
+                    input.calibration ? &*input.calibration : nullptr};
   for (const auto& series : all)
-    findings.comparisons.push_back(compare(series.tests, input.reference));
+    findings.comparisons.push_back(
+      compare(series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures()));
   return findings;
 }
 
@@ -73,22 +75,23 @@ std::vector<PagePicture> lead_of(std::vector<PageSection>& sections)
   return {};
 }
 
+/// By what a reference calls its rock.
+std::string rock_in_title(const std::string& rock)
+{
+  return rock.empty() ? "Rock" : rock.substr(0, rock.find_first_of(":;"));
+}
+
 /// The page without its pictures, which the book draws later.
-Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& calibration, PictureBook& book)
+Page page_of(const Findings& findings, PictureBook& book)
 {
   Page page;
-  page.title = findings.reference && !findings.reference->rock.empty()
-                 ? findings.reference->rock.substr(0, findings.reference->rock.find_first_of(":;"))
-                 : "Rock";
-  page.title += ": model and rock";
+  page.title = rock_in_title(findings.reference ? findings.reference->rock : "") + ": model and rock";
   std::size_t n_tests = 0;
   for (const auto& series : findings.all)
     n_tests += series.tests.size();
   page.subtitle =
     fmt::format("Feldspar report of {} test{} in {} series.", n_tests, n_tests == 1 ? "" : "s", findings.all.size());
   page.sections.push_back(verdict_section(findings));
-  if (calibration)
-    page.sections.push_back(calibration_section(*calibration, book));
   if (PageSection study = study_section(findings, book); !study.blocks.empty())
     page.sections.push_back(std::move(study));
   page.sections.push_back(envelope_section(findings, book));
@@ -108,6 +111,9 @@ Page page_of(const Findings& findings, const std::optional<CalibrationRecord>& c
       lead = lead_of(page.sections);
       append(lead, book.keep(overview));
     }
+  // After the lead was chosen: how the parameters were found does not tell whether the model is the rock.
+  if (findings.calibration)
+    page.sections.insert(page.sections.begin() + 1, calibration_section(*findings.calibration, book));
   return page;
 }
 
@@ -126,6 +132,21 @@ void write_tables(const Page& page, const std::filesystem::path& folder)
         for (const auto& table : *tables)
           write_whole_file(folder / (table.name + ".csv"), as_csv(table));
 }
+
+/// Draws, and writes the page with its tables. Returns why a picture is missing; empty if none is.
+std::string write_files(Page& page, const PictureBook& book, const std::filesystem::path& folder,
+                        const DrawingWatch& watch)
+{
+  const std::filesystem::path figures = folder / result_file::figures;
+  std::filesystem::create_directories(figures);
+  std::filesystem::create_directories(folder / result_file::tables);
+  const std::string not_drawn = book.draw_into(figures, page, watch);
+  if (!not_drawn.empty())
+    page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + not_drawn);
+  write_tables(page, folder / result_file::tables);
+  write_page(page, folder / result_file::page, figures);
+  return not_drawn;
+}
 } // namespace
 
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder,
@@ -135,18 +156,10 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
   const std::vector<Series> pictured = pictured_of_many(all);
   const Findings findings = findings_of(all, pictured, input);
   PictureBook book;
-  Page page = page_of(findings, input.calibration, book);
+  Page page = page_of(findings, book);
   if (input.one_folder)
     keep_pictures_of_single_tests(all, book);
-
-  const std::filesystem::path figures = folder / result_file::figures;
-  std::filesystem::create_directories(figures);
-  std::filesystem::create_directories(folder / result_file::tables);
-  const std::string not_drawn = book.draw_into(figures, page, watch);
-  if (!not_drawn.empty())
-    page.sections.front().blocks.front().warnings.push_back("Pictures are missing: " + not_drawn);
-  write_tables(page, folder / result_file::tables);
-  write_page(page, folder / result_file::page, figures);
+  const std::string not_drawn = write_files(page, book, folder, watch);
 
   std::vector<std::string> missing;
   for (const auto& series : all)
@@ -157,5 +170,16 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
     if (!problem.empty())
       missing.push_back(problem);
   return missing;
+}
+
+std::vector<std::string> write_report(const CalibrationRecord& calibration, const std::filesystem::path& folder,
+                                      const DrawingWatch& watch)
+{
+  PictureBook book;
+  Page page{rock_in_title(calibration.rock) + ": calibration",
+            "Feldspar report of a calibration without tests of its answer.",
+            {calibration_section(calibration, book)}};
+  const std::string not_drawn = write_files(page, book, folder, watch);
+  return not_drawn.empty() ? std::vector<std::string>() : std::vector{not_drawn};
 }
 } // namespace feldspar

@@ -29,4 +29,8 @@ struct ReportInput
 /// a sentence; the report says it too.
 std::vector<std::string> write_report(const ReportInput& input, const std::filesystem::path& folder,
                                       const DrawingWatch& watch = {});
+
+/// The same of a calibration of which no specimen tested an answer: its section alone. Returns what is missing.
+std::vector<std::string> write_report(const CalibrationRecord& calibration, const std::filesystem::path& folder,
+                                      const DrawingWatch& watch = {});
 } // namespace feldspar

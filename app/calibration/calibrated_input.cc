@@ -24,12 +24,7 @@ double kept(const double a, const double b, const double new_a) { return a > 0.0
 
 double to_figures(const double value, const double unit)
 {
-  constexpr double figures = 4.0;
-  if (value == 0.0)
-    return value;
-  const double in_unit = value / unit;
-  const double last = std::pow(10.0, std::floor(std::log10(std::abs(in_unit))) + 1.0 - figures);
-  return std::round(in_unit / last) * last * unit;
+  return std::stod(fmt::format("{:.3e}", value / unit)) * unit; // four figures, as they will be written
 }
 } // namespace
 

@@ -4,15 +4,53 @@
 #include "app/programme/run_report.h"
 #include "app/run/provenance.h"
 #include "base/whole_file.h"
+#include "report/pictures/calibration_pictures.h"
+#include "report/report.h"
+#include "results/folder/calibration_record.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace feldspar::calibration
 {
+namespace
+{
+/// The scales, the unknowns and the cohesion of an input, in the order in which a posterior has them.
+std::vector<CalibrationRecord::ParameterRow> nearest_parameters(const ResponseModel& model, const Input& nearest)
+{
+  const MicroParameters p = micro_parameters(nearest);
+  std::vector<CalibrationRecord::ParameterRow> rows;
+  const auto add = [&](const std::string& name, const std::string& title, const std::string& unit, const double value) {
+    rows.push_back({name, title, unit, value, std::nullopt, std::nullopt, std::nullopt, "", ""});
+  };
+  add("modulus", "modulus", "Pa", p.modulus);
+  add("bond_tensile_strength", "bond tensile strength", "Pa", p.bond_tensile_strength);
+  for (const Unknown& unknown : model.unknowns())
+    add(unknown.name, unknown.title, unknown.unit == "deg" ? "rad" : "1",
+        unknown.member ? p.*unknown.member : p.gap.value());
+  add("bond_cohesion", "bond cohesion", "Pa", p.cohesion_ratio * p.bond_tensile_strength);
+  return rows;
+}
+
+std::string as_text(const std::vector<CalibrationRecord::ParameterRow>& nearest)
+{
+  std::string text = fmt::format("{:44} {:>10}\n", "", "nearest");
+  for (const auto& row : nearest)
+    {
+      const ShownUnit unit = shown_unit(row.unit, row.best);
+      text +=
+        fmt::format("{:44} {:>10.4g}\n", unit.name.empty() ? row.title : fmt::format("{} [{}]", row.title, unit.name),
+                    row.best / unit.size);
+    }
+  return text;
+}
+} // namespace
+
 void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome& outcome,
             const std::vector<TestedPoint>& tested, const Input& best_input,
             const std::vector<FinishedTest>& finished_tests)
@@ -33,6 +71,13 @@ void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome
       Progress progress(run.quiet);
       for (const auto& sentence :
            write_and_report(provenance(best_input, run.input_file), finished_tests, "", folder, progress).missing)
+        text += sentence + "\n";
+    }
+  else if (auto record = read_calibration(folder))
+    {
+      record->parameters = nearest_parameters(model, best_input);
+      text += "\n" + as_text(record->parameters);
+      for (const auto& sentence : write_report(*record, folder))
         text += sentence + "\n";
     }
   std::filesystem::remove_all(folder / "calibration");

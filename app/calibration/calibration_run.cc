@@ -11,9 +11,11 @@
 #include "app/programme/test_effort.h"
 #include "app/run/interrupt.h"
 #include "app/screen/progress.h"
+#include "base/input_error.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "base/whole_file.h"
+#include "calibration/calibration_file.h"
 #include "calibration/fit.h"
 #include "calibration/target_outcomes.h"
 
@@ -107,7 +109,7 @@ private:
   /// The intact rock, and a place to begin at.
   ResponseModel elastic_stage(const double gap)
   {
-    progress.start("elastic constants of intact cells");
+    progress.start("elastic cells");
     const MicroParameters fixed = micro_parameters(input);
     const ElasticTable elastic =
       elastic_constants<dim>(input, wanted.stiffness_ratio, wanted.installation_gap_ratio, gap, run.folder, progress);
@@ -124,11 +126,33 @@ private:
     return {problem.responses, problem.unknowns, fixed, elastic, gap};
   }
 
+  /// Those on which no test can begin are left out: every point is tested on each, and a figure that one of them never
+  /// gives would be learnt from none.
+  std::vector<std::uint64_t> packings_of_design()
+  {
+    constexpr std::size_t most_left_out = 10;
+    std::vector<std::uint64_t> seeds;
+    std::size_t n_left_out = 0;
+    while (seeds.size() < wanted.n_packings)
+      {
+        const std::uint64_t seed = packings.take(1).front();
+        const std::string objection = objection_to_packing<dim>(input, seed);
+        if (objection.empty())
+          seeds.push_back(seed);
+        else if (++n_left_out == most_left_out)
+          throw InputError(
+            fmt::format("{} ({} of the first {} packings)", objection, n_left_out, n_left_out + seeds.size()));
+        else
+          progress.remark(fmt::format("Packing {} is left out: {}.", seed, objection));
+      }
+    return seeds;
+  }
+
   /// Learns how the responses depend on the ratios.
   /// Why it cannot; empty if it could.
   std::string design_stage(ResponseModel& model)
   {
-    const auto seeds = packings.take(wanted.n_packings);
+    const auto seeds = packings_of_design();
     std::vector<PointOrder> orders;
     const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -139,9 +163,12 @@ private:
     model.learn(tested);
     for (const Target& target : problem.targets)
       if (!model.knows(target.response))
-        return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: "
-                           "raise Calibration/Design points, or narrow its bounds",
-                           problem.response_of(target).title);
+        {
+          write_design(model, tested, run.folder);
+          return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: raise "
+                             "Calibration/Design points, or narrow its bounds; {} shows the values",
+                             problem.response_of(target).title, calibration_file::design);
+        }
     return "";
   }
 
@@ -252,11 +279,6 @@ private:
     CalibrationOutcome outcome = outcome_of(model, place, outcomes, has_reached, statement);
     progress.start("posterior");
     outcome.posterior = posterior(model, problem.targets, freedom, place, wanted.n_samples, input.seeds.front());
-    for (std::size_t j = 0; j < problem.responses.size(); ++j)
-      if (model.knows(j))
-        outcome.sensitivities[problem.responses[j].name] =
-          sobol_indices([&](const UnitPoint& point) { return model.learnt(j, point); }, problem.unknowns.size(), 1024,
-                        input.seeds.front());
     progress.finish(fmt::format("{} samples", outcome.posterior.samples.size()));
     finish(run, model, outcome, tested, best_input, finished_tests);
     return {false, has_reached ? "" : statement};
@@ -285,6 +307,11 @@ private:
     outcome.scale_effects = scale_effects;
     outcome.n_steps = n_steps;
     outcome.best = model.parameters(place);
+    for (std::size_t j = 0; j < problem.responses.size(); ++j)
+      if (model.knows(j))
+        outcome.sensitivities[problem.responses[j].name] =
+          sobol_indices([&](const UnitPoint& point) { return model.learnt(j, point); }, problem.unknowns.size(), 1024,
+                        input.seeds.front());
     for (std::size_t j = 0; j < problem.responses.size(); ++j)
       if (problem.responses[j].scale == ResponseScale::modulus && model.knows(j))
         outcome.modulus_of_specimens_over_cells = std::exp(model.learnt(j, place.point) + model.correction(j));
@@ -323,7 +350,8 @@ private:
   std::vector<FinishedTest> run_answer(const Input& best_input, const std::filesystem::path& folder,
                                        const std::size_t round)
   {
-    progress.remark(fmt::format("Answer, round {}: {} fresh packings.", round, best_input.seeds.size()));
+    progress.remark(
+      fmt::format("Answer, round {}: packings {} to {}.", round, best_input.seeds.front(), best_input.seeds.back()));
     const std::vector<Variant> one{{"", best_input}};
     const auto orders = specimen_orders(one);
     const auto specimens = provide_specimens<dim>(one, orders, folder, progress);

@@ -10,6 +10,7 @@
 #include "base/input_error.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 
@@ -89,6 +90,25 @@ std::string PointOrder::name() const
 }
 
 template <int dim>
+std::string objection_to_packing(const Input& input, const std::uint64_t seed)
+{
+  const auto specimen = make_specimen<dim>(
+    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
+    end_if_interrupted);
+  for (const TestCase& test : test_cases(input.test_list, input.confinements))
+    try
+      {
+        (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, input.tests,
+                                                         input.dynamics);
+      }
+    catch (const InputError& error)
+      {
+        return error.what();
+      }
+  return "";
+}
+
+template <int dim>
 std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
                                      const std::vector<PointOrder>& orders, const std::filesystem::path& folder,
                                      Progress& progress)
@@ -156,6 +176,8 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
   return tested;
 }
 
+template std::string objection_to_packing<2>(const Input&, std::uint64_t);
+template std::string objection_to_packing<3>(const Input&, std::uint64_t);
 template std::vector<TestedPoint> test_points<2>(const Input&, const std::vector<Response>&,
                                                  const std::vector<PointOrder>&, const std::filesystem::path&,
                                                  Progress&);

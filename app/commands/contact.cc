@@ -1,6 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/input/input.h"
 #include "app/input/joint_sections.h"
+#include "app/input/parameter_table.h"
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
 #include "base/csv.h"
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -183,6 +185,10 @@ std::string contact_response(const Input& input, const std::filesystem::path& in
   if (input.contact.path_file.empty())
     throw InputError(
       fmt::format("{}: Contact path/File: is missing; name a CSV file of displacements", input_file.string()));
+  for (const auto& [section, entry] : {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size")})
+    if (const std::string value = find_parameter(section, entry)->write(input); value != none)
+      throw InputError(fmt::format("{}: {}/{} = {}: one contact of two grains has no use for it; leave it out",
+                                   input_file.string(), section, entry, value));
   return input.specimen.dimension == 2 ? response<2>(input) : response<3>(input);
 }
 

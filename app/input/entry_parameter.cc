@@ -1,5 +1,6 @@
 #include "app/input/entry_parameter.h"
 
+#include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
@@ -149,7 +150,7 @@ ValueForm<std::size_t> choice_form(const std::vector<std::string_view>& options)
             for (std::size_t k = 0; k < options.size(); ++k)
               if (options[k] == text)
                 return k;
-            throw InputError(fmt::format("must be {}", range));
+            throw InputError(fmt::format("must be {}{}", range, nearest_name(text, options)));
           },
           [=](const std::size_t k) { return std::string(options[k]); }};
 }

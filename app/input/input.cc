@@ -5,6 +5,7 @@
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
 
@@ -59,6 +60,41 @@ void check_fractions(const Input& input, const GivenEntries& values)
   });
 }
 
+/// What an entry of a section that is not of use has against it.
+std::string refusal_of(const std::string_view section, const std::set<std::string>& laws)
+{
+  if (section == "Smooth joint")
+    return "has no effect: Mineral grains/Mean size is none and no flaw has the word smooth";
+  if (section == "Clumps")
+    return "has no effect: Clumps/Diameter is none";
+  return fmt::format("is of another joint law; Specimen/Joint law is {}", fmt::join(laws, " or "));
+}
+
+/// A variant that sets an entry which has no use for it would be another one's double, or promise what it does not have.
+/// It may keep the value that the input has without variants, as a row of a table has a value for each entry.
+void check_uses(const Input& input, const std::vector<Variant>& all, const GivenEntries& values)
+{
+  for (const Variant& variant : all)
+    for (const VariantSetting& setting : variant.settings)
+      {
+        const std::size_t slash = setting.entry.find('/');
+        const std::string section = setting.entry.substr(0, slash);
+        const Parameter& parameter = *find_parameter(section, setting.entry.substr(slash + 1));
+        if (has_use_for(variant.input, parameter))
+          continue;
+        const std::string kept = parameter.write(input);
+        if (parameter.write(variant.input) == kept)
+          continue;
+        const VariantParameters& wanted = input.variants;
+        const std::string remedy =
+          wanted.in_step ? fmt::format("give it {} in such a variant", kept)
+                         : fmt::format("set Combine = in step, or give a Table, with {} in such a variant", kept);
+        throw values.error("Variants", wanted.table.empty() ? "Values" : "Table",
+                           fmt::format("{} = {}: {}; {}", setting.entry, excerpt(setting.value),
+                                       refusal_of(section, {variant.input.specimen.joint_law}), remedy));
+      }
+}
+
 /// An entry of a joint law that no variant has would be without effect.
 void check_joint_law(const Input& input, const GivenEntries& values)
 {
@@ -66,24 +102,19 @@ void check_joint_law(const Input& input, const GivenEntries& values)
   std::set<std::string> laws;
   for (const Variant& variant : all)
     laws.insert(variant.input.specimen.joint_law);
-  const std::string refusal = fmt::format("is of another joint law; Specimen/Joint law is {}", fmt::join(laws, " or "));
   const auto has_use = [&](const std::string_view section, const std::string_view entry) {
     return std::any_of(all.begin(), all.end(), [&](const Variant& variant) {
       return has_use_for(variant.input, *find_parameter(section, entry));
     });
   };
-  const auto refusal_of = [&](const std::string_view section) {
-    if (section == "Smooth joint")
-      return std::string("has no effect: Mineral grains/Mean size is none and no flaw has the word smooth");
-    return section == "Clumps" ? std::string("has no effect: Clumps/Diameter is none") : refusal;
-  };
   for (const GivenEntry& given : values.all())
     if (!has_use(given.section, given.entry))
-      throw values.error(given.section, given.entry, refusal_of(given.section));
+      throw values.error(given.section, given.entry, refusal_of(given.section, laws));
   for (const std::string& entry : input.variants.entries)
     if (const std::size_t slash = entry.find('/'); !has_use(entry.substr(0, slash), entry.substr(slash + 1)))
       throw values.error("Variants", input.variants.table.empty() ? "Entry" : "Table",
-                         refusal_of(entry.substr(0, slash)));
+                         refusal_of(entry.substr(0, slash), laws));
+  check_uses(input, all, values);
 }
 
 void check_smooth_joints(const Input& input, const GivenEntries& values)
@@ -92,8 +123,10 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
     return;
   const bool of_minerals = input.mineral_grains.mean_size.has_value();
   if (input.specimen.shape == "periodic")
-    throw values.error(of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
-                       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic");
+    throw values.error(
+      of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
+      "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic, and a representative "
+      "volume takes none");
   const auto check = [&](const SmoothJointParameters& wanted, const char* section, const char* entry) {
     if (const std::string what = objection(wanted); !what.empty())
       throw values.error(section, entry, what);
@@ -105,7 +138,7 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
 }
 
 /// Boundaries without a bond are said, not forgotten: the defaults of section Smooth joint are those of open flaws, and a
-/// rock of such boundaries falls apart.
+/// rock of such boundaries falls apart. Of a bond both strengths are said, as the other one would be zero.
 void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
   const auto is_said = [&](const std::string& entry) {
@@ -113,10 +146,20 @@ void check_mineral_grains(const Input& input, const GivenEntries& values)
     return values.has("Smooth joint", entry) ||
            std::find(varied.begin(), varied.end(), "Smooth joint/" + entry) != varied.end();
   };
-  if (input.mineral_grains.mean_size && !is_said("Tensile strength") && !is_said("Cohesion"))
-    throw values.error("Mineral grains", "Mean size",
-                       "says nothing of the bonds at the boundaries: give Smooth joint/Tensile strength and Cohesion, "
-                       "or 0 MPa for open boundaries");
+  if (!input.mineral_grains.mean_size)
+    return;
+  const auto refuse = [&](const std::string& why) { throw values.error("Mineral grains", "Mean size", why); };
+  const bool has_tensile_strength = is_said("Tensile strength");
+  const bool has_cohesion = is_said("Cohesion");
+  if (!has_tensile_strength && !has_cohesion)
+    refuse("says nothing of the bonds at the boundaries: give Smooth joint/Tensile strength and Cohesion, or 0 MPa for "
+           "open boundaries");
+  const auto& [tensile_strength, cohesion] =
+    std::pair(input.smooth_joint.tensile_strength, input.smooth_joint.cohesion);
+  if (has_tensile_strength != has_cohesion && (tensile_strength > 0.0 || cohesion > 0.0))
+    refuse(fmt::format("has boundaries bonded by Smooth joint/{}, and Smooth joint/{} is missing: give it too, 0 MPa "
+                       "for none",
+                       has_cohesion ? "Cohesion" : "Tensile strength", has_cohesion ? "Tensile strength" : "Cohesion"));
 }
 
 void check_clumps(const Input& input, const GivenEntries& values)
@@ -124,8 +167,14 @@ void check_clumps(const Input& input, const GivenEntries& values)
   if (!input.clumps.diameter)
     return;
   const auto refuse = [&](const std::string& why) { throw values.error("Clumps", "Diameter", why); };
+  if (input.specimen.shape == "periodic")
+    refuse(
+      "clumps are in a box, and Specimen/Shape is periodic: a representative volume takes none, set Diameter = none; "
+      "a laboratory test takes them with Shape = box");
   if (input.specimen.dimension != 2 || input.specimen.shape != "box")
-    refuse("clumps are of the plane and in a box: set Specimen/Dimension = 2 and Specimen/Shape = box");
+    refuse(
+      "clumps are of the plane and in a box, for laboratory tests: set Specimen/Dimension = 2 and Specimen/Shape = "
+      "box");
   if (input.mineral_grains.mean_size)
     refuse("excludes Mineral grains/Mean size, which is given too; keep one of them");
   if (!input.flaws.all().empty())

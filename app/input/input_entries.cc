@@ -40,7 +40,13 @@ std::vector<TestKind> read_tests(const std::string_view text)
     {
       const auto kind = std::find_if(known.begin(), known.end(), [&](const TestKind& k) { return k.name == piece; });
       if (kind == known.end())
-        throw InputError(fmt::format("{} is not a test; list one or more of {}", in_quotes(piece), names(known)));
+        {
+          std::vector<std::string_view> known_names;
+          for (const TestKind& one : known)
+            known_names.push_back(one.name);
+          throw InputError(fmt::format("{} is not a test; list one or more of {}{}", in_quotes(piece), names(known),
+                                       nearest_name(piece, known_names)));
+        }
       if (std::find(tests.begin(), tests.end(), *kind) != tests.end())
         throw InputError(fmt::format("{} is listed twice", piece));
       tests.push_back(*kind);

@@ -31,14 +31,22 @@ std::size_t edit_distance(const std::string_view a, const std::string_view b)
 }
 } // namespace
 
-std::string suggestion(const std::string_view text, const std::vector<std::string_view>& names)
+std::string nearest_name(const std::string_view text, const std::vector<std::string_view>& names)
 {
   const std::string_view found = text.substr(0, 100); // no name is longer, and the effort grows with it
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto a, const auto b) {
     return edit_distance(found, a) < edit_distance(found, b);
   });
-  if (2 * edit_distance(found, *nearest) > nearest->size())
-    return fmt::format("; there are {}", fmt::join(names, ", "));
-  return fmt::format("; did you mean \"{}\"?", *nearest);
+  const std::size_t distance = edit_distance(found, *nearest);
+  if (2 * distance > nearest->size())
+    return "";
+  return fmt::format("; did you mean \"{}\"{}?", *nearest,
+                     distance == 0 ? " (capital and small letters are told apart)" : "");
+}
+
+std::string suggestion(const std::string_view text, const std::vector<std::string_view>& names)
+{
+  const std::string nearest = nearest_name(text, names);
+  return nearest.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : nearest;
 }
 } // namespace feldspar

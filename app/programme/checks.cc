@@ -1,5 +1,6 @@
 #include "app/programme/checks.h"
 
+#include "app/input/parameter_table.h"
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
@@ -53,6 +54,15 @@ void check_boundary(const Input& input)
     refuse("Representative volume/Free axis = z: in two dimensions it is x or y");
 }
 
+/// A cell has no such groups; to be told before its shape, which is another for them.
+void check_no_groups(const Input& input)
+{
+  for (const auto& [section, entry] : {std::pair("Clumps", "Diameter"), std::pair("Mineral grains", "Mean size")})
+    if (const std::string value = find_parameter(section, entry)->write(input); value != none)
+      refuse(
+        fmt::format("{}/{} = {}: a representative volume takes none; set {} = none", section, entry, value, entry));
+}
+
 /// All of a sample but its mesh.
 void check_sample(const Input& input)
 {
@@ -64,7 +74,10 @@ void check_sample(const Input& input)
                                    : "the RVEs of such a Sample/Geometry are of spheres",
                        needed));
   if (has_grains)
-    check_equilibria(input.specimen, "take another law");
+    {
+      check_no_groups(input);
+      check_equilibria(input.specimen, "take another law");
+    }
   check_boundary(input);
   if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
     refuse(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic", input.specimen.shape));
@@ -249,6 +262,7 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
   with_name_of(input_file, [&] {
     for (const Variant& variant : all_variants)
       {
+        check_no_groups(variant.input);
         if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
           refuse(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
                              variant.input.specimen.shape));

@@ -22,17 +22,24 @@ template <int dim>
 std::vector<Vector<dim>> throw_seeds(const Specimen<dim>& specimen, const double mean_size, const RandomStream stream,
                                      const std::string_view entry, const std::string_view name)
 {
-  const double cell = dim == 2 ? 0.25 * std::numbers::pi * mean_size * mean_size
-                               : std::numbers::pi / 6.0 * mean_size * mean_size * mean_size;
-  const auto n = std::size_t(std::llround(specimen.size.prod() / cell));
+  const double volume = specimen.size.prod();
+  const double unit_cell = dim == 2 ? 0.25 * std::numbers::pi : std::numbers::pi / 6.0; // of mean size 1
+  const auto n = std::size_t(std::llround(volume / (unit_cell * std::pow(mean_size, dim))));
+  const double least = 4.0 * specimen.report.mean_radius;
   if (n < 2)
-    throw InputError(
-      fmt::format("{} = {:g} mm: the specimen would have {} {}(s); make it smaller", entry, 1e3 * mean_size, n, name));
-  if (mean_size < 4.0 * specimen.report.mean_radius)
+    {
+      // 1.5 cells are rounded to two; a little smaller, so that no rounding of the message names a size that is refused.
+      const double most = 0.995 * std::pow(volume / (1.5 * unit_cell), 1.0 / dim);
+      throw InputError(
+        fmt::format("{} = {:g} mm: must be at most {:.3g} mm in this specimen, which would have {} {}(s), "
+                    "and at least {:.3g} mm, two mean diameters of its particles",
+                    entry, 1e3 * mean_size, 1e3 * most, n, name, 1e3 * least));
+    }
+  if (mean_size < least)
     throw InputError(
       fmt::format("{} = {:g} mm: must be at least two mean diameters of the particles that make up a {}, "
                   "{:.3g} mm",
-                  entry, 1e3 * mean_size, name, 4e3 * specimen.report.mean_radius));
+                  entry, 1e3 * mean_size, name, 1e3 * least));
   Random random(specimen.seed, stream);
   const double apart = least_distance * mean_size;
   std::vector<Vector<dim>> seeds;

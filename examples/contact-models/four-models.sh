@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The four contact models on the same specimens, and one page of them.
+# The four contact models on specimens of the same radii, and one page of them.
 #
 #   examples/contact-models/four-models.sh [FELDSPAR [FOLDER]]
 #

@@ -42,10 +42,11 @@ std::string crack_story(const FinishedTest& test)
                    live::number(record.kind.strain(*row) / milli), live::number(record.kind.stress(*row) / mega, 4),
                    row->n_tension_cracks, row->n_shear_cracks);
   std::string circles;
-  for (const auto& grain : grains)
+  const auto colours = group_colours(grains);
+  for (std::size_t i = 0; i < grains.size(); ++i)
     fmt::format_to(std::back_inserter(circles), "{}[{:.4g},{:.4g},{:.3g}{}]", circles.empty() ? "" : ",",
-                   grain.start[0] / milli, grain.start[axis] / milli, grain.radius / milli,
-                   grain.mineral == 0 ? "" : fmt::format(R"(,"#{:06x}")", group_colour(grain.mineral)));
+                   grains[i].start[0] / milli, grains[i].start[axis] / milli, grains[i].radius / milli,
+                   grains[i].mineral == 0 ? "" : fmt::format(R"(,"#{:06x}")", colours[i]));
   std::string cracks;
   for (const auto& crack : record.cracks)
     {

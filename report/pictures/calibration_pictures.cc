@@ -127,7 +127,7 @@ std::vector<Picture> pair_picture(const CalibrationRecord& record)
   picture.name = "calibration_pairs";
   picture.caption =
     "Micro-parameters that agree with the tests: each pair, and on the diagonal each by itself. A narrow "
-    "band across a pair tells of the two together what the tests do not tell of each";
+    "band across a pair tells of the two together what the tests do not tell of each.";
   picture.alternative = fmt::format("Samples of {} micro-parameters of the posterior, pair by pair.", n);
   picture.width = 190 * int(n) + 60;
   picture.height = 165 * int(n) + 60;

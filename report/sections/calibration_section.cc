@@ -1,19 +1,29 @@
 #include "report/pictures/calibration_pictures.h"
 #include "report/sections/sections.h"
+#include "report/sections/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace feldspar
 {
 namespace
 {
-/// To so many figures in the unit of tables.
+using namespace text;
+
 std::string shown(const double si_value, const ShownUnit& unit, const int figures = 3)
 {
-  return fmt::format("{:#.{}g}", si_value / unit.size, figures);
+  return significant(si_value / unit.size, figures);
+}
+
+std::string shown_interval(const double si_low, const double si_high, const ShownUnit& unit)
+{
+  return fmt::format("{} to {}", shown(si_low, unit), shown(si_high, unit));
 }
 
 std::string heading(const std::string& title, const ShownUnit& unit)
@@ -21,34 +31,48 @@ std::string heading(const std::string& title, const ShownUnit& unit)
   return unit.name.empty() ? title : fmt::format("{} [{}]", title, unit.name);
 }
 
+/// Whether specimens have the answer's parameters.
+bool was_tested(const CalibrationRecord& record)
+{
+  return std::any_of(record.targets.begin(), record.targets.end(),
+                     [](const auto& row) { return row.n_packings > 0.0; });
+}
+
 Table target_table(const CalibrationRecord& record)
 {
+  const bool tested = was_tested(record);
   Table table{"calibration_targets",
-              "Targets, and what the answer reached on packings by which nothing was chosen",
-              {"figure", "target", "reached", "standard error", "deviation", "packings"},
+              tested
+                ? "Targets, and what the answer reached on packings by which nothing was chosen"
+                : "Targets, and what the surrogates predict of the nearest micro-parameters; no specimen tested them",
+              {"figure", "target", tested ? "reached" : "predicted", "standard error", "deviation", "packings"},
               {}};
   for (const auto& row : record.targets)
     {
       const ShownUnit unit = shown_unit(row.unit, row.target);
-      table.rows.push_back({heading(row.title, unit), shown(row.target, unit, 4), shown(row.reached, unit, 4),
-                            row.standard_error ? shown(*row.standard_error, unit, 2) : "-",
-                            fmt::format("{:+.1f} %", 100.0 * row.deviation), fmt::format("{:.0f}", row.n_packings)});
+      const bool is_prediction = tested && !(row.n_packings > 0.0);
+      table.rows.push_back({heading(row.title, unit), shown(row.target, unit, 4),
+                            shown(row.reached, unit, 4) + (is_prediction ? " (predicted)" : ""),
+                            row.standard_error ? shown(*row.standard_error, unit, 2) : none,
+                            signed_percent(row.deviation), row.n_packings > 0.0 ? number(row.n_packings, 0) : none});
     }
   return table;
 }
 
 Table parameter_table_of(const CalibrationRecord& record)
 {
+  const bool tested = was_tested(record);
   Table table{"calibration_parameters",
-              "Micro-parameters: those of the answer, and what else agrees with the tests",
-              {"parameter", "answer", "median", "90 % interval", "verdict"},
+              tested ? "Micro-parameters: those of the answer, and what else agrees with the tests"
+                     : "Micro-parameters that come nearest to the targets",
+              {"parameter", tested ? "answer" : "nearest", "median", "90 % interval", "verdict"},
               {}};
   for (const auto& row : record.parameters)
     {
       const ShownUnit unit = shown_unit(row.unit, row.best);
-      table.rows.push_back({heading(row.title, unit), shown(row.best, unit), shown(row.median, unit),
-                            fmt::format("{} to {}", shown(row.lower_90, unit), shown(row.upper_90, unit)),
-                            row.verdict});
+      table.rows.push_back(
+        {heading(row.title, unit), shown(row.best, unit), row.median ? shown(*row.median, unit) : none,
+         row.lower_90 && row.upper_90 ? shown_interval(*row.lower_90, *row.upper_90, unit) : none, row.verdict});
     }
   return table;
 }
@@ -65,10 +89,30 @@ Table prediction_table(const CalibrationRecord& record)
                                          [&](const auto& target) { return target.name == row.name; });
       const ShownUnit unit = shown_unit(row.unit, row.median);
       if (!is_target)
-        table.rows.push_back({heading(row.title, unit), shown(row.median, unit),
-                              fmt::format("{} to {}", shown(row.lower_90, unit), shown(row.upper_90, unit))});
+        table.rows.push_back(
+          {heading(row.title, unit), shown(row.median, unit), shown_interval(row.lower_90, row.upper_90, unit)});
     }
   return table;
+}
+
+/// What tables call a figure or a parameter; its name in files in words where none has it.
+template <typename Row>
+std::optional<std::string> title_in(const std::vector<Row>& rows, const std::string& name)
+{
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+  return found == rows.end() ? std::nullopt : std::optional(found->title);
+}
+
+std::string words_of_name(std::string name)
+{
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string title_of_figure(const CalibrationRecord& record, const std::string& name)
+{
+  const auto target = title_in(record.targets, name);
+  return target ? *target : title_in(record.predictions, name).value_or(words_of_name(name));
 }
 
 Table sensitivity_table(const CalibrationRecord& record)
@@ -76,25 +120,37 @@ Table sensitivity_table(const CalibrationRecord& record)
   Table table{
     "calibration_sensitivities",
     "Sobol indices: the share of a figure's variance between the bounds that a ratio alone explains, and with "
-    "its interactions; stresses over the bond strength, moduli over the intact rock's",
+    "its interactions. They are of what is left beside the scales and the intact rock: strengths over the "
+    "bond strength, Young's modulus over that of intact cells, Poisson's ratio less that of intact cells",
     {"figure", "ratio", "alone", "in all"},
     {}};
   for (const auto& row : record.sensitivities)
-    table.rows.push_back(
-      {row.response, row.parameter, fmt::format("{:.2f}", row.first_order), fmt::format("{:.2f}", row.total)});
+    table.rows.push_back({title_of_figure(record, row.response),
+                          title_in(record.parameters, row.parameter).value_or(words_of_name(row.parameter)),
+                          number(row.first_order, 2), number(row.total, 2)});
   return table;
 }
 } // namespace
 
 PageSection calibration_section(const CalibrationRecord& record, PictureBook& book)
 {
-  PageSection section{"calibration", "Calibration", "How the micro-parameters were found", {}};
+  const bool tested = was_tested(record);
+  PageSection section{"calibration",
+                      "Calibration",
+                      tested ? "How the micro-parameters were found"
+                             : "Which micro-parameters come nearest to the targets?",
+                      {}};
   PageBlock block;
-  block.headline = record.statement;
+  block.headline = sentence(record.statement);
+  if (!tested)
+    block.paragraphs.push_back("The answer was not tested, because the surrogates of the design already tell this. "
+                               "nearest.prm has the nearest micro-parameters, design.csv every test of the design.");
   block.tables.push_back(target_table(record));
-  block.tables.push_back(parameter_table_of(record));
+  if (!record.parameters.empty())
+    block.tables.push_back(parameter_table_of(record));
   for (const auto& row : record.parameters)
-    block.points.push_back(row.sentence);
+    if (!row.sentence.empty())
+      block.points.push_back(row.sentence);
   block.pictures = book.keep(pair_picture(record));
   section.blocks.push_back(block);
   PageBlock more;

@@ -168,7 +168,8 @@ std::optional<bool> ComparisonRow::surely_in_range() const
          ours->mean + *ours->confidence_95 <= *experiment->high;
 }
 
-std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference)
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
+                                   const ElasticFigures& elastic)
 {
   const auto& pulled = gives_tensile_strength;
   const auto& crushed = is_uniaxial_compression;
@@ -202,12 +203,19 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   add("tensile over compressive strength", "", 3, 1.0, ratio, "tension_to_compression");
   add("strain at peak, compression", "1e-3", 2, 1e-3, by_seed(tests, crushed, &TestResults::strain_at_peak),
       "strain_at_compressive_peak", 1e-3);
-  add("Young's modulus, tangent 40-60 % of peak", "GPa", 1, 1e9,
-      by_seed(tests, crushed, &TestResults::youngs_modulus_tangent), "youngs_modulus_GPa");
-  add("Young's modulus, initial", "GPa", 1, 1e9, by_seed(tests, crushed, &TestResults::youngs_modulus_initial), "");
-  add("Poisson's ratio, secant at 50 % of peak", "", 3, 1.0,
-      by_seed(tests, crushed, &TestResults::poissons_ratio_secant), "poissons_ratio");
-  add("Poisson's ratio, initial", "", 3, 1.0, by_seed(tests, crushed, &TestResults::poissons_ratio_initial), "");
+  const auto add_modulus = [&](const char* property, const char* which, Figure TestResults::*figure) {
+    add(property, "GPa", 1, 1e9, by_seed(tests, crushed, figure),
+        elastic.youngs_modulus == which ? "youngs_modulus_GPa" : "");
+  };
+  const auto add_ratio = [&](const char* property, const char* which, Figure TestResults::*figure) {
+    add(property, "", 3, 1.0, by_seed(tests, crushed, figure), elastic.poissons_ratio == which ? "poissons_ratio" : "");
+  };
+  add_modulus("Young's modulus, tangent 40-60 % of peak", "tangent", &TestResults::youngs_modulus_tangent);
+  add_modulus("Young's modulus, initial", "initial", &TestResults::youngs_modulus_initial);
+  if (elastic.youngs_modulus == "secant")
+    add_modulus("Young's modulus, secant at 50 % of peak", "secant", &TestResults::youngs_modulus_secant);
+  add_ratio("Poisson's ratio, secant at 50 % of peak", "secant", &TestResults::poissons_ratio_secant);
+  add_ratio("Poisson's ratio, initial", "initial", &TestResults::poissons_ratio_initial);
   add("crack initiation stress, compression", "MPa", 1, 1e6,
       by_seed(tests, crushed, &TestResults::crack_initiation_stress), "crack_initiation_stress_MPa");
   add("crack initiation stress, lateral strain", "MPa", 1, 1e6,

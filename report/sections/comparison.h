@@ -1,5 +1,6 @@
 #pragma once
 
+#include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/runs/run.h"
 #include "results/statistics.h"
@@ -29,8 +30,10 @@ struct ComparisonRow
   std::optional<bool> surely_in_range() const;
 };
 
-/// Sets the results of one rock beside a reference; without one its columns stay empty.
-std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference);
+/// Sets the results of one rock beside a reference; without one its columns stay empty. `elastic` says which modulus and
+/// which ratio the reference has.
+std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
+                                   const ElasticFigures& elastic = {});
 
 /// A figure of a reference as the row writes numbers: mean (low to high), or a dash; with the unit behind, before a number
 /// of tests.

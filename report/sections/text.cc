@@ -1,12 +1,39 @@
 #include "report/sections/text.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace feldspar::text
 {
-std::string number(const double value, const int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+std::string number(const double value, const int decimals)
+{
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  return is_zero && text.starts_with('-') ? text.substr(1) : text;
+}
+
+std::string significant(const double value, const int figures)
+{
+  if (value == 0.0 || !std::isfinite(value))
+    return number(value, 0);
+  // The decimals are those of the rounded value: 99.96 is 100.
+  const std::string rounded = fmt::format("{:.{}e}", value, figures - 1);
+  const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
+  return number(parse_number(rounded), std::max(0, figures - 1 - exponent));
+}
+
+std::string sentence(std::string words)
+{
+  if (words.empty())
+    return words;
+  if ('a' <= words.front() && words.front() <= 'z')
+    words.front() = char(words.front() - 'a' + 'A');
+  return words.ends_with('.') ? words : words + '.';
+}
 
 std::string number(const Figure& figure, const double unit, const int decimals)
 {
@@ -41,6 +68,7 @@ std::string interval(const Statistics& over_seeds, const double unit, const int 
 
 std::string signed_percent(const double share)
 {
-  return fmt::format("{}{:.1f} %", share < 0.0 ? "−" : "+", 100.0 * std::abs(share));
+  const std::string percent = number(100.0 * std::abs(share), 1);
+  return fmt::format("{}{} %", share < 0.0 && percent != "0.0" ? "−" : "+", percent);
 }
 } // namespace feldspar::text

@@ -12,7 +12,10 @@ namespace feldspar::text
 {
 inline constexpr const char* none = "–";
 
-std::string number(double value, int decimals);
+std::string number(double value, int decimals); ///< zero without a sign
+/// To so many figures, without an exponent and without decimals beyond them: 0.150, 15.3, 119.
+std::string significant(double value, int figures);
+std::string sentence(std::string words);                                ///< with a capital letter and a full stop
 std::string number(const Figure& figure, double unit, int decimals);    ///< or none
 std::string estimate(const Estimate& value, double unit, int decimals); ///< 42.0 ± 1.5, half of the 95 % interval
 std::string mean_and_deviation(const Statistics& over_seeds, double unit, int decimals); ///< 42.0 ± 1.5, over the seeds

@@ -135,6 +135,12 @@ PageSection verdict_section(const Findings& findings)
                           material_at_points(findings.all[n].made_by)));
           if (!is_problem_below)
             block.headline = found.headline;
+          if (n == 0 && findings.calibration)
+            {
+              const std::string statement = "Calibration: " + text::sentence(findings.calibration->statement);
+              block.headline =
+                block.headline.empty() ? statement : statement + " Comparison with the experiments: " + block.headline;
+            }
           block.points = found.points;
           if (block.warnings.empty() && shared.of_all.empty())
             block.paragraphs.push_back("Every check of the section Trust is within its bounds.");
@@ -148,6 +154,10 @@ PageSection verdict_section(const Findings& findings)
   for (const std::string& remark : gap_remarks(findings.all))
     table.warnings.push_back(remark + ".");
   table.tables.push_back(findings.has_many() ? comparison_of_many(findings) : comparison_table(findings));
+  if (findings.reference && findings.calibration)
+    table.paragraphs.push_back(fmt::format(
+      "Of the reference, Young's modulus is taken to be the {} one and Poisson's ratio the {} one, as in the calibration.",
+      findings.calibration->elastic.youngs_modulus, findings.calibration->elastic.poissons_ratio));
   if (findings.reference)
     {
       std::string source = findings.reference->rock;

@@ -5,10 +5,12 @@
 #include "base/json_text.h"
 #include "base/quoted.h"
 #include "base/text.h"
+#include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -22,10 +24,28 @@ std::string text(const Json& json, const char* key) { return printable(json.at(k
 
 double number(const Json& json, const char* key) { return json.at(key).get<double>(); }
 
+std::optional<double> number_if_any(const Json& json, const char* key)
+{
+  return json.contains(key) ? std::optional(number(json, key)) : std::nullopt;
+}
+
+ElasticFigures elastic_figures(const Provenance& made_by)
+{
+  ElasticFigures figures;
+  for (const InputEntry& one : made_by.input)
+    if (one.section == "Calibration" && one.entry == "Youngs modulus")
+      figures.youngs_modulus = one.value;
+    else if (one.section == "Calibration" && one.entry == "Poissons ratio")
+      figures.poissons_ratio = one.value;
+  return figures;
+}
+
 CalibrationRecord from_json(const Json& json)
 {
   CalibrationRecord record;
+  record.rock = printable(text_of(json, "rock"));
   record.statement = text(json, "statement");
+  record.elastic = elastic_figures(read_provenance(json));
   record.tolerance = number(json, "tolerance");
   for (const auto& [name, row] : json.at("targets").items())
     record.targets.push_back(
@@ -35,8 +55,9 @@ CalibrationRecord from_json(const Json& json)
        number(row, "deviation"), number(row, "n_packings")});
   for (const auto& [name, row] : json.at("parameters").items())
     record.parameters.push_back({printable(name), text(row, "title"), text(row, "unit"), number(row, "best"),
-                                 number(row, "median"), number(row, "lower_90"), number(row, "upper_90"),
-                                 text(row, "verdict"), text(row, "sentence")});
+                                 number_if_any(row, "median"), number_if_any(row, "lower_90"),
+                                 number_if_any(row, "upper_90"), printable(text_of(row, "verdict")),
+                                 printable(text_of(row, "sentence"))});
   for (const auto& [name, row] : json.at("predictions").items())
     record.predictions.push_back({printable(name), text(row, "title"), text(row, "unit"), number(row, "median"),
                                   number(row, "lower_90"), number(row, "upper_90")});
@@ -74,7 +95,9 @@ std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& f
     {
       throw InputError(fmt::format("{}: not as feldspar calibrate writes it", file.string()));
     }
-  read_samples(record, folder / "posterior.csv");
+  if (std::any_of(record.parameters.begin(), record.parameters.end(),
+                  [](const auto& parameter) { return parameter.median.has_value(); }))
+    read_samples(record, folder / "posterior.csv");
   return record;
 }
 } // namespace feldspar

@@ -7,6 +7,14 @@
 
 namespace feldspar
 {
+/// Which figures of the uniaxial test the Young's modulus and the Poisson's ratio of a laboratory are, in the words of
+/// section Calibration of the input.
+struct ElasticFigures
+{
+  std::string youngs_modulus = "tangent"; ///< or initial, or secant
+  std::string poissons_ratio = "secant";  ///< or initial
+};
+
 /// A calibration as its folder has it and a report shows it; SI.
 struct CalibrationRecord
 {
@@ -16,14 +24,15 @@ struct CalibrationRecord
     double target, target_deviation, reached;
     std::optional<double> standard_error;
     double deviation;
-    double n_packings;
+    double n_packings; ///< 0: `reached` is the prediction
   };
 
   struct ParameterRow
   {
     std::string name, title, unit;
-    double best, median, lower_90, upper_90;
-    std::string verdict, sentence;
+    double best;
+    std::optional<double> median, lower_90, upper_90; ///< of the posterior, if there is one
+    std::string verdict, sentence;                    ///< empty without one
   };
 
   struct PredictionRow
@@ -38,7 +47,9 @@ struct CalibrationRecord
     double first_order, total;
   };
 
+  std::string rock;
   std::string statement;
+  ElasticFigures elastic; ///< of its reference
   double tolerance = 0.0;
   std::vector<TargetRow> targets;
   std::vector<ParameterRow> parameters;
@@ -48,6 +59,7 @@ struct CalibrationRecord
   std::vector<std::vector<double>> samples; ///< [column][sample]
 };
 
-/// Reads calibration.json and posterior.csv of a folder; none where there is no calibration. Throws InputError.
+/// Reads calibration.json of a folder, and posterior.csv where its parameters have a posterior; none where there is no
+/// calibration. Throws InputError.
 std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& folder);
 } // namespace feldspar

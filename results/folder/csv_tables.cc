@@ -138,19 +138,18 @@ const std::vector<Column<Crack>>& crack_columns()
   return columns;
 }
 
-const std::vector<Column<GrainPicture>>& grain_columns()
+/// `group`: the name of the column of the groups, which outlives the columns.
+std::vector<Column<GrainPicture>> grain_columns(const std::string_view group)
 {
-  static const std::vector<Column<GrainPicture>> columns{
-    coordinate("start_x_m", &GrainPicture::start, 0),
-    coordinate("start_y_m", &GrainPicture::start, 1),
-    coordinate("start_z_m", &GrainPicture::start, 2),
-    coordinate("x_m", &GrainPicture::position, 0),
-    coordinate("y_m", &GrainPicture::position, 1),
-    coordinate("z_m", &GrainPicture::position, 2),
-    column<GrainPicture>("radius_m", &GrainPicture::radius),
-    column<GrainPicture>("fragment", &GrainPicture::fragment),
-    added(column<GrainPicture>("mineral_grain", &GrainPicture::mineral))};
-  return columns;
+  return {coordinate("start_x_m", &GrainPicture::start, 0),
+          coordinate("start_y_m", &GrainPicture::start, 1),
+          coordinate("start_z_m", &GrainPicture::start, 2),
+          coordinate("x_m", &GrainPicture::position, 0),
+          coordinate("y_m", &GrainPicture::position, 1),
+          coordinate("z_m", &GrainPicture::position, 2),
+          column<GrainPicture>("radius_m", &GrainPicture::radius),
+          column<GrainPicture>("fragment", &GrainPicture::fragment),
+          added(column<GrainPicture>(group, &GrainPicture::mineral))};
 }
 
 const char* kind_name(const CrackKind kind) { return kind == CrackKind::tension ? "tension" : "shear"; }
@@ -294,22 +293,24 @@ std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::str
   return cracks;
 }
 
-void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file)
+void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file, const std::string& group)
 {
   std::string text;
-  append_names(text, grain_columns());
+  const auto columns = grain_columns(group);
+  append_names(text, columns);
   for (const auto& grain : grains)
-    append_row(text, grain_columns(), grain, 1.0);
+    append_row(text, columns, grain, 1.0);
   write_whole_file(file, text);
 }
 
 std::vector<GrainPicture> read_grains(const std::filesystem::path& file)
 {
   CsvReader table(file);
-  const auto places = places_of(table, grain_columns());
+  const auto columns = grain_columns(table.has("clump") ? "clump" : "mineral_grain");
+  const auto places = places_of(table, columns);
   std::vector<GrainPicture> grains;
   while (table.next())
-    grains.push_back(row_of(table, grain_columns(), places, 1.0));
+    grains.push_back(row_of(table, columns, places, 1.0));
   return grains;
 }
 } // namespace feldspar

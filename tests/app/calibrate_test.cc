@@ -185,6 +185,9 @@ TEST(Calibrate, SaysWhatTargetsThatContradictEachOtherComeNearestTo)
   EXPECT_NE(outcome.error.find("; nearest come tensile strength "), std::string::npos) << outcome.error;
   EXPECT_FALSE(fs::exists(folder.path() / "out" / "best.prm")) << "a false optimum";
   EXPECT_TRUE(fs::exists(folder.path() / "out" / "nearest.prm"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out" / "posterior.csv")) << "there are no samples";
+  EXPECT_NE(content(folder.path() / "out" / "report.html").find("predicted"), std::string::npos);
+  EXPECT_NE(content(folder.path() / "out" / "log.txt").find("bond tensile strength"), std::string::npos);
   const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
   EXPECT_FALSE(json["has_reached"].get<bool>());
 }
@@ -230,6 +233,8 @@ TEST(Calibrate, RefusesWhatCannotBeCalibrated)
                           "set List = uniaxial_compression, triaxial_compression\n  set Confinements = 10 MPa\n"
                           "  set Intermediate stress = 20 MPa\n  set Stop stress"),
                  reference, "Tests/Intermediate stress: a calibration presses its specimens alike from all sides");
+  expect_mistake(replaced(small_calibration, "set Stop stress", "set Grip ratio = 0.001\n  set Stop stress"), reference,
+                 "(10 of the first 10 packings)");
   // At once, before anything is broken.
   expect_mistake(replaced(small_calibration, "set Tolerance", "set Poissons ratio = initial\n  set Tolerance"),
                  replaced(reference, "\"youngs", "\"poissons_ratio\": 0.35, \"youngs"),

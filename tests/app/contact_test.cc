@@ -5,10 +5,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// `feldspar contact` against the closed forms of an intact joint and of its first break.
@@ -118,6 +120,24 @@ TEST(Contact, ABondThatSoftensLosesItsTensionOverItsOpening)
         EXPECT_NEAR(sigma(table.rows[row], i), stress[row], 1e-9 * 22e6);
         EXPECT_EQ(bonded(table.rows[row], i), row < 2);
       }
+}
+
+TEST(Contact, RefusesWhatNeedsASpecimenByName)
+{
+  const TemporaryFolder folder;
+  folder.write("path.csv", "normal_m,shear_m,rotation_rad\n0,0,0\n");
+  folder.write("clumps.prm", std::string(input) + "subsection Clumps\n  set Diameter = 4 mm\nend\n");
+  folder.write("minerals.prm", std::string(input) + "subsection Mineral grains\n  set Mean size = 5 mm\nend\n" +
+                                 "subsection Smooth joint\n  set Tensile strength = 0 MPa\nend\n");
+  for (const auto& [name, entry] : {std::pair("clumps.prm", "Clumps/Diameter = 4 mm"),
+                                    std::pair("minerals.prm", "Mineral grains/Mean size = 5 mm")})
+    {
+      const auto outcome = run_feldspar(folder.path(), std::string("contact ") + name + " --output results");
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_EQ(outcome.error, std::string("feldspar: ") + name + ": " + entry +
+                                 ": one contact of two grains has no use for it; leave it out\n");
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+    }
 }
 
 TEST(Contact, IntactJointIsLinear)

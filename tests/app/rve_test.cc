@@ -347,6 +347,12 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   const std::string held = "subsection Representative volume\n";
   expect("rve", small_cell + free_sides + held + "  set Boundary = edge\n  set Free axis = z\nend\n", "",
          "bad.prm: Representative volume/Free axis = z: in two dimensions it is x or y");
+  const std::string clumps = "subsection Clumps\n  set Diameter = 4 mm\nend\n";
+  expect("rve", free_sides + clumps, "",
+         "bad.prm: Clumps/Diameter = 4 mm: a representative volume takes none; set Diameter = none");
+  expect("rve", small_cell + free_sides + clumps, "",
+         "bad.prm:10: Clumps/Diameter = 4 mm: clumps are in a box, and Specimen/Shape is periodic: a representative "
+         "volume takes none, set Diameter = none");
   expect("rve", small_cell + free_sides + held + "  set Boundary = rigid\nend\n", "",
          "bad.prm:10: Representative volume/Boundary = rigid: must be periodic or minimal kinematic or weakly "
          "periodic or edge or affine");

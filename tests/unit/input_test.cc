@@ -477,8 +477,12 @@ TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)
   EXPECT_NE(
     refused("subsection Specimen\n  set Dimension = 3\nend\n").find("a.prm:2: Clumps/Diameter = 4 mm: clumps are"),
     std::string::npos);
-  EXPECT_NE(refused("subsection Specimen\n  set Shape = periodic\nend\n").find("clumps are of the plane and in a box"),
-            std::string::npos);
+  // A representative volume is not sent to a box, which it cannot have.
+  EXPECT_NE(
+    refused("subsection Specimen\n  set Shape = periodic\nend\n")
+      .find("a representative volume takes none, set Diameter = none; a laboratory test takes them with Shape = "
+            "box"),
+    std::string::npos);
   EXPECT_NE(refused("subsection Mineral grains\n  set Mean size = 5 mm\nend\n").find("excludes Mineral grains"),
             std::string::npos);
   EXPECT_NE(
@@ -500,10 +504,21 @@ TEST(Input, MineralGrainsNeedAWordOnTheBondsAtTheirBoundaries)
   const std::string unsaid = error_of("a.prm", minerals);
   EXPECT_TRUE(unsaid.starts_with("a.prm:2: Mineral grains/Mean size = 5 mm: says nothing of the bonds")) << unsaid;
   EXPECT_NE(error_of("a.prm", minerals + "subsection Smooth joint\n  set Friction = 0.6\nend\n"), "");
-  for (const std::string said :
-       {"Smooth joint\n  set Tensile strength = 0 MPa", "Smooth joint\n  set Cohesion = 30 MPa",
-        "Variants\n  set Entry = Smooth joint/Cohesion\n  set Values = 10 MPa; 20 MPa"})
+  const std::string tension = "Smooth joint\n  set Tensile strength = 10 MPa\n";
+  const std::string cohesion_varies = "Variants\n  set Entry = Smooth joint/Cohesion\n  set Values = 10 MPa; 20 MPa";
+  for (const std::string& said :
+       {std::string("Smooth joint\n  set Tensile strength = 0 MPa"), tension + "  set Cohesion = 30 MPa",
+        tension + "  set Cohesion = 0 MPa", tension + "end\nsubsection " + cohesion_varies})
     EXPECT_EQ(error_of("a.prm", minerals + "subsection " + said + "\nend\n"), "") << said;
+  // One strength of a bond alone would leave the other at zero without a word.
+  EXPECT_EQ(error_of("a.prm", minerals + "subsection " + tension + "end\n"),
+            "a.prm:2: Mineral grains/Mean size = 5 mm: has boundaries bonded by Smooth joint/Tensile strength, and "
+            "Smooth joint/Cohesion is missing: give it too, 0 MPa for none");
+  for (const std::string& said : {std::string("Smooth joint\n  set Cohesion = 30 MPa"), cohesion_varies})
+    EXPECT_NE(error_of("a.prm", minerals + "subsection " + said + "\nend\n")
+                .find("bonded by Smooth joint/Cohesion, and Smooth joint/Tensile strength is missing"),
+              std::string::npos)
+      << said;
 }
 
 TEST(Input, EveryEntryOfParallelBondsReachesItsMember)
@@ -565,7 +580,56 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
             "bond");
   EXPECT_EQ(error_of_entry("Specimen", "Joint law = parallel"),
             "a.prm:2: Specimen/Joint law = parallel: must be flat joint or parallel bond or softening flat "
-            "joint");
+            "joint; did you mean \"parallel bond\"?");
+}
+
+TEST(Input, AMisspelledChoiceIsToldTheNearest)
+{
+  const std::string laws = ": must be flat joint or parallel bond or softening flat joint";
+  EXPECT_EQ(error_of_entry("Specimen", "Joint law = paralel bond"),
+            "a.prm:2: Specimen/Joint law = paralel bond" + laws + "; did you mean \"parallel bond\"?");
+  EXPECT_EQ(error_of_entry("Specimen", "Joint law = Parallel Bond"),
+            "a.prm:2: Specimen/Joint law = Parallel Bond" + laws +
+              "; did you mean \"parallel bond\" (capital and small letters are told apart)?");
+  EXPECT_EQ(error_of_entry("Specimen", "Joint law = glue"), "a.prm:2: Specimen/Joint law = glue" + laws);
+  EXPECT_TRUE(error_of_entry("Specimen", "Shape = cilinder").ends_with("; did you mean \"cylinder\"?"));
+  EXPECT_TRUE(error_of_entry("Tests", "List = direct_tension, brasilian").ends_with("; did you mean \"brazilian\"?"));
+}
+
+TEST(Input, AVariantThatSetsAnEntryOfAnotherJointLawIsRefusedByName)
+{
+  const auto varied = [](const std::string& values, const std::string& more = "") {
+    return error_of("a.prm", "subsection Variants\nset Entry = Specimen/Joint law; Flat joint/Segments\nset Values = " +
+                               values + "\n" + more + "end");
+  };
+  // In a grid the parallel bond would be tested twice, with segments that it does not have.
+  EXPECT_EQ(
+    varied("flat joint; parallel bond || 2; 3"),
+    "a.prm:3: Variants/Values = flat joint; parallel bond || 2; 3: Flat joint/Segments = 2: is of another joint "
+    "law; Specimen/Joint law is parallel bond; set Combine = in step, or give a Table, with 4 in such a variant");
+  const std::string in_step = "set Combine = in step\n";
+  EXPECT_EQ(
+    varied("flat joint; parallel bond || 2; 3", in_step),
+    "a.prm:3: Variants/Values = flat joint; parallel bond || 2; 3: Flat joint/Segments = 3: is of another joint "
+    "law; Specimen/Joint law is parallel bond; give it 4 in such a variant");
+  // What the input has without variants says nothing new of the parallel bond.
+  EXPECT_EQ(varied("flat joint; flat joint; parallel bond || 2; 3; 4", in_step), "");
+
+  const TemporaryFolder folder;
+  folder.write("plan.csv", "Specimen/Joint law,Flat joint/Segments\nflat joint,2\nparallel bond,3\n");
+  try
+    {
+      read_input(folder.write("a.prm", "subsection Variants\nset Table = plan.csv\nend"));
+      ADD_FAILURE() << "the table was accepted";
+    }
+  catch (const InputError& error)
+    {
+      EXPECT_NE(std::string(error.what())
+                  .find("a.prm:2: Variants/Table = plan.csv: Flat joint/Segments = 3: is of another joint law; "
+                        "Specimen/Joint law is parallel bond"),
+                std::string::npos)
+        << error.what();
+    }
 }
 
 TEST(Input, VariantsAreNamedInFilesByTheirValues)

@@ -5,6 +5,8 @@
 #include "dem/lab/protocols/protocols.h"
 #include "report/live/chart.h"
 #include "report/live/crack_story.h"
+#include "report/live/group_colour.h"
+#include "report/page/picture_book.h"
 #include "report/page/table.h"
 #include "report/pictures/curves/curve_pictures.h"
 #include "report/pictures/envelope_pictures.h"
@@ -13,14 +15,17 @@
 #include "report/pictures/maps/map_marks.h"
 #include "report/pictures/stress_plane_pictures.h"
 #include "report/pictures/study_pictures.h"
+#include "report/report.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
 #include "report/sections/sections.h"
 #include "report/sections/study_text.h"
+#include "report/sections/text.h"
 #include "report/sections/verdict.h"
 #include "results/fits/residual_strength.h"
 #include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
+#include "results/folder/calibration_record.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"
 #include "results/runs/result_table.h"
@@ -968,6 +973,187 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
 }
 
+TEST(Comparison, TakesTheModulusAndTheRatioThatTheReferenceHas)
+{
+  Reference reference = granite(120.0, 130.0);
+  reference.experiment.values["poissons_ratio"] = {0.2, 0.1, 0.3};
+  const auto compared_in = [&](const ElasticFigures& elastic) {
+    std::vector<std::string> properties;
+    for (const ComparisonRow& row : compare({compression(3)}, reference, elastic))
+      if (row.experiment && (row.key == "youngs_modulus_GPa" || row.key == "poissons_ratio"))
+        properties.push_back(row.property);
+    return properties;
+  };
+  EXPECT_EQ(compared_in({}), (std::vector<std::string>{"Young's modulus, tangent 40-60 % of peak",
+                                                       "Poisson's ratio, secant at 50 % of peak"}));
+  EXPECT_EQ(compared_in({"initial", "initial"}),
+            (std::vector<std::string>{"Young's modulus, initial", "Poisson's ratio, initial"}));
+  EXPECT_EQ(compared_in({"secant", "secant"}), (std::vector<std::string>{"Young's modulus, secant at 50 % of peak",
+                                                                         "Poisson's ratio, secant at 50 % of peak"}));
+  // Those that are not compared are no property that was not tested.
+  EXPECT_TRUE(
+    properties_without_a_test(compare({compression(3)}, reference, {"initial", "initial"}), reference).empty());
+}
+
+TEST(PageText, OfNumbersHasTheirFiguresAndNoSignOfZero)
+{
+  EXPECT_EQ(text::significant(119.04, 3), "119");
+  EXPECT_EQ(text::significant(777.0, 3), "777");
+  EXPECT_EQ(text::significant(1234.0, 3), "1230");
+  EXPECT_EQ(text::significant(99.96, 3), "100"); // not 100.0
+  EXPECT_EQ(text::significant(15.26, 3), "15.3");
+  EXPECT_EQ(text::significant(0.15, 3), "0.150");
+  EXPECT_EQ(text::significant(-0.0004567, 2), "-0.00046");
+  EXPECT_EQ(text::significant(0.0, 3), "0");
+  EXPECT_EQ(text::number(-0.004, 2), "0.00");
+  EXPECT_EQ(text::number(-0.04, 2), "-0.04");
+  EXPECT_EQ(text::signed_percent(-0.0004), "+0.0 %");
+  EXPECT_EQ(text::signed_percent(-0.012), "−1.2 %");
+  EXPECT_EQ(text::sentence("the targets were missed"), "The targets were missed.");
+  EXPECT_EQ(text::sentence("All were reached."), "All were reached.");
+}
+
+/// Of two targets, of which the second is Poisson's ratio; three samples of two parameters.
+CalibrationRecord calibration_record()
+{
+  CalibrationRecord record;
+  record.rock = "granite: of somewhere";
+  record.statement = "All targets were reached within 3 %.";
+  record.elastic = {"initial", "initial"};
+  record.targets = {{"uniaxial_compressive_strength", "uniaxial compressive strength", "Pa", 161.5e6, 5e6, 163.04e6,
+                     1.234e6, 0.00954, 12.0},
+                    {"poissons_ratio", "Poisson's ratio, initial", "1", 0.15, 0.01, 0.15, 0.002, 0.0, 12.0}};
+  record.parameters = {{"bond_cohesion", "bond cohesion", "Pa", 777.0e6, 600.4e6, 413.0e6, 994.0e6, "bounded",
+                        "The bond cohesion is bounded."},
+                       {"cohesion_ratio", "bond cohesion over tensile strength", "1", 18.79, 20.0, 12.1, 36.9,
+                        "bounded", "The ratio is bounded."}};
+  record.predictions = {{"crack_damage_stress", "crack damage stress", "Pa", 150e6, 119.0e6, 192.0e6}};
+  record.sensitivities = {{"crack_damage_stress", "cohesion_ratio", 0.92, 0.95},
+                          {"crack_damage_stress", "installation_gap_ratio", -0.0006, 0.003},
+                          {"poissons_ratio", "cohesion_ratio", 0.1, 0.2}};
+  record.sampled = {"bond_cohesion_Pa", "cohesion_ratio"};
+  record.samples = {{600e6, 700e6, 800e6}, {15.0, 20.0, 22.0}};
+  return record;
+}
+
+TEST(CalibrationSection, HasTitlesAndNoMoreFiguresThanAreKnown)
+{
+  PictureBook book;
+  const PageSection section = calibration_section(calibration_record(), book);
+  ASSERT_EQ(section.blocks.size(), 2u);
+  const std::vector<Table>& tables = section.blocks[0].tables;
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].rows[0],
+            (std::vector<std::string>{"uniaxial compressive strength [MPa]", "161.5", "163.0", "1.2", "+1.0 %", "12"}));
+  EXPECT_EQ(tables[1].rows[0],
+            (std::vector<std::string>{"bond cohesion [MPa]", "777", "600", "413 to 994", "bounded"}));
+  ASSERT_EQ(section.blocks[0].pictures.size(), 1u) << "the pairs do not stand in their section";
+  EXPECT_TRUE(section.blocks[0].pictures[0].picture.caption.ends_with('.'));
+  const std::vector<Table>& more = section.blocks[1].tables;
+  ASSERT_EQ(more.size(), 2u);
+  EXPECT_EQ(more[0].rows[0], (std::vector<std::string>{"crack damage stress [MPa]", "150", "119 to 192"}));
+  EXPECT_EQ(more[1].rows, (std::vector<std::vector<std::string>>{
+                            {"crack damage stress", "bond cohesion over tensile strength", "0.92", "0.95"},
+                            {"crack damage stress", "installation gap ratio", "0.00", "0.00"},
+                            {"Poisson's ratio, initial", "bond cohesion over tensile strength", "0.10", "0.20"}}));
+  EXPECT_NE(more[1].caption.find("Poisson's ratio less that of intact cells"), std::string::npos);
+}
+
+TEST(CalibrationSection, OfWhatWasNotTestedSaysWhatIsPredicted)
+{
+  CalibrationRecord record = calibration_record();
+  record.statement = "these targets cannot be reached together";
+  for (auto& target : record.targets)
+    {
+      target.standard_error.reset();
+      target.n_packings = 0.0;
+    }
+  for (auto& parameter : record.parameters)
+    parameter = {parameter.name, parameter.title, parameter.unit, parameter.best, {}, {}, {}, "", ""};
+  record.predictions.clear();
+  record.sampled.clear();
+  record.samples.clear();
+  PictureBook book;
+  const PageSection section = calibration_section(record, book);
+  const PageBlock& block = section.blocks.at(0);
+  EXPECT_EQ(block.headline, "These targets cannot be reached together.");
+  EXPECT_TRUE(block.points.empty());
+  EXPECT_TRUE(block.pictures.empty());
+  EXPECT_EQ(block.tables[0].header[2], "predicted");
+  EXPECT_EQ(block.tables[0].rows[0][2], "163.0");
+  EXPECT_EQ(block.tables[0].rows[0][5], "–");
+  EXPECT_EQ(block.tables[1].header[1], "nearest");
+  EXPECT_EQ(block.tables[1].rows[0], (std::vector<std::string>{"bond cohesion [MPa]", "777", "–", "–", ""}));
+  ASSERT_EQ(section.blocks.size(), 2u) << "the Sobol indices are missing";
+
+  const TemporaryFolder folder;
+  EXPECT_TRUE(write_report(record, folder.path()).empty());
+  const std::string page = content(folder.path() / "report.html");
+  for (const char* words :
+       {"granite: calibration", "These targets cannot be reached together.", "predicted", "nearest"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_NE(content(folder.path() / "tables/calibration_targets.csv").find("predicted"), std::string::npos);
+}
+
+TEST(Report, OfACalibrationBeginsWithItsStatementAndHasThePairsBelow)
+{
+  // The initial modulus of 60 GPa lies in its range; so does the initial ratio of 0.2.
+  Reference reference = granite(100.0, 130.0);
+  reference.rock = "granite";
+  reference.experiment.values["youngs_modulus_GPa"] = {60.0, 55.0, 65.0};
+  reference.experiment.values["poissons_ratio"] = {0.2, 0.15, 0.25};
+  Series series;
+  series.label = "answer";
+  series.tests = {compression(3), compression(4), compression(5)};
+  ReportInput input;
+  input.all = {series};
+  input.envelopes = {fit_strength_envelopes(strength_data(series.tests))};
+  input.reference = reference;
+  input.calibration = calibration_record();
+  const TemporaryFolder folder;
+  write_report(input, folder.path(), {[] { return true; }, [](std::size_t, std::size_t) {}}); // without pictures
+  const std::string page = content(folder.path() / "report.html");
+  const auto place = [&](const std::string& words) {
+    const std::size_t at = page.find(words);
+    EXPECT_NE(at, std::string::npos) << words;
+    return at;
+  };
+  const std::size_t first_line = place(
+    "Calibration: All targets were reached within 3 %. Comparison with the experiments: Yes, by the 3 properties");
+  place("In range: Young&apos;s modulus, initial 60.0");
+  place("Young&apos;s modulus is taken to be the initial one and Poisson&apos;s ratio the initial one");
+  const std::size_t found = place("How the micro-parameters were found");
+  EXPECT_LT(first_line, page.find("<figcaption>"));
+  EXPECT_LT(first_line, found);
+  EXPECT_LT(found, place("Micro-parameters that agree with the tests"));
+  EXPECT_LT(page.find("<figcaption>"), found) << "no picture stands beside the first question";
+}
+
+TEST(CalibrationRecord, KnowsWhichFiguresItsReferenceHasAndNeedsNoPosterior)
+{
+  const TemporaryFolder folder;
+  folder.write("calibration.json", R"({"input": {"parameters": {"Calibration": {"Youngs modulus": "secant",
+    "Poissons ratio": "initial"}}}, "rock": "granite", "statement": "s", "tolerance": 0.03, "targets": {},
+    "parameters": {"modulus": {"title": "modulus", "unit": "Pa", "best": 50e9}}, "predictions": {},
+    "sensitivities": {}})");
+  const auto record = read_calibration(folder.path());
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->rock, "granite");
+  EXPECT_EQ(record->elastic.youngs_modulus, "secant");
+  EXPECT_EQ(record->elastic.poissons_ratio, "initial");
+  ASSERT_EQ(record->parameters.size(), 1u);
+  EXPECT_EQ(record->parameters[0].best, 50e9);
+  EXPECT_FALSE(record->parameters[0].median);
+  // What has a posterior has its samples.
+  folder.write("calibration.json", R"({"statement": "s", "tolerance": 0.03, "targets": {}, "parameters": {"modulus":
+    {"title": "modulus", "unit": "Pa", "best": 50e9, "median": 51e9, "lower_90": 40e9, "upper_90": 60e9,
+    "verdict": "determined", "sentence": "s"}}, "predictions": {}, "sensitivities": {}})");
+  EXPECT_THROW(read_calibration(folder.path()), InputError);
+  folder.write("posterior.csv", "modulus_Pa\n50e9\n52e9\n");
+  EXPECT_EQ(read_calibration(folder.path())->samples, (std::vector<std::vector<double>>{{50e9, 52e9}}));
+  EXPECT_EQ(read_calibration(folder.path())->elastic.youngs_modulus, "tangent"); // the default of the input
+}
+
 TEST(Comparison, HasTheRockConstantWhereTheReferenceDoes)
 {
   // Two seeds on envelopes of 160 MPa with m_i = 24 and 26; a third was not tested without confinement.
@@ -1140,7 +1326,7 @@ TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
   FinishedTest grouped = test; // of a mineral grain or clump
   grouped.appearance.grains_at_end[0].mineral = 1;
   const auto with_groups = nlohmann::json::parse(crack_story(grouped));
-  EXPECT_EQ(with_groups["grains"][0], nlohmann::json::parse(R"([10.0, 20.0, 0.62, "#c3d6e6"])"));
+  EXPECT_EQ(with_groups["grains"][0], nlohmann::json::parse(R"([10.0, 20.0, 0.62, "#ead9b8"])"));
   EXPECT_EQ(with_groups["grains"][1].size(), 3u);
 
   FinishedTest flawed = test;
@@ -1151,6 +1337,33 @@ TEST(CrackStory, GivesEachCrackTheRowByWhichItIsThere)
   FinishedTest without = test;
   without.record.cracks.clear();
   EXPECT_EQ(crack_story(without), "");
+}
+
+TEST(GroupColours, OfGroupsThatTouchDiffer)
+{
+  // Squares of 3 × 3 grains, six by six of them. Their numbers are such that the colour of a number by a cycle of seven would
+  // be one for all.
+  constexpr int n = 18;
+  const auto group = [](const int x, const int y) { return std::uint32_t(7 * (6 * (y / 3) + x / 3) + 1); };
+  std::vector<GrainPicture> grains;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      grains.push_back({{0.002 * x, 0.002 * y, 0.0}, {}, 0.001, 0, group(x, y)});
+  grains.push_back({{0.002 * n, 0.0, 0.0}, {}, 0.001, 0, 0}); // of no group
+  const auto colours = group_colours(grains);
+  ASSERT_EQ(colours.size(), grains.size());
+  EXPECT_EQ(colours.back(), 0xd8d8d8u);
+  EXPECT_EQ(std::count(colours.begin(), colours.end(), colours.back()), 1);
+  const auto colour = [&](const int x, const int y) { return colours[std::size_t(n * y + x)]; };
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x + 1 < n; ++x)
+      {
+        EXPECT_EQ(colour(x, y) == colour(x + 1, y), group(x, y) == group(x + 1, y)) << x << ", " << y;
+        EXPECT_EQ(colour(y, x) == colour(y, x + 1), group(y, x) == group(y, x + 1)) << y << ", " << x;
+      }
+  // What has no place, as of a damaged table, is of no group.
+  grains[0].start[0] = std::nan("");
+  EXPECT_EQ(group_colours(grains).size(), grains.size());
 }
 
 TEST(Trust, WarnsOfAServoThatLetsTheConfinementGo)
@@ -1205,6 +1418,32 @@ TEST(ResultFolder, LeavesOutTestsWhoseNamesWouldLeadOutOfIt)
   EXPECT_NE(all[0].problems[1].find("a test was left out for its name, \"a\\nsystem \"touch marker\"\""),
             std::string::npos)
     << all[0].problems[1];
+}
+
+TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
+{
+  const TemporaryFolder folder;
+  FinishedTest minerals = compression(3);
+  FinishedTest clumps = compression(4);
+  clumps.record.specimen.n_clumps = 2;
+  for (FinishedTest* const test : {&minerals, &clumps})
+    test->appearance.grains_at_end[1].mineral = 5;
+  write_result_folder({}, {minerals, clumps}, {}, folder.path());
+  const auto header = [&](const std::string& test) {
+    const std::string table = content(folder.path() / ("grains/" + test + ".csv"));
+    return table.substr(0, table.find('\n'));
+  };
+  EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain")) << header(minerals.name);
+  EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump")) << header(clumps.name);
+  const auto expect_groups = [&] {
+    for (const FinishedTest& test : read_result_folder(folder.path(), test_kinds()).at(0).tests)
+      EXPECT_EQ(test.appearance.grains_at_end.at(1).mineral, 5u) << test.name;
+  };
+  expect_groups();
+  // Folders of before the column was called so.
+  std::string before = content(folder.path() / ("grains/" + clumps.name + ".csv"));
+  folder.write("grains/" + clumps.name + ".csv", before.replace(before.find("clump"), 5, "mineral_grain"));
+  expect_groups();
 }
 
 TEST(ResultFolder, TakesNoCountThatIsNone)

@@ -25,6 +25,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
 
 namespace feldspar
 {
@@ -613,7 +614,22 @@ TEST(MineralGrains, ThatAreTooSmallTooLargeOrThereAlreadyAreRefused)
 {
   Specimen<2> specimen = small_specimen();
   EXPECT_THROW(put_in_mineral_grains(specimen, {0.0015}, {}), InputError);
-  EXPECT_THROW(put_in_mineral_grains(specimen, {0.050}, {}), InputError);
+  // 1.5 circles of 14.27 mm have the area of 12 × 20 mm; from there on there would be fewer than two.
+  try
+    {
+      put_in_mineral_grains(specimen, {0.050}, {});
+      ADD_FAILURE() << "50 mm was accepted";
+    }
+  catch (const InputError& error)
+    {
+      const std::string what = error.what();
+      EXPECT_NE(what.find("Mineral grains/Mean size = 50 mm: must be at most 14.2 mm in this specimen"),
+                std::string::npos)
+        << what;
+      EXPECT_NE(what.find("and at least "), std::string::npos) << what;
+    }
+  Specimen<2> of_two = specimen;
+  put_in_mineral_grains(of_two, {0.0142}, {});
   put_in_mineral_grains(specimen, {0.005}, {});
   EXPECT_THROW(put_in_mineral_grains(specimen, {0.005}, {}), InputError);
 }

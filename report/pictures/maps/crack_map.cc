@@ -111,17 +111,19 @@ std::vector<Picture> crack_map(const FinishedTest& test, const std::string& titl
   const MapLimits& frame = map_frame.frame;
   const std::vector<Crack> cracks_at_end = carried(test);
   const FlawOutlines flaws = flaw_outlines(test, "");
+  const auto colours = group_colours(test.appearance.grains_at_end);
   std::string data = flaws.data;
   std::string plots;
   for (std::size_t s = 0; s < all_stages.size(); ++s)
     {
       const bool at_end = s + 1 == all_stages.size();
       std::string grains;
-      for (const auto& grain : test.appearance.grains_at_end)
+      for (std::size_t i = 0; i < colours.size(); ++i)
         {
+          const GrainPicture& grain = test.appearance.grains_at_end[i];
           const auto& centre = at_end ? grain.position : grain.start;
           fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g} {}\n", centre[0] / milli,
-                         centre[axis] / milli, grain.radius / milli, group_colour(grain.mineral));
+                         centre[axis] / milli, grain.radius / milli, colours[i]);
         }
       data += fmt::format("$grains{} << EOD\n{}EOD\n", s, grains);
       plots += fmt::format("set title {} noenhanced\nplot $grains{} using 1:2:3:4 with circles fill solid noborder lc "
