@@ -10,9 +10,9 @@ namespace feldspar
 {
 /// A symmetric matrix of a network's grains, then its factor L D Lᵀ, in blocks of the motions of two grains. A column of a
 /// block is one vector of the processor, with zeros below the motions of a grain: most of the time of a damaged
-/// representative volume goes into solving with this factor. A factor of Eigen's, number by number, takes four times as
-/// long, and CHOLMOD, by blocks of any size, no less than Eigen (benchmarks/README.md); its results would also depend on
-/// the library of linear algebra that a machine has. Sums are in one order, so that every processor gives the same bits.
+/// representative volume goes into solving with this factor. Eigen's factor, number by number, takes two to four times as
+/// long (benchmarks/README.md); that of CHOLMOD is no faster but for hundreds of spheres, and its bits depend on the library
+/// of linear algebra that a machine has. Here sums are in one order, and every processor gives the same bits.
 template <int dim>
 class BlockFactor
 {

@@ -331,6 +331,28 @@ TEST(Example, ReliabilityShowsTheCommittedFigures)
   EXPECT_LE(soak["largest_deviation_from_mean"].get<double>(), 0.01);
 }
 
+TEST(Example, BenchmarksShowTheCommittedFactors)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string page = content(folder + "README.md");
+  const auto times = nlohmann::json::parse(content(folder + "results/factor-benchmark.json"))["benchmarks"];
+  const auto shown = [&](const std::string& body, const int dim, const int width) {
+    const auto time = [&](const std::string& name) {
+      return times[fmt::format("{}>/{}", name, width)]["processor_time_ns"].get<double>();
+    };
+    std::string row = "\n| " + body + " |";
+    for (const auto& [what, unit] : {std::pair("factorise", 1e6), std::pair("solve", 1e3)})
+      for (const std::string& name :
+           {fmt::format("block_{}<{}", what, dim), fmt::format("library_{}<{}, OfEigen", what, dim),
+            fmt::format("library_{}<{}, OfCholmod", what, dim)})
+        row += fmt::format(" {:.3g} |", time(name) / unit);
+    EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+  };
+  shown("408 discs", 2, 325);
+  shown("100 spheres", 3, 74);
+  shown("602 spheres", 3, 133);
+}
+
 TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/";
