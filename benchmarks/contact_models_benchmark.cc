@@ -1,13 +1,13 @@
 // One whole step of the same 1 950 grains under each contact model, intact and on one thread, in the same run. The counter
 // ns_per_pair counts the pairs that the flat joint joins, so that the models stand beside one another.
 
+#include "benchmarks/on_one_thread.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <functional>
 
@@ -82,9 +82,4 @@ BENCHMARK_CAPTURE(step, grain_based, of_mineral_grains);
 } // namespace
 } // namespace feldspar
 
-int main(int argc, char** argv)
-{
-  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-}
+int main(int argc, char** argv) { return feldspar::run_on_one_thread(argc, argv); }

@@ -2,11 +2,11 @@
 // at falling rates: what equal accuracy costs. One thread. The counters are what came out: peak stress [MPa], cracks,
 // boundary work and dissipated energy [J].
 
+#include "benchmarks/on_one_thread.h"
 #include "coupling/rve/explicit_run.h"
 #include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <memory>
@@ -72,10 +72,4 @@ BENCHMARK(by_explicit_dynamics)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000
 } // namespace
 } // namespace feldspar
 
-int main(int argc, char** argv)
-{
-  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
+int main(int argc, char** argv) { return feldspar::run_on_one_thread(argc, argv); }

@@ -2,11 +2,11 @@
 // beside those of Eigen and CHOLMOD of the same matrix, on one core. Some 400 discs, some 100 spheres as in published
 // samples, and some 600.
 
+#include "benchmarks/on_one_thread.h"
 #include "coupling/network/network.h"
 #include "dem/genesis/genesis.h"
 
 #include <benchmark/benchmark.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
@@ -135,9 +135,4 @@ FELDSPAR_FACTORS(3, 133);
 } // namespace
 } // namespace feldspar
 
-int main(int argc, char** argv)
-{
-  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
-}
+int main(int argc, char** argv) { return feldspar::run_on_one_thread(argc, argv); }

@@ -114,7 +114,7 @@ void add_series(DataFrame& frame, const Series& series, const std::vector<Compar
     {
       frame.rows.push_back(row_of(source, "grains of a specimen", "", figure_of(cost->grains)));
       frame.rows.push_back(
-        row_of(source, "time of all tests of a specimen, each on one core", "s", figure_of(cost->time)));
+        row_of(source, "time that passed in all tests of a specimen, each on one core", "s", figure_of(cost->time)));
     }
 }
 } // namespace

@@ -122,7 +122,7 @@ Table comparison_of_many(const Findings& findings)
       append(experiment, {of_reference[0], none});
       append(other_model, {of_reference[1], none});
     }
-  append(table.header, {"grains of a specimen", "time of all tests of a specimen, each on one core [s]"});
+  append(table.header, {"grains of a specimen", "time that passed in all tests of a specimen, each on one core [s]"});
   for (std::size_t k = 0; k < compared.size(); ++k)
     {
       const auto cost = cost_of(findings.all[compared[k]]);
@@ -196,7 +196,7 @@ Table comparison_table(const Findings& findings)
     }
   rock.assign(findings.reference ? 2 : 0, none);
   table.rows.push_back(arranged("grains of a specimen", rock, grains, one));
-  table.rows.push_back(arranged("time of all tests of a specimen, each on one core [s]", rock, times, one));
+  table.rows.push_back(arranged("time that passed in all tests of a specimen, each on one core [s]", rock, times, one));
   return table;
 }
 
