@@ -196,7 +196,7 @@ std::string sentence_of(const ParameterAnswer& answer, const std::string& helpfu
   if (!helpful_title.empty())
     return text + fmt::format("; a measured {} would help most.", helpful_title);
   text += "; no other test of the programme would tell more of it.";
-  return has_confined_tests ? text : text + " The programme has no triaxial compression, which may.";
+  return has_confined_tests ? text : text + " The programme has no triaxial compression; one may tell more.";
 }
 } // namespace
 

@@ -4,10 +4,9 @@
 #include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>

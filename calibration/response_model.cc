@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 namespace feldspar::calibration
 {
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+} // namespace
+
 ResponseModel::ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns,
                              const MicroParameters& fixed, ElasticTable elastic, const double gap_of_specimens)
   : all(std::move(responses))
@@ -69,7 +75,7 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
       std::vector<std::vector<double>> of_point(n_points);
       std::vector<UnitPoint> places(n_points);
       for (const TestedPoint& tested : design)
-        if (tested.values[j])
+        if (tested.values[j] && *tested.values[j] <= all[j].largest_in_design.value_or(infinity))
           {
             of_point[tested.number].push_back(all[j].in_model(*tested.values[j]) - base(j, tested));
             places[tested.number] = tested.point;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace feldspar::calibration
 {
@@ -38,16 +37,6 @@ std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(co
       if (test.was_made() && test.record.kind == of.kind && test.record.confining_pressure == of.confining_pressure)
         return (test.results.*which).value;
     return std::nullopt;
-  };
-}
-
-/// A ratio above one half belongs to no elastic body: cracks opened before the stresses of an initial figure.
-std::function<std::optional<double>(const std::vector<FinishedTest>&)> elastic_ratio(
-  std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure)
-{
-  return [figure = std::move(figure)](const std::vector<FinishedTest>& of_specimen) {
-    const std::optional<double> ratio = figure(of_specimen);
-    return ratio && *ratio <= 0.5 ? ratio : std::nullopt;
   };
 }
 
@@ -119,6 +108,9 @@ std::vector<Response> responses(const std::vector<TestCase>& programme, const Ca
     all.push_back({name, title, "MPa", mega, decimals, name.ends_with("_MPa") ? name : name + "_MPa", mega,
                    ResponseScale::strength, figure(test, which)});
   };
+  // In the plane an elastic body could have up to one; specimens that do not crack have a third at most.
+  constexpr double largest_elastic_ratio = 0.5;
+  const bool is_initial = wanted.poissons_ratio == ElasticFigure::initial;
   for (const TestCase& test : programme)
     switch (test.kind.envelope_role)
       {
@@ -141,11 +133,11 @@ std::vector<Response> responses(const std::vector<TestCase>& programme, const Ca
            giga, ResponseScale::modulus,
            figure(test, figure_of(wanted.youngs_modulus, &TestResults::youngs_modulus_tangent,
                                   &TestResults::youngs_modulus_initial, &TestResults::youngs_modulus_secant))});
-        all.push_back({"poissons_ratio", "Poisson's ratio, " + words(wanted.poissons_ratio), "", 1.0, 3,
-                       "poissons_ratio", 1.0, ResponseScale::none,
-                       wanted.poissons_ratio == ElasticFigure::initial
-                         ? elastic_ratio(figure(test, &TestResults::poissons_ratio_initial))
-                         : figure(test, &TestResults::poissons_ratio_secant)});
+        all.push_back(
+          {"poissons_ratio", "Poisson's ratio, " + words(wanted.poissons_ratio), "", 1.0, 3, "poissons_ratio", 1.0,
+           ResponseScale::none,
+           figure(test, is_initial ? &TestResults::poissons_ratio_initial : &TestResults::poissons_ratio_secant),
+           is_initial ? std::optional(largest_elastic_ratio) : std::nullopt});
         strength(test, "uniaxial_compressive_strength", "uniaxial compressive strength", &TestResults::peak_stress, 1);
         strength(test, "crack_initiation_stress", "crack initiation stress", &TestResults::crack_initiation_stress, 1);
         strength(test, "crack_damage_stress", "crack damage stress", &TestResults::crack_damage_stress, 1);

@@ -36,6 +36,8 @@ struct Response
   ResponseScale scale;
   /// SI, by the tests of one specimen; none where they do not give it.
   std::function<std::optional<double>(const std::vector<FinishedTest>&)> value;
+  /// Of a design point that has more nothing is learnt: cracks opened before what the figure is to measure.
+  std::optional<double> largest_in_design = std::nullopt;
 
   /// The scatter of a response is a share of it: responses are compared by logarithms. Poisson's ratio, which may be 0, is
   /// not.

@@ -119,8 +119,8 @@ std::string statement_of(const std::vector<TargetOutcome>& outcomes, const Respo
   std::string text = fmt::format("All targets were reached within {:g} %", 100.0 * tolerance);
   if (!uncertain.empty())
     text +=
-      fmt::format(" or within two standard errors, but the scatter of packings left the standard errors of some above "
-                  "half of that ({}): raise Calibration/Most packings, or test larger specimens",
+      fmt::format(" or within two standard errors, but the scatter of packings left standard errors above half of that "
+                  "({}): raise Calibration/Most packings, or test larger specimens",
                   listed(uncertain));
   return text + ".";
 }

@@ -1,12 +1,11 @@
 #include "app/calibration/calibrated_input.h"
 
 #include "app/input/parameter_table.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -19,12 +18,19 @@ namespace
 constexpr std::array<std::string_view, 7> sections_of_laboratory{
   "Specimen", "Flat joint", "Particle contact", "Dynamics", "Tests", "Seeds", "Report"};
 
-/// b by which a ratio a : b is kept where a becomes another.
-double kept(const double a, const double b, const double new_a) { return a > 0.0 ? b * new_a / a : b; }
+/// A product as it will be written: round-off would show in files.
+double without_round_off(const double value) { return parse_number(fmt::format("{:.11e}", value)); }
 
+/// b by which a ratio a : b is kept where a becomes another.
+double kept(const double a, const double b, const double new_a)
+{
+  return a > 0.0 ? without_round_off(b * new_a / a) : b;
+}
+
+/// To four figures.
 double to_figures(const double value, const double unit)
 {
-  return std::stod(fmt::format("{:.3e}", value / unit)) * unit; // four figures, as they will be written
+  return parse_number(fmt::format("{:.3e}", value / unit)) * unit;
 }
 } // namespace
 
@@ -55,7 +61,7 @@ Input with_parameters(const Input& input, const MicroParameters& parameters)
   joint.bond_tensile_strength = parameters.bond_tensile_strength;
   joint.bond_tensile_strength_deviation =
     kept(before.bond_tensile_strength, before.bond_tensile_strength_deviation, joint.bond_tensile_strength);
-  joint.bond_cohesion = parameters.cohesion_ratio * parameters.bond_tensile_strength;
+  joint.bond_cohesion = without_round_off(parameters.cohesion_ratio * parameters.bond_tensile_strength);
   joint.bond_cohesion_deviation = kept(before.bond_cohesion, before.bond_cohesion_deviation, joint.bond_cohesion);
   joint.bond_friction_angle = parameters.bond_friction_angle;
   if (parameters.gap)

@@ -10,6 +10,7 @@
 #include "app/programme/specimen_source.h"
 #include "app/programme/test_effort.h"
 #include "app/run/interrupt.h"
+#include "app/run/jobs.h"
 #include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
@@ -127,32 +128,37 @@ private:
   }
 
   /// Those on which no test can begin are left out: every point is tested on each, and a figure that one of them never
-  /// gives would be learnt from none.
-  std::vector<std::uint64_t> packings_of_design()
+  /// gives would be learnt from none. The rock is that of the middle of the design.
+  std::vector<std::uint64_t> packings_of_design(const Input& rock)
   {
     constexpr std::size_t most_left_out = 10;
+    progress.start("packings of the design");
     std::vector<std::uint64_t> seeds;
     std::size_t n_left_out = 0;
     while (seeds.size() < wanted.n_packings)
       {
-        const std::uint64_t seed = packings.take(1).front();
-        const std::string objection = objection_to_packing<dim>(input, seed);
-        if (objection.empty())
-          seeds.push_back(seed);
-        else if (++n_left_out == most_left_out)
-          throw InputError(
-            fmt::format("{} ({} of the first {} packings)", objection, n_left_out, n_left_out + seeds.size()));
-        else
-          progress.remark(fmt::format("Packing {} is left out: {}.", seed, objection));
+        const auto tried = packings.take(wanted.n_packings - seeds.size());
+        std::vector<std::string> objections(tried.size());
+        for_each_job(tried.size(), [&](const std::size_t k) {
+          objections[k] = objection_to_packing<dim>(rock, tried[k], run.folder);
+        });
+        for (std::size_t k = 0; k < tried.size(); ++k)
+          if (objections[k].empty())
+            seeds.push_back(tried[k]);
+          else if (++n_left_out == most_left_out)
+            throw InputError(
+              fmt::format("{} ({} of the first {} packings)", objections[k], n_left_out, n_left_out + seeds.size()));
+          else
+            progress.remark(fmt::format("Packing {} is left out: {}.", tried[k], objections[k]));
       }
+    progress.finish(fmt::format("{} packing(s)", seeds.size()));
     return seeds;
   }
 
-  /// Learns how the responses depend on the ratios.
-  /// Why it cannot; empty if it could.
+  /// Learns how the responses depend on the ratios. Says why it cannot; nothing if it could.
   std::string design_stage(ResponseModel& model)
   {
-    const auto seeds = packings_of_design();
+    const auto seeds = packings_of_design(with_parameters(input, model.parameters(start)));
     std::vector<PointOrder> orders;
     const auto points = sobol_points(wanted.n_points, problem.unknowns.size(), input.seeds.front());
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -165,7 +171,7 @@ private:
       if (!model.knows(target.response))
         {
           write_design(model, tested, run.folder);
-          return fmt::format("{}: the design gave too few values of it, with all packings of a point breaking: raise "
+          return fmt::format("{}: the design gave too few values of it, from all packings of a point: raise "
                              "Calibration/Design points, or narrow its bounds; {} shows the values",
                              problem.response_of(target).title, calibration_file::design);
         }

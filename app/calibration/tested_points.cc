@@ -90,21 +90,27 @@ std::string PointOrder::name() const
 }
 
 template <int dim>
-std::string objection_to_packing(const Input& input, const std::uint64_t seed)
+std::string objection_to_packing(const Input& rock, const std::uint64_t seed, const std::filesystem::path& folder)
 {
-  const auto specimen = make_specimen<dim>(
-    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
-    end_if_interrupted);
-  for (const TestCase& test : test_cases(input.test_list, input.confinements))
-    try
-      {
-        (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, input.tests,
-                                                         input.dynamics);
-      }
-    catch (const InputError& error)
-      {
-        return error.what();
-      }
+  const std::string name = fmt::format("packing_{}", seed);
+  const auto file = folder / "calibration" / (name + ".json");
+  const std::string identity = run_identity(rock, name);
+  if (read_values(file, identity, 0))
+    return "";
+  try
+    {
+      const auto specimen = make_specimen<dim>(
+        rock.specimen, rock.flat_joint, rock.particle_contact, seed, [](std::string_view, double) {},
+        end_if_interrupted);
+      for (const TestCase& test : test_cases(rock.test_list, rock.confinements))
+        (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, rock.tests, rock.dynamics);
+    }
+  catch (const InputError& error)
+    {
+      return error.what();
+    }
+  std::filesystem::create_directories(file.parent_path());
+  write_values(file, identity, {});
   return "";
 }
 
@@ -176,8 +182,8 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
   return tested;
 }
 
-template std::string objection_to_packing<2>(const Input&, std::uint64_t);
-template std::string objection_to_packing<3>(const Input&, std::uint64_t);
+template std::string objection_to_packing<2>(const Input&, std::uint64_t, const std::filesystem::path&);
+template std::string objection_to_packing<3>(const Input&, std::uint64_t, const std::filesystem::path&);
 template std::vector<TestedPoint> test_points<2>(const Input&, const std::vector<Response>&,
                                                  const std::vector<PointOrder>&, const std::filesystem::path&,
                                                  Progress&);

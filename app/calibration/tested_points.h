@@ -23,10 +23,10 @@ struct PointOrder
   std::string name() const;
 };
 
-/// Why a test of the programme cannot begin on a packing of the input, whatever its stiffness and strength; empty if all
-/// can. A Brazilian disc, for one, may have no grain where it is loaded.
+/// Why a test of the programme cannot begin on a packing of this rock; empty if all can. A Brazilian disc, for one, may have
+/// no grain where it is loaded. A packing that was found good stays so in folder/calibration.
 template <int dim>
-std::string objection_to_packing(const Input& input, std::uint64_t seed);
+std::string objection_to_packing(const Input& rock, std::uint64_t seed, const std::filesystem::path& folder);
 
 /// Runs the programme of the input on each, as many at a time as there are threads, by the same code as `feldspar lab`.
 /// What has come out stands in folder/calibration, a file each, and is not made again; a test that was broken off is

@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// A symmetric matrix of a network's grains, then its factor L D Lᵀ, in blocks of the motions of two grains. A column of a
+/// A symmetric, positive definite matrix of a network's grains, then its factor L D Lᵀ, in blocks of the motions of two grains. A column of a
 /// block is one vector of the processor, with zeros below the motions of a grain: most of the time of a damaged
 /// representative volume goes into solving with this factor. Eigen's factor, number by number, takes two to four times as
 /// long (benchmarks/README.md); that of CHOLMOD is no faster but for hundreds of spheres, and its bits depend on the library
@@ -28,7 +28,7 @@ public:
   double diagonal(std::size_t grain, int motion) const;
   void set_diagonal(std::size_t grain, int motion, double value);
 
-  /// From the matrix to its factor; the matrix is positive definite.
+  /// From the matrix to its factor; once.
   void factorise();
 
   /// x of A x = b; [n_motions * n_grains], grain by grain.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace feldspar
 {
@@ -44,7 +45,7 @@ StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const st
         const auto [column, row] = std::minmax({places[link.grain_1], places[link.grain_2]});
         neighbours[column].push_back(row);
       }
-  find_fill(neighbours);
+  find_fill(std::move(neighbours));
   for (const Link<dim>& link : links)
     {
       const std::uint32_t first = places[link.grain_1], second = places[link.grain_2];
@@ -55,10 +56,9 @@ StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const st
 }
 
 /// Eliminating a grain couples all the later ones that it is coupled with; it is enough to hand them on to the first of these.
-void StiffnessPattern::find_fill(const std::vector<std::vector<std::uint32_t>>& neighbours)
+void StiffnessPattern::find_fill(std::vector<std::vector<std::uint32_t>> columns)
 {
-  const std::size_t n = neighbours.size();
-  std::vector<std::vector<std::uint32_t>> columns = neighbours;
+  const std::size_t n = columns.size();
   of_row.resize(n);
   first_blocks.push_back(0);
   for (std::size_t c = 0; c < n; ++c)

@@ -43,7 +43,7 @@ public:
   const Place& place_of_link(const std::size_t link) const { return of_link[link]; }
 
 private:
-  void find_fill(const std::vector<std::vector<std::uint32_t>>& neighbours);
+  void find_fill(std::vector<std::vector<std::uint32_t>> columns);
   std::uint32_t block_at(std::uint32_t row, std::uint32_t column) const;
 
   std::vector<std::uint32_t> places;

@@ -30,6 +30,11 @@ std::vector<Vector<dim>> throw_seeds(const Specimen<dim>& specimen, const double
     {
       // 1.5 cells are rounded to two; a little smaller, so that no rounding of the message names a size that is refused.
       const double most = 0.995 * std::pow(volume / (1.5 * unit_cell), 1.0 / dim);
+      if (most < least)
+        throw InputError(
+          fmt::format("{} = {:g} mm: this specimen is too small for two {}s of two mean diameters of its "
+                      "particles, {:.3g} mm",
+                      entry, 1e3 * mean_size, name, 1e3 * least));
       throw InputError(
         fmt::format("{} = {:g} mm: must be at most {:.3g} mm in this specimen, which would have {} {}(s), "
                     "and at least {:.3g} mm, two mean diameters of its particles",

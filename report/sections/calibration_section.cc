@@ -31,11 +31,10 @@ std::string heading(const std::string& title, const ShownUnit& unit)
   return unit.name.empty() ? title : fmt::format("{} [{}]", title, unit.name);
 }
 
-/// Whether specimens have the answer's parameters.
+/// Whether specimens have the answer's parameters. Only then are there medians, even where every test of them failed.
 bool was_tested(const CalibrationRecord& record)
 {
-  return std::any_of(record.targets.begin(), record.targets.end(),
-                     [](const auto& row) { return row.n_packings > 0.0; });
+  return std::any_of(record.parameters.begin(), record.parameters.end(), [](const auto& row) { return row.median; });
 }
 
 Table target_table(const CalibrationRecord& record)

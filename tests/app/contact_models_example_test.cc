@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -123,6 +124,48 @@ TEST(ContactModels, ParallelBondsHaveTheRatioOfTheLiterature)
   const auto bonds = study("parallel-bond");
   EXPECT_GT(ratio_of_strengths(bonds), 0.30);
   EXPECT_LT(ratio_of_strengths(bonds), 0.36);
+}
+
+TEST(ContactModels, ParallelBondsThatOnlyShearHaveALineAndThoseThatOpenACurve)
+{
+  const std::array<const char*, 4> tests{"uniaxial_compression", "triaxial_compression_5_MPa",
+                                         "triaxial_compression_20_MPa", "triaxial_compression_60_MPa"};
+  constexpr std::array<double, 4> pressures{0.0, 5e6, 20e6, 60e6};
+  const auto mean_tension_share = [](const json& of, const std::string& test) {
+    return 1.0 - mean_of(of, test, "shear_share_at_peak");
+  };
+  const auto row = [&](const std::string& name, const json& of) {
+    std::string strengths, rises;
+    for (std::size_t k = 0; k < tests.size(); ++k)
+      {
+        strengths += fmt::format(" {:.1f} |", mean_of(of, tests[k]) / 1e6);
+        if (k > 0)
+          rises += fmt::format("{}{:.1f}", k > 1 ? ", " : "",
+                               (mean_of(of, tests[k]) - mean_of(of, tests[k - 1])) / (pressures[k] - pressures[k - 1]));
+      }
+    expect_shown(fmt::format("| {} |{} {} | {:.4f} | {:.4f} |", name, strengths, rises,
+                             of["fits"]["mohr_coulomb"]["r_squared"].get<double>(),
+                             hoek_brown(of)["r_squared"].get<double>()));
+  };
+  const json both = study("parallel-bond");
+  const json shear = study("parallel-bond-shear-only");
+  const json tension = study("parallel-bond-tension-only");
+  row("bonds shear and open", both);
+  row("bonds shear only", shear);
+  row("bonds open only", tension);
+  for (const char* const test : tests)
+    {
+      EXPECT_LT(mean_tension_share(shear, test), 0.005) << test;
+      EXPECT_GT(mean_tension_share(tension, test), 0.995) << test;
+    }
+  expect_said(
+    fmt::format("{:.0f} % are in tension without confinement, {:.0f} % at 5 MPa, {:.0f} % at 20 MPa and {:.0f} % "
+                "at 60 MPa",
+                100.0 * mean_tension_share(both, tests[0]), 100.0 * mean_tension_share(both, tests[1]),
+                100.0 * mean_tension_share(both, tests[2]), 100.0 * mean_tension_share(both, tests[3])));
+  // The claim of the page: a line where bonds shear, a curve where they open.
+  EXPECT_GT(shear["fits"]["mohr_coulomb"]["r_squared"].get<double>(), hoek_brown(shear)["r_squared"].get<double>());
+  EXPECT_LT(tension["fits"]["mohr_coulomb"]["r_squared"].get<double>(), hoek_brown(tension)["r_squared"].get<double>());
 }
 
 TEST(ContactModels, TheGrainBasedModelOpensAtItsBoundaries)

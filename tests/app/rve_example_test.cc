@@ -156,8 +156,8 @@ TEST(Example, TheRvesReadmeShowsTheCommittedResults)
 TEST(Example, PathsEventByEventBalance)
 {
   for (const char* const study :
-       {"tension", "uniaxial", "triaxial-20", "triaxial-60", "tension-3d", "uniaxial-3d", "triaxial-20-3d",
-        "triaxial-60-3d", "size-12-mm", "size-16-mm", "size-23-mm", "size-32.5-mm", "size-46-mm"})
+       {"tension", "break-rules", "uniaxial", "triaxial-20", "triaxial-60", "tension-3d", "uniaxial-3d",
+        "triaxial-20-3d", "triaxial-60-3d", "size-12-mm", "size-16-mm", "size-23-mm", "size-32.5-mm", "size-46-mm"})
     for (const auto& rve : rves_of(study))
       if (rve.value("variant", "") != "Strain path/Solver = explicit")
         {

@@ -339,9 +339,9 @@ TEST(TargetOutcomes, AreToldInASentence)
   strength.reached->standard_error = 3e6; // 1.9 %, more than half of the tolerance
   EXPECT_EQ(
     statement_of({strength}, model, 0.03, 4),
-    "All targets were reached within 3 % or within two standard errors, but the scatter of packings left the "
-    "standard errors of some above half of that (uniaxial compressive strength): raise Calibration/Most packings, "
-    "or test larger specimens.");
+    "All targets were reached within 3 % or within two standard errors, but the scatter of packings left "
+    "standard errors above half of that (uniaxial compressive strength): raise Calibration/Most packings, or test larger "
+    "specimens.");
 }
 
 FinishedTest crushed(const TestKind& kind, const double confining_pressure, const double strength)
