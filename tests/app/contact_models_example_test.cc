@@ -195,7 +195,16 @@ TEST(ContactModels, ClumpsLowerTheRatioAndSteepenTheEnvelope)
   const auto clumps = study("clumped");
   EXPECT_GT(ratio_of_strengths(clumps), 0.07);
   EXPECT_LT(ratio_of_strengths(clumps), 0.25);
-  EXPECT_GT(slope(clumps), slope(study("parallel-bond")));
+  // Of clumps, and not of their bonds, which are others than those of the parallel-bonded specimens.
+  const json without = study("clumped-without-clumps");
+  EXPECT_GT(slope(clumps), 2.0 * slope(without));
+  EXPECT_GT(hoek_brown(without)["r_squared"].get<double>(), without["fits"]["mohr_coulomb"]["r_squared"].get<double>());
+  expect_said(fmt::format(
+    "a slope of {:.1f} (R² {:.4f}, and {:.4f} of the curve), with {:.1f}, {:.1f}, {:.1f} and {:.1f} MPa",
+    slope(without), without["fits"]["mohr_coulomb"]["r_squared"].get<double>(),
+    hoek_brown(without)["r_squared"].get<double>(), mean_of(without, "uniaxial_compression") / 1e6,
+    mean_of(without, "triaxial_compression_5_MPa") / 1e6, mean_of(without, "triaxial_compression_20_MPa") / 1e6,
+    mean_of(without, "triaxial_compression_60_MPa") / 1e6));
   for (const auto& test : clumps["tests"])
     {
       EXPECT_GT(test["n_clumps"].get<int>(), 0) << test["name"];
