@@ -18,7 +18,9 @@ namespace
 constexpr std::array<std::string_view, 7> sections_of_laboratory{
   "Specimen", "Flat joint", "Particle contact", "Dynamics", "Tests", "Seeds", "Report"};
 
-/// A product as it will be written: round-off would show in files.
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// As it will be written: the round-off of products and logarithms would show in files.
 double without_round_off(const double value) { return parse_number(fmt::format("{:.11e}", value)); }
 
 /// b by which a ratio a : b is kept where a becomes another.
@@ -52,21 +54,21 @@ Input with_parameters(const Input& input, const MicroParameters& parameters)
   FlatJointParameters& joint = result.flat_joint;
   const FlatJointParameters& before = input.flat_joint;
   ParticleContactParameters& contact = result.particle_contact;
-  joint.modulus = parameters.modulus;
-  joint.stiffness_ratio = parameters.stiffness_ratio;
-  joint.friction = parameters.friction;
+  joint.modulus = without_round_off(parameters.modulus);
+  joint.stiffness_ratio = without_round_off(parameters.stiffness_ratio);
+  joint.friction = without_round_off(parameters.friction);
   contact.modulus = kept(before.modulus, contact.modulus, joint.modulus);
   contact.stiffness_ratio = kept(before.stiffness_ratio, contact.stiffness_ratio, joint.stiffness_ratio);
   contact.friction = kept(before.friction, contact.friction, joint.friction);
-  joint.bond_tensile_strength = parameters.bond_tensile_strength;
+  joint.bond_tensile_strength = without_round_off(parameters.bond_tensile_strength);
   joint.bond_tensile_strength_deviation =
     kept(before.bond_tensile_strength, before.bond_tensile_strength_deviation, joint.bond_tensile_strength);
   joint.bond_cohesion = without_round_off(parameters.cohesion_ratio * parameters.bond_tensile_strength);
   joint.bond_cohesion_deviation = kept(before.bond_cohesion, before.bond_cohesion_deviation, joint.bond_cohesion);
-  joint.bond_friction_angle = parameters.bond_friction_angle;
+  joint.bond_friction_angle = without_round_off(parameters.bond_friction_angle / degree) * degree;
   if (parameters.gap)
     {
-      joint.installation_gap_ratio = parameters.gap;
+      joint.installation_gap_ratio = without_round_off(*parameters.gap);
       joint.coordination_number.reset();
     }
   return result;
@@ -94,7 +96,6 @@ std::string as_prm(const Input& input, const std::string& comment)
 
 MicroParameters rounded(const MicroParameters& parameters)
 {
-  constexpr double degree = std::numbers::pi / 180.0;
   MicroParameters result = parameters;
   result.modulus = to_figures(parameters.modulus, 1e9);
   result.bond_tensile_strength = to_figures(parameters.bond_tensile_strength, 1e6);

@@ -117,6 +117,9 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
   EXPECT_NE(content(out / "report.html").find("How the micro-parameters were found"), std::string::npos);
   EXPECT_FALSE(fs::exists(out / "calibration")) << "what a resume needs is not needed any more";
 
+  const std::string best = content(out / "best.prm");
+  for (const char* const round_off : {"99999", "00000"})
+    EXPECT_EQ(best.find(round_off), std::string::npos) << best;
   // The input that was written gives the tests that were reported, to the last bit.
   const auto lab =
     run_feldspar(out, "lab " + input_file + " --output again --quiet --set 'Tests/List = direct_tension'");
