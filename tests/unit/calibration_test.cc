@@ -242,9 +242,30 @@ TEST(BestFit, ReachesItsTargetsAndLeavesTheRestInTheMiddle)
   contradiction[2].value *= 10.0;
   const Fit none = best_fit(model, contradiction, 0.03, {true, true, {0.5, 0.5, 0.5}, 0.5}, start);
   EXPECT_GT(std::sqrt(none.misfit), 10.0);
-  // Stiffness has a scale of its own, which no strength contradicts, even where the ratios stand at their bounds.
+  // Nothing is nearer, here at a corner of the bounds: compared with other ratios, each with the best scales for it.
+  const auto cost = [&](const Place& place) {
+    double sum = 0.0;
+    for (const Target& target : contradiction)
+      {
+        const Response& response = model.response(target.response);
+        const double width =
+          std::hypot(0.03 * response.per_share(target.value), model.deviation(target.response, start.point));
+        sum += std::pow((model.predict(target.response, place) - response.in_model(target.value)) / width, 2);
+      }
+    for (const double x : place.point)
+      sum += 0.01 * (x - 0.5) * (x - 0.5);
+    return sum;
+  };
+  const double nearest = cost(none.place);
+  constexpr double held = 1e-9; // the ratios stay
+  for (const UnitPoint& point : sobol_points(200, 3, 7))
+    EXPECT_GT(cost(best_fit(model, contradiction, 0.03, {true, true, point, held}, start).place),
+              nearest * (1.0 - 1e-6));
+  EXPECT_TRUE(std::any_of(none.place.point.begin(), none.place.point.end(),
+                          [](const double x) { return x < 1e-6 || x > 1.0 - 1e-6; }));
+  // Stiffness has a scale of its own, which no strength contradicts.
   ASSERT_EQ(model.response(contradiction[0].response).scale, ResponseScale::modulus);
-  EXPECT_NEAR(none.deviations[0], 0.0, 1e-9);
+  EXPECT_NEAR(none.deviations[0], 0.0, 1e-9); // round-off
 }
 
 // The claim of the whole: hidden sets of parameters are found again, or said not to be determined. Nine of ten intervals of
