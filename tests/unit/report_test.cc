@@ -1436,7 +1436,8 @@ TEST(ResultFolder, NamesTheGroupsOfGrainsForWhatTheyAre)
   EXPECT_TRUE(header(minerals.name).ends_with(",fragment,mineral_grain")) << header(minerals.name);
   EXPECT_TRUE(header(clumps.name).ends_with(",fragment,clump")) << header(clumps.name);
   const auto expect_groups = [&] {
-    for (const FinishedTest& test : read_result_folder(folder.path(), test_kinds()).at(0).tests)
+    const auto runs = read_result_folder(folder.path(), test_kinds());
+    for (const FinishedTest& test : runs.at(0).tests)
       EXPECT_EQ(test.appearance.grains_at_end.at(1).mineral, 5u) << test.name;
   };
   expect_groups();
