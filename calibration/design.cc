@@ -37,8 +37,8 @@ std::vector<UnitPoint> sobol_points(const std::size_t n, const std::size_t dimen
 SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, const std::size_t dimension,
                            const std::size_t n, const std::uint64_t seed)
 {
-  OT::TBB::
-    Disable(); // its sums over the sample take the order of its threads: the last bit would differ from run to run
+  // Its sums over the sample take the order of its threads: the last bit would differ from run to run.
+  OT::TBB::Disable();
   OT::RandomGenerator::SetSeed(seed);
   const OT::Function function(OpenTurnsFunction(f, dimension));
   OT::MartinezSensitivityAlgorithm algorithm(unit_cube(dimension), n, function, false);

@@ -10,6 +10,7 @@
 #include "report/report.h"
 #include "results/fits/strength_data.h"
 #include "results/folder/calibration_record.h"
+#include "results/folder/csv_tables.h"
 #include "results/folder/field_output.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
@@ -84,7 +85,7 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
   for (const auto& test : tests)
     if (test.record.body == TestBody::grains)
       write_fields(test.name, test.record.kind, test.record.cracks, test.appearance, folder / result_file::fields,
-                   test.record.specimen.n_clumps > 0 ? "clump" : "mineral_grain");
+                   group_name(test.record));
     else if (std::filesystem::exists(folder / result_file::fields / (test.name + ".xdmf"))) // written step by step
       try
         {

@@ -293,6 +293,8 @@ std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::str
   return cracks;
 }
 
+std::string group_name(const TestRecord& test) { return test.specimen.n_clumps > 0 ? "clump" : "mineral_grain"; }
+
 void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file, const std::string& group)
 {
   std::string text;

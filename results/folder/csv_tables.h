@@ -25,6 +25,9 @@ void write_cracks(const std::vector<Crack>& cracks, const std::string& name, con
                   const std::filesystem::path& file);
 std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
 
+/// What the groups of a test's grains are called in files.
+std::string group_name(const TestRecord& test);
+
 /// The grains of a test, where they were and where they came to. `group`: the column of the numbers of the groups they are
 /// parts of, `clump` or `mineral_grain`; both are read.
 void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file,

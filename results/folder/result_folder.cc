@@ -199,7 +199,7 @@ void write_result_folder(const Provenance& made_by, const std::vector<FinishedTe
       write_curve(test.record, folder / result_file::curves / (test.name + ".csv"));
       if (test.record.body == TestBody::grains)
         write_grains(test.appearance.grains_at_end, folder / result_file::grains / (test.name + ".csv"),
-                     test.record.specimen.n_clumps > 0 ? "clump" : "mineral_grain");
+                     group_name(test.record));
       for (const auto& rve : test.appearance.rves)
         write_rve(rve, test, folder / result_file::points);
     }
