@@ -26,7 +26,7 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
       {
         const Link<dim>& link = network.links()[k];
         const bool is_active = history.is_active(k);
-        const Motion<dim> motion = is_active ? Motion<dim>::Zero() : link_motion(link, present.position);
+        const Motion<dim> motion = is_active ? Motion<dim>::Zero() : history.motion(k, present.position);
         for (std::uint32_t i = 0; i < link.n_segments; ++i)
           {
             if (is_active)
@@ -71,11 +71,10 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
       const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
       const Bond<double>& bond = network.bond(overload.segment);
       const auto shorten = [&](const auto& law) {
-        const auto before = law.strain(rows, link_motion(link, history.position()));
-        const auto now = law.strain(rows, link_motion(link, position));
+        const auto before = law.strain(rows, history.motion(number, history.position()));
+        const auto now = law.strain(rows, history.motion(number, position));
         const auto holds = [&](const double share) {
-          using Strain = decltype(law.strain(rows, link_motion(link, position)));
-          const Strain strain = before + share * (now - before);
+          const std::remove_const_t<decltype(now)> strain = before + share * (now - before);
           return !is_overloaded(bond, law.bond_stress(link.face(network.thickness()), strain));
         };
         double low = 0.0;

@@ -21,9 +21,21 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   : network(of)
   , parameters(wanted)
   , last(state)
-  , history(of, state)
+  , history(of, state, wanted.kinematics)
 {
   begin_again();
+}
+
+/// The stored energy of an intact network is all the work that was done on it; of the same positions the kinematics make
+/// another energy, by a share of the order of the strain.
+template <int dim>
+void Equilibrium<dim>::leave_intact_response()
+{
+  if (parameters.kinematics != Kinematics::finite || history.is_finite())
+    return;
+  history.become_finite();
+  begin_again();
+  last.work.boundary = at_event.stored_energy;
 }
 
 template <int dim>
@@ -245,18 +257,18 @@ NetworkState<dim> Equilibrium<dim>::state()
 }
 
 template <int dim>
-std::vector<Motion<dim>> Equilibrium<dim>::link_forces() const
+LinkForces<dim> Equilibrium<dim>::link_forces() const
 {
   const auto& links = network.links();
-  std::vector<Motion<dim>> forces(links.size(), Motion<dim>::Zero());
+  LinkForces<dim> all{std::vector<Motion<dim>>(links.size(), Motion<dim>::Zero()), present.balance.turns};
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (history.is_active(k))
-      forces[k] = present.balance.active[history.active_number(k)].forces;
+      all.values[k] = present.balance.active[history.active_number(k)].forces;
     else if (links[k].has_face)
-      forces[k] = network.bonded_stiffness(k) * link_motion(links[k], present.position);
+      all.values[k] = network.bonded_stiffness(k) * history.motion(k, present.position);
   for (const auto& [k, touch] : present.balance.touches)
-    forces[k] = touch.forces;
-  return forces;
+    all.values[k] = touch.forces;
+  return all;
 }
 
 template class Equilibrium<2>;

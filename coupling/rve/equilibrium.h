@@ -17,6 +17,23 @@ struct BreakEvent
   double released_energy; ///< [J]
 };
 
+/// What all links of a network bear.
+template <int dim>
+struct LinkForces
+{
+  std::vector<Motion<dim>> values;  ///< in each link's own axes, a pull between its grains positive [N, N m]; [n_links]
+  std::vector<LinkTurn<dim>> turns; ///< [n_links]; empty in small strains
+
+  /// On grain 1 of a link, along the axes of the network [N].
+  Vector<dim> force(const Link<dim>& link, const std::size_t k) const
+  {
+    Vector<dim> own = values[k].template head<dim>();
+    if (!turns.empty())
+      own = turns[k].gradient.transpose() * own.eval();
+    return link.axes.transpose() * own;
+  }
+};
+
 /// A network on its way from one equilibrium to the next: relaxes with bonds frozen, breaks what is overloaded, relaxes
 /// again. No rate enters; docs/theory.md §9.3.
 template <int dim>
@@ -24,6 +41,9 @@ class Equilibrium
 {
 public:
   Equilibrium(const Network<dim>& network, const NetworkState<dim>& state, const EquilibriumParameters& parameters);
+
+  /// To be called before it relaxes or breaks anything: an intact network takes the kinematics that were asked for.
+  void leave_intact_response();
 
   /// Where the search begins, instead of at the last event: the position of a state found from it.
   void begin_at(const NetworkState<dim>& nearby);
@@ -58,8 +78,7 @@ public:
   Voigt<dim> stress() const { return present.balance.stress; }
   double unbalanced_ratio() const { return present.balance.unbalanced_ratio; }
   double stored_energy() const { return present.balance.stored_energy; }
-  /// In each link's own axes; [n_links].
-  std::vector<Motion<dim>> link_forces() const;
+  LinkForces<dim> link_forces() const;
   /// Bonds and open, stick and slip states frozen; [n_links].
   std::vector<JointStiffness<dim>> link_tangents() const { return feldspar::link_tangents(history, present.balance); }
   const Unknowns& unknowns() const { return present.position; }

@@ -24,19 +24,19 @@ std::vector<std::uint32_t> broken_segments(const Network<dim>& network, const Ne
 } // namespace
 
 template <int dim>
-std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkState<dim>& state)
+LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state)
 {
   return Equilibrium<dim>(network, state, {}).link_forces();
 }
 
 template <int dim>
-Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+Tensor<dim> branch_stress(const Network<dim>& network, const LinkForces<dim>& forces)
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
-  for (std::size_t k = 0; k < forces.size(); ++k)
+  for (std::size_t k = 0; k < forces.values.size(); ++k)
     {
       const Link<dim>& link = network.links()[k];
-      sum += link.axes.transpose() * forces[k].template head<dim>() * link.branch.transpose();
+      sum += forces.force(link, k) * link.branch.transpose();
     }
   return sum / network.volume();
 }
@@ -45,25 +45,28 @@ namespace
 {
 /// What links do on grains.
 template <int dim>
-Eigen::VectorXd on_grains(const Network<dim>& network, const std::vector<Motion<dim>>& forces)
+Eigen::VectorXd on_grains(const Network<dim>& network, const LinkForces<dim>& forces)
 {
   Unknowns sum = Unknowns::Zero(network.n_unknowns());
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    add_forces(network.links()[k], forces[k], sum);
+  for (std::size_t k = 0; k < forces.values.size(); ++k)
+    if (forces.turns.empty())
+      add_forces(network.links()[k], forces.values[k], sum);
+    else
+      add_forces(network.links()[k], forces.turns[k].gradient, forces.values[k], sum);
   return sum.head(network.n_unknowns() - n_voigt<dim>);
 }
 } // namespace
 
 template <int dim>
 Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            const std::vector<Motion<dim>>& forces)
+                            const LinkForces<dim>& forces)
 {
   Tensor<dim> sum = Tensor<dim>::Zero();
-  for (std::size_t k = 0; k < forces.size(); ++k)
+  for (std::size_t k = 0; k < forces.values.size(); ++k)
     {
       const Link<dim>& link = network.links()[k];
       const Vector<dim> way = shift(PeriodicImage<dim>{link.grain_2, network.boxes_crossed()[k]}, network.cell());
-      sum += link.axes.transpose() * forces[k].template head<dim>() * way.transpose();
+      sum += forces.force(link, k) * way.transpose();
     }
   if (conditions.are_none())
     return sum / network.volume();
@@ -80,7 +83,7 @@ Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryCondition
 
 template <int dim>
 BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            std::vector<Motion<dim>> of_links)
+                            LinkForces<dim> of_links)
 {
   BornForces<dim> forces{std::move(of_links), {}};
   if (conditions.n_multipliers() > 0)
@@ -100,13 +103,15 @@ double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>
   const Unknowns from = unknowns_of(network, before);
   const Unknowns to = unknowns_of(network, after);
   double of_links = 0.0;
-  for (std::size_t k = 0; k < forces_after.of_links.size(); ++k)
-    {
-      const Link<dim>& link = network.links()[k];
-      of_links +=
-        0.5 *
-        (forces_before.of_links[k] + forces_after.of_links[k]).dot(link_motion(link, to) - link_motion(link, from));
-    }
+  for (const LinkForces<dim>* const forces : {&forces_before.of_links, &forces_after.of_links})
+    for (std::size_t k = 0; k < forces->values.size(); ++k)
+      {
+        const Link<dim>& link = network.links()[k];
+        const Motion<dim> motion = forces->turns.empty()
+                                     ? Motion<dim>(link_motion(link, to) - link_motion(link, from))
+                                     : link_motion(link, forces->turns[k].gradient, Unknowns(to - from));
+        of_links += 0.5 * forces->values[k].dot(motion);
+      }
   const double of_body = 0.5 * network.volume() * (before.stress + after.stress).dot(after.strain - before.strain);
   double of_boundary = 0.0;
   for (const Eigen::VectorXd* const forces : {&forces_before.of_boundary, &forces_after.of_boundary})
@@ -198,10 +203,10 @@ IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
   return result;
 }
 
-template std::vector<Motion<2>> link_forces<2>(const Network<2>&, const NetworkState<2>&);
-template Tensor<2> branch_stress<2>(const Network<2>&, const std::vector<Motion<2>>&);
-template Tensor<2> boundary_stress<2>(const Network<2>&, const BoundaryConditions<2>&, const std::vector<Motion<2>>&);
-template BornForces<2> born_forces(const Network<2>&, const BoundaryConditions<2>&, std::vector<Motion<2>>);
+template LinkForces<2> link_forces<2>(const Network<2>&, const NetworkState<2>&);
+template Tensor<2> branch_stress<2>(const Network<2>&, const LinkForces<2>&);
+template Tensor<2> boundary_stress<2>(const Network<2>&, const BoundaryConditions<2>&, const LinkForces<2>&);
+template BornForces<2> born_forces(const Network<2>&, const BoundaryConditions<2>&, LinkForces<2>);
 template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const BornForces<2>&,
                                         const NetworkState<2>&, const BornForces<2>&, double);
 template Tensor<2> fabric<2>(const Network<2>&);
@@ -209,10 +214,10 @@ template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::s
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
 template std::size_t n_fragments<2>(const Network<2>&, const NetworkState<2>&);
 template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
-template std::vector<Motion<3>> link_forces<3>(const Network<3>&, const NetworkState<3>&);
-template Tensor<3> branch_stress<3>(const Network<3>&, const std::vector<Motion<3>>&);
-template Tensor<3> boundary_stress<3>(const Network<3>&, const BoundaryConditions<3>&, const std::vector<Motion<3>>&);
-template BornForces<3> born_forces(const Network<3>&, const BoundaryConditions<3>&, std::vector<Motion<3>>);
+template LinkForces<3> link_forces<3>(const Network<3>&, const NetworkState<3>&);
+template Tensor<3> branch_stress<3>(const Network<3>&, const LinkForces<3>&);
+template Tensor<3> boundary_stress<3>(const Network<3>&, const BoundaryConditions<3>&, const LinkForces<3>&);
+template BornForces<3> born_forces(const Network<3>&, const BoundaryConditions<3>&, LinkForces<3>);
 template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const BornForces<3>&,
                                         const NetworkState<3>&, const BornForces<3>&, double);
 template Tensor<3> fabric<3>(const Network<3>&);

@@ -9,31 +9,31 @@
 /// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// The forces of every link at a state, in its own axes [N, N m]; a pull between its grains is positive.
+/// At a state in small strains.
 template <int dim>
-std::vector<Motion<dim>> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
+LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
 
 /// σ = (1/V) Σ f ⊗ l over all links [Pa]; symmetric where couples balance (Love 1927, Weber 1966).
 template <int dim>
-Tensor<dim> branch_stress(const Network<dim>& network, const std::vector<Motion<dim>>& forces);
+Tensor<dim> branch_stress(const Network<dim>& network, const LinkForces<dim>& forces);
 
 /// The same from what crosses the sides of the cell alone, (1/V) Σ f ⊗ (boxes crossed × edges) over links and the tractions
 /// on open sides [Pa]. Equal where forces balance.
 template <int dim>
 Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            const std::vector<Motion<dim>>& forces);
+                            const LinkForces<dim>& forces);
 
 /// What an RVE bears.
 template <int dim>
 struct BornForces
 {
-  std::vector<Motion<dim>> of_links; ///< as link_forces()
-  Eigen::VectorXd of_boundary;       ///< on grains, by the tractions of an open cell; empty where there are none
+  LinkForces<dim> of_links;
+  Eigen::VectorXd of_boundary; ///< on grains, by the tractions of an open cell; empty where there are none
 };
 
 template <int dim>
 BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            std::vector<Motion<dim>> of_links);
+                            LinkForces<dim> of_links);
 
 /// Hill and Mandel: |V σ̄ : Δε + r̄·Δu - Σ s̄·Δm| over the sum of the magnitudes, or over `least_work` [J] if that is more,
 /// between two states, with the mean forces of both and the motions m of the links. The forces r of the boundary do work on

@@ -11,8 +11,10 @@ constexpr double least_strain = 1e-9;
 } // namespace
 
 template <int dim>
-NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state)
+NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state,
+                                    const Kinematics kinematics)
   : of(network)
+  , finite(kinematics == Kinematics::finite && !state.intact)
   , number(network.links().size(), none)
   , position_at_event(unknowns_of(network, state))
   , bearing(network.conditions())
@@ -36,12 +38,26 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
     }
 }
 
+template <int dim>
+void NetworkHistory<dim>::become_finite()
+{
+  finite = true;
+  for (ActiveLink<dim>& link : active_links)
+    link.motion = motion(link.link, position_at_event);
+}
+
+template <int dim>
+Motion<dim> NetworkHistory<dim>::motion(const std::uint32_t link, const Unknowns& at) const
+{
+  return finite ? turned(of.links()[link], at).motion : link_motion(of.links()[link], at);
+}
+
 /// All bonded; a pair without a face never is.
 template <int dim>
 ActiveLink<dim> NetworkHistory<dim>::at_event(const std::uint32_t link) const
 {
   const Link<dim>& as_built = of.links()[link];
-  ActiveLink<dim> result{link, link_motion(as_built, position_at_event), {}};
+  ActiveLink<dim> result{link, motion(link, position_at_event), {}};
   result.segments.resize(as_built.n_segments);
   result.segments.front().bonded = as_built.has_face;
   return result;
@@ -97,7 +113,7 @@ void NetworkHistory<dim>::keep(const Configuration<dim>& present)
 {
   for (std::size_t a = 0; a < active_links.size(); ++a)
     {
-      active_links[a].motion = link_motion(of.links()[active_links[a].link], present.position);
+      active_links[a].motion = motion(active_links[a].link, present.position);
       for (std::size_t i = 0; i < active_links[a].segments.size(); ++i)
         if (!active_links[a].segments[i].bonded || !of.is_linear_while_bonded())
           active_links[a].segments[i].shear_stress = present.balance.active[a].segments[i].shear_stress;
@@ -114,38 +130,55 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
   Balance<dim> result;
   result.forces = Unknowns::Zero(of.n_unknowns());
   result.active.resize(active_links.size());
+  if (finite)
+    result.turns.resize(links.size());
   double carried = 0.0;
   std::size_t n_carrying = 0;
-  const auto add = [&](const Link<dim>& link, const Motion<dim>& forces) {
-    add_forces(link, forces, result.forces);
+  const auto add = [&](const std::uint32_t k, const Motion<dim>& forces) {
+    const Link<dim>& link = links[k];
+    if (finite)
+      {
+        result.turns[k].stiffness = turning_stiffness(link, at, forces);
+        add_forces(link, result.turns[k].gradient, forces, result.forces);
+      }
+    else
+      add_forces(link, forces, result.forces);
     const double force = forces.template head<dim>().norm();
     carried += force;
     ++n_carrying;
     result.carried_stress += force * link.branch.norm() / of.volume();
   };
-  const auto add_response = [&](const Link<dim>& link, const LinkResponse<dim>& response) {
-    add(link, response.forces);
+  const auto add_response = [&](const std::uint32_t k, const LinkResponse<dim>& response) {
+    add(k, response.forces);
     result.stored_energy += response.stored_energy;
   };
   for (std::uint32_t k = 0; k < links.size(); ++k)
     {
-      const Motion<dim> motion = link_motion(links[k], at);
+      Motion<dim> motion;
+      if (finite)
+        {
+          const TurnedLink<dim> link = turned(links[k], at);
+          motion = link.motion;
+          result.turns[k].gradient = link.gradient;
+        }
+      else
+        motion = link_motion(links[k], at);
       if (number[k] != none)
         {
           auto& of_link = result.active[number[k]];
           of_link = response(of, active_links[number[k]], motion);
-          add_response(links[k], of_link);
+          add_response(k, of_link);
         }
       else if (links[k].has_face)
         {
           const Motion<dim> forces = of.bonded_stiffness(k) * motion;
-          add(links[k], forces);
+          add(k, forces);
           result.stored_energy += 0.5 * motion.dot(forces);
         }
       else if (links[k].opening + motion[0] < 0.0)
         {
           result.touches.emplace_back(k, response(of, at_event(k), motion));
-          add_response(links[k], result.touches.back().second);
+          add_response(k, result.touches.back().second);
         }
     }
   result.stress = result.forces.template tail<n_voigt<dim>>() / of.volume();

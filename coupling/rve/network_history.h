@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/network/kinematics.h"
 #include "coupling/network/link_response.h"
 #include "coupling/network/network_state.h"
 
@@ -21,6 +22,7 @@ struct Balance
   double stored_energy = 0.0;
   std::vector<LinkResponse<dim>> active;                            ///< of each active link
   std::vector<std::pair<std::uint32_t, LinkResponse<dim>>> touches; ///< of pairs without a face that press
+  std::vector<LinkTurn<dim>> turns;                                 ///< of each link that bears; empty in small strains
 };
 
 /// Where a network stands, and the forces there.
@@ -36,9 +38,15 @@ template <int dim>
 class NetworkHistory
 {
 public:
-  NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state);
+  /// While the state is intact its response is that of small strains (Network::intact_stiffness()), whatever the kinematics.
+  NetworkHistory(const Network<dim>& network, const NetworkState<dim>& state, Kinematics kinematics);
 
   const Network<dim>& network() const { return of; }
+  bool is_finite() const { return finite; }
+  /// Once an intact network is to break.
+  void become_finite();
+  /// Of a link since rest, with the grains at a position.
+  Motion<dim> motion(std::uint32_t link, const Unknowns& at) const;
   const Unknowns& position() const { return position_at_event; }
   /// In the order of their first break or touch.
   const std::vector<ActiveLink<dim>>& active() const { return active_links; }
@@ -69,6 +77,7 @@ private:
   ActiveLink<dim> at_event(std::uint32_t link) const;
 
   const Network<dim>& of;
+  bool finite;
   std::vector<ActiveLink<dim>> active_links;
   std::vector<std::uint32_t> number; ///< of each link in `active_links`, or none
   Unknowns position_at_event;

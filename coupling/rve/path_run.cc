@@ -93,7 +93,7 @@ PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<P
     }
   else
     {
-      forces.of_links.assign(body.network().links().size(), Motion<dim>::Zero());
+      forces.of_links.values.assign(body.network().links().size(), Motion<dim>::Zero());
       path_record.samples.emplace_back();
     }
   begin_leg();

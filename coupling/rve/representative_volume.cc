@@ -54,6 +54,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
 
   Trial<dim> trial;
   Equilibrium<dim> equilibrium(*reference, current, parameters);
+  equilibrium.leave_intact_response();
   if (options.nearby)
     equilibrium.begin_at(*options.nearby);
   equilibrium.begin_with(options.factorised);

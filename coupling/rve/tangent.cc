@@ -16,17 +16,23 @@ Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& a
   const Network<dim>& network = history.network();
   const auto& links = network.links();
   Unknowns result = Unknowns::Zero(network.n_unknowns());
+  const auto add = [&](const std::uint32_t k, const JointStiffness<dim>& stiffness) {
+    if (at.turns.empty())
+      {
+        add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
+        return;
+      }
+    const LinkTurn<dim>& turn = at.turns[k];
+    add_forces(links[k], turn.gradient, stiffness * link_motion(links[k], turn.gradient, unknowns), result);
+    add_turning_forces(links[k], turn.stiffness, unknowns, result);
+  };
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
-    {
-      const auto& stiffness =
-        history.is_active(k) ? at.active[history.active_number(k)].*which : network.bonded_stiffness(k);
-      add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
-    }
+    add(k, history.is_active(k) ? at.active[history.active_number(k)].*which : network.bonded_stiffness(k));
   for (std::size_t a = 0; a < history.active().size(); ++a)
-    if (const auto& link = links[history.active()[a].link]; !link.has_face)
-      add_forces(link, at.active[a].*which * link_motion(link, unknowns), result);
+    if (const std::uint32_t k = history.active()[a].link; !links[k].has_face)
+      add(k, at.active[a].*which);
   for (const auto& [k, touch] : at.touches)
-    add_forces(links[k], touch.*which * link_motion(links[k], unknowns), result);
+    add(k, touch.*which);
   return result;
 }
 

@@ -197,8 +197,8 @@ TYPED_TEST(Boundaries, BearTheirStressByUniformTractions)
       EXPECT_LT(relative(stress_voigt<dim>(stress), network.intact_stiffness() * state.strain), 1e-8);
 
       Unknowns borne = Unknowns::Zero(network.n_unknowns());
-      for (std::size_t k = 0; k < forces.size(); ++k)
-        add_forces(network.links()[k], forces[k], borne);
+      for (std::size_t k = 0; k < forces.values.size(); ++k)
+        add_forces(network.links()[k], forces.values[k], borne);
       const auto on = [&](const std::uint32_t grain) -> Vector<dim> {
         return borne.segment<dim>(n_motions<dim> * Eigen::Index(grain));
       };
@@ -230,7 +230,7 @@ TYPED_TEST(Boundaries, OfAnEdgeLeaveItsSidesFree)
     control.stress_given[k] = k != dim - 1;
   const auto trial = rve.trial(control);
   ASSERT_TRUE(trial.in_equilibrium);
-  const auto forces = link_forces(rve.network(), trial.state);
+  const auto forces = link_forces(rve.network(), trial.state).values;
   Unknowns borne = Unknowns::Zero(rve.network().n_unknowns());
   double largest = 0.0;
   for (std::size_t k = 0; k < forces.size(); ++k)

@@ -44,7 +44,7 @@ TYPED_TEST(Networks, RestIsFreeOfStress)
   const Equilibrium<dim> equilibrium(network, rest, {});
   EXPECT_EQ(equilibrium.stress(), (Voigt<dim>::Zero()));
   EXPECT_EQ(equilibrium.stored_energy(), 0.0);
-  for (const auto& forces : link_forces(network, rest))
+  for (const auto& forces : link_forces(network, rest).values)
     EXPECT_EQ(forces, (Motion<dim>::Zero()));
 }
 

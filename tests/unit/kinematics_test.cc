@@ -1,0 +1,210 @@
+#include "coupling/network/kinematics.h"
+#include "coupling/rve/path_run.h"
+#include "tests/unit/small_rve.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace feldspar
+{
+namespace
+{
+template <typename Kind>
+struct TurnedLinks : testing::Test
+{
+};
+TYPED_TEST_SUITE(TurnedLinks, Dimensions);
+
+/// All motions of two grains and a strain, none of them alike, of some per cent of the link's length.
+template <int dim>
+Unknowns moved(const Network<dim>& network, const Link<dim>& link, const double size)
+{
+  Unknowns position = Unknowns::Zero(network.n_unknowns());
+  Random random(7, RandomStream::positions);
+  constexpr int n = n_motions<dim>;
+  for (const std::uint32_t grain : {link.grain_1, link.grain_2})
+    for (int c = 0; c < n; ++c)
+      position[n * Eigen::Index(grain) + c] = random.uniform(-1.0, 1.0) * size * (c < dim ? link.branch.norm() : 1.0);
+  position.template tail<n_voigt<dim>>() = uneven<dim>(size);
+  return position;
+}
+
+/// The unknowns that move a link.
+template <int dim>
+std::vector<Eigen::Index> unknowns_of(const Network<dim>& network, const Link<dim>& link)
+{
+  std::vector<Eigen::Index> all;
+  for (const std::uint32_t grain : {link.grain_1, link.grain_2})
+    for (int c = 0; c < n_motions<dim>; ++c)
+      all.push_back(n_motions<dim> * Eigen::Index(grain) + c);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    all.push_back(network.n_unknowns() - n_voigt<dim> + k);
+  return all;
+}
+
+TYPED_TEST(TurnedLinks, ChangeTheirMotionByTheirGradient)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  for (const std::size_t k : {0u, 5u, 11u})
+    {
+      const Link<dim>& link = network.links()[k];
+      const Unknowns here = moved(network, link, 0.04);
+      const auto place = turned(link, here);
+      for (const Eigen::Index i : unknowns_of(network, link))
+        {
+          const double step = 1e-6 * (i % n_motions<dim> < dim ? link.branch.norm() : 1.0);
+          const Unknowns change = step * Unknowns::Unit(network.n_unknowns(), i);
+          const Motion<dim> difference =
+            (turned(link, Unknowns(here + change)).motion - turned(link, Unknowns(here - change)).motion) / 2.0;
+          // Central differences: a millionth squared of what is computed, round-off a tenth of that of the step.
+          EXPECT_LT((difference - link_motion(link, place.gradient, change)).norm(),
+                    1e-8 * step * link.branch.norm() + 1e-9 * difference.norm())
+            << k << " " << i;
+        }
+    }
+}
+
+TYPED_TEST(TurnedLinks, GiveTheirGrainsTheTransposeOfTheirMotion)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const Link<dim>& link = network.links()[3];
+  const Unknowns here = moved(network, link, 0.03);
+  const auto place = turned(link, here);
+  const Motion<dim> forces = Motion<dim>::LinSpaced(1.0, 2.0);
+  Unknowns sum = Unknowns::Zero(network.n_unknowns());
+  add_forces(link, place.gradient, forces, sum);
+  const Unknowns any = moved(network, link, 1.0).reverse();
+  EXPECT_NEAR(sum.dot(any), forces.dot(link_motion(link, place.gradient, any)), 1e-13 * sum.norm() * any.norm());
+}
+
+TYPED_TEST(TurnedLinks, AreStiffenedByTheForcesThatTurnWithThem)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const Link<dim>& link = network.links()[2];
+  const double angle = 0.01;
+  const Unknowns here = moved(network, link, angle);
+  const Motion<dim> forces = Motion<dim>::LinSpaced(1.0, 2.0);
+  const Tensor<dim> stiffness = turning_stiffness(link, here, forces);
+  for (int c = 0; c < dim; ++c)
+    {
+      const double step = 1e-6 * link.branch.norm();
+      Unknowns change = Unknowns::Zero(network.n_unknowns());
+      change.template segment<dim>(n_motions<dim> * Eigen::Index(link.grain_2)) = step * link.axes.row(c).transpose();
+      const Vector<dim> difference =
+        (turned(link, Unknowns(here + change)).gradient - turned(link, Unknowns(here - change)).gradient).transpose() *
+        forces.template head<dim>() / (2.0 * step);
+      EXPECT_LT((difference - stiffness.col(c)).norm(), 3.0 * angle * angle * stiffness.norm());
+    }
+}
+
+TYPED_TEST(TurnedLinks, AreThoseOfSmallStrainsInTheLimit)
+{
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network(periodic_specimen<dim>());
+  const Link<dim>& link = network.links()[4];
+  const auto error = [&](const double size) {
+    const Unknowns here = moved(network, link, size);
+    return (turned(link, here).motion - link_motion(link, here)).norm() / (size * link.branch.norm());
+  };
+  EXPECT_NEAR(error(1e-4) / error(1e-3), 0.1, 0.01); // of the order of the strain
+  EXPECT_LT(error(1e-6), 1e-5);
+}
+
+TEST(TurnedLink, IsNotMovedByARigidRotationInThePlane)
+{
+  const Network<2> network(periodic_specimen<2>());
+  const Link<2>& link = network.links()[1];
+  const double angle = 0.3;
+  Unknowns position = Unknowns::Zero(network.n_unknowns());
+  const Vector<2> way = (Eigen::Rotation2Dd(angle).toRotationMatrix() - Tensor<2>::Identity()) * link.branch;
+  position.segment<2>(3 * Eigen::Index(link.grain_2)) = way;
+  position[3 * Eigen::Index(link.grain_1) + 2] = position[3 * Eigen::Index(link.grain_2) + 2] = angle;
+  EXPECT_LT(turned(link, position).motion.norm(), 1e-15);
+  EXPECT_GT(link_motion(link, position).norm(), 0.04 * link.branch.norm()); // (1 - cos 0.3) of the branch
+}
+
+/// A path of compression, its sides held.
+template <int dim>
+PathRun<dim> pressed(const Kinematics kinematics, const double strain, const double modulus_share = 1.0)
+{
+  Specimen<dim> specimen = periodic_specimen<dim>();
+  for (auto* stiffness : {&specimen.joints.normal_stiffness, &specimen.joints.shear_stiffness})
+    for (double& value : *stiffness)
+      value *= modulus_share;
+  specimen.particle_contact.modulus *= modulus_share;
+  Control<dim> sides;
+  sides.stress_given.fill(true);
+  for (int c = 0; c < dim; ++c)
+    sides.stress[c] = -20e6;
+  Control<dim> press = sides;
+  press.stress_given[dim - 1] = false;
+  press.strain[dim - 1] = -strain / modulus_share;
+  PathParameters parameters;
+  parameters.largest_step = 1e-4 / modulus_share;
+  parameters.equilibrium.kinematics = kinematics;
+  return {std::make_shared<const Network<dim>>(specimen), {{sides, false}, {press, true}}, parameters};
+}
+
+TYPED_TEST(TurnedLinks, KeepHillAndMandelAndTheEnergyOfADamagedCell)
+{
+  constexpr int dim = TypeParam::value;
+  auto run = pressed<dim>(Kinematics::finite, dim == 2 ? 8e-3 : 4e-3);
+  while (!run.has_ended())
+    run.advance();
+  EXPECT_EQ(run.record().failure, "");
+  EXPECT_GT(run.record().cracks.size(), 20u);
+  for (const auto& sample : run.record().samples)
+    {
+      EXPECT_LT(sample.hill_mandel_residual, 1e-5);
+      EXPECT_LT(sample.energy_imbalance(), 1e-3);
+      EXPECT_LT(sample.boundary_stress_error, 1e-5);
+    }
+}
+
+// Of grains ten thousand times as stiff all strains are ten thousand times as small, and so is what turning does.
+TYPED_TEST(TurnedLinks, MakeNoDifferenceToStiffGrains)
+{
+  constexpr int dim = TypeParam::value;
+  const auto peak = [](PathRun<dim> run) {
+    while (!run.has_ended())
+      run.advance();
+    double lowest = 0.0;
+    for (const auto& sample : run.record().samples)
+      lowest = std::min(lowest, sample.stress[dim - 1]);
+    return lowest;
+  };
+  const double strain = dim == 2 ? 6e-3 : 3e-3;
+  const double small = peak(pressed<dim>(Kinematics::small_strains, strain, 1e4));
+  const double finite = peak(pressed<dim>(Kinematics::finite, strain, 1e4));
+  EXPECT_NEAR(finite, small, 1e-3 * std::abs(small));
+}
+
+TYPED_TEST(TurnedLinks, KeepTheTangentOfADamagedCell)
+{
+  constexpr int dim = TypeParam::value;
+  EquilibriumParameters sharp{.event_tolerance = 1e-8, .final_tolerance = 1e-11};
+  sharp.kinematics = Kinematics::finite;
+  RepresentativeVolume<dim> rve = small_rve<dim>(1, sharp, 0.0);
+  const double first = rve.network().first_break(axial<dim>(1.0)).factor;
+  ASSERT_GT(strain_to(rve, axial<dim>((dim == 2 ? 1.2 : 1.8) * first), 10), 2u);
+  const Voigt<dim> here = rve.state().strain + axial<dim>(-3e-3) + uneven<dim>(1e-3);
+  const auto centre = rve.trial(here, Bonds::frozen, true);
+  ASSERT_TRUE(centre.in_equilibrium);
+  Stiffness<dim> differences;
+  constexpr double step = 1e-9; // no face opens, closes or begins to slide
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const Voigt<dim> change = step * Voigt<dim>::Unit(k);
+      const auto plus = rve.trial(Voigt<dim>(here + change), Bonds::frozen);
+      const auto minus = rve.trial(Voigt<dim>(here - change), Bonds::frozen);
+      ASSERT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
+      differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
+    }
+  EXPECT_LT(relative(differences, centre.tangent->value), 1e-5);
+}
+} // namespace
+} // namespace feldspar
