@@ -11,32 +11,42 @@ enum class Kinematics
   finite         ///< normals and branches follow the grains
 };
 
-/// A link whose branch has turned and stretched with its grains.
+/// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance of
+/// the centres; the slip is the angle by which the branch has turned, times its length at rest, less the turns of the grains
+/// times their arms. In the plane a rigid rotation of both grains is no motion; in space it is one of second order in the
+/// rotation.
 template <int dim>
-struct TurnedLink
+class TurnedLink
 {
-  Motion<dim> motion; ///< since rest [m, rad]
-  /// Of its displacement components, by the way of the second centre from the first in the axes at rest.
-  Tensor<dim> gradient;
+public:
+  /// Where the grains stand at a position.
+  TurnedLink(const Link<dim>& link, const Unknowns& position);
+
+  /// Since rest [m, rad].
+  const Motion<dim>& motion() const { return its_motion; }
+
+  /// Of the displacement components of the motion, by the way of the second centre from the first in the axes at rest.
+  Tensor<dim> gradient() const;
+
+  /// What forces of the link, conjugate to its motion, add to its stiffness against the same way because they turn with the
+  /// branch [N/m]. Symmetric; to first order in the angle of the branch.
+  Tensor<dim> stiffness(const Motion<dim>& forces) const;
+
+private:
+  double length_at_rest;
+  Vector<dim> end; ///< of the branch, in the axes at rest [m]
+  double length;
+  double slope;        ///< the angle of the branch over its way across the normal at rest, ψ/ρ [1/m]
+  double slope_change; ///< (d(ψ/ρ)/dρ)/ρ [1/m³]
+  Motion<dim> its_motion;
 };
-
-/// Where the grains stand. The displacement along n is the growth of the distance of the centres; the slip is the angle by
-/// which the branch has turned, times its length at rest, less the turns of the grains times their arms. In the plane a
-/// rigid rotation of both grains is no motion; in space it is one of second order in the rotation.
-template <int dim>
-TurnedLink<dim> turned(const Link<dim>& link, const Unknowns& position);
-
-/// What the forces of a link add to its stiffness because they turn with the branch, by the same way [N/m]. Symmetric; in
-/// space to first order in the angle of the branch.
-template <int dim>
-Tensor<dim> turning_stiffness(const Link<dim>& link, const Unknowns& position, const Motion<dim>& forces);
 
 /// How the forces of a link that stands turned reach its grains, and how stiff it is beyond its law.
 template <int dim>
 struct LinkTurn
 {
   Tensor<dim> gradient = Tensor<dim>::Identity();
-  Tensor<dim> stiffness = Tensor<dim>::Zero(); ///< turning_stiffness() [N/m]
+  Tensor<dim> stiffness = Tensor<dim>::Zero(); ///< TurnedLink::stiffness() [N/m]
 };
 
 /// Small motion of a turned link.
@@ -47,7 +57,8 @@ Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, cons
 template <int dim>
 void add_forces(const Link<dim>& link, const Tensor<dim>& gradient, const Motion<dim>& forces, Unknowns& sum);
 
-/// Adds what a stiffness against the way of the second centre from the first does.
+/// Adds the forces that a small motion makes, by the stiffness of the link and that of its turning.
 template <int dim>
-void add_turning_forces(const Link<dim>& link, const Tensor<dim>& stiffness, const Unknowns& unknowns, Unknowns& sum);
+void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, const JointStiffness<dim>& stiffness,
+                          const Unknowns& motion, Unknowns& sum);
 } // namespace feldspar

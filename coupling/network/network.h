@@ -12,7 +12,8 @@
 
 /// A periodic specimen as a network in its reference configuration, under one of the boundaries that a cell may have: what all
 /// copies of a representative volume share.
-/// Normals, branch vectors, volume and pairs stay at the reference (geometrically linear); docs/theory.md §9.
+/// Normals, branch vectors, volume and pairs are those of the reference; links that turn with their grains are in
+/// kinematics.h; docs/theory.md §9.
 namespace feldspar
 {
 /// Normal and shear stress of a segment under unit strains, per Voigt component.

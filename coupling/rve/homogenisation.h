@@ -36,9 +36,9 @@ BornForces<dim> born_forces(const Network<dim>& network, const BoundaryCondition
                             LinkForces<dim> of_links);
 
 /// Hill and Mandel: |V σ̄ : Δε + r̄·Δu - Σ s̄·Δm| over the sum of the magnitudes, or over `least_work` [J] if that is more,
-/// between two states, with the mean forces of both and the motions m of the links. The forces r of the boundary do work on
-/// the motions u of the grains only where it lets go of a grain between the two. Breaking and sliding do not enter: it only
-/// says how well forces balance.
+/// between two states, with the mean of the works that the forces of each would do on the motions m of links as they stand
+/// there. The forces r of the boundary do work on the motions u of the grains only where it lets go of a grain between the
+/// two. Breaking and sliding do not enter: it only says how well forces balance.
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
                             const BornForces<dim>& forces_before, const NetworkState<dim>& after,

@@ -1,6 +1,7 @@
 #include "coupling/rve/network_history.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace feldspar
 {
@@ -49,7 +50,7 @@ void NetworkHistory<dim>::become_finite()
 template <int dim>
 Motion<dim> NetworkHistory<dim>::motion(const std::uint32_t link, const Unknowns& at) const
 {
-  return finite ? turned(of.links()[link], at).motion : link_motion(of.links()[link], at);
+  return finite ? TurnedLink<dim>(of.links()[link], at).motion() : link_motion(of.links()[link], at);
 }
 
 /// All bonded; a pair without a face never is.
@@ -134,11 +135,12 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
     result.turns.resize(links.size());
   double carried = 0.0;
   std::size_t n_carrying = 0;
+  std::optional<TurnedLink<dim>> turned;
   const auto add = [&](const std::uint32_t k, const Motion<dim>& forces) {
     const Link<dim>& link = links[k];
-    if (finite)
+    if (turned)
       {
-        result.turns[k].stiffness = turning_stiffness(link, at, forces);
+        result.turns[k] = {turned->gradient(), turned->stiffness(forces)};
         add_forces(link, result.turns[k].gradient, forces, result.forces);
       }
     else
@@ -154,15 +156,9 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
   };
   for (std::uint32_t k = 0; k < links.size(); ++k)
     {
-      Motion<dim> motion;
       if (finite)
-        {
-          const TurnedLink<dim> link = turned(links[k], at);
-          motion = link.motion;
-          result.turns[k].gradient = link.gradient;
-        }
-      else
-        motion = link_motion(links[k], at);
+        turned.emplace(links[k], at);
+      const Motion<dim> motion = turned ? turned->motion() : link_motion(links[k], at);
       if (number[k] != none)
         {
           auto& of_link = result.active[number[k]];

@@ -18,13 +18,9 @@ Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& a
   Unknowns result = Unknowns::Zero(network.n_unknowns());
   const auto add = [&](const std::uint32_t k, const JointStiffness<dim>& stiffness) {
     if (at.turns.empty())
-      {
-        add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
-        return;
-      }
-    const LinkTurn<dim>& turn = at.turns[k];
-    add_forces(links[k], turn.gradient, stiffness * link_motion(links[k], turn.gradient, unknowns), result);
-    add_turning_forces(links[k], turn.stiffness, unknowns, result);
+      add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
+    else
+      add_forces_of_motion(links[k], at.turns[k], stiffness, unknowns, result);
   };
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     add(k, history.is_active(k) ? at.active[history.active_number(k)].*which : network.bonded_stiffness(k));

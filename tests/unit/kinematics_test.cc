@@ -51,17 +51,16 @@ TYPED_TEST(TurnedLinks, ChangeTheirMotionByTheirGradient)
     {
       const Link<dim>& link = network.links()[k];
       const Unknowns here = moved(network, link, 0.04);
-      const auto place = turned(link, here);
+      const TurnedLink<dim> place(link, here);
       for (const Eigen::Index i : unknowns_of(network, link))
         {
           const double step = 1e-6 * (i % n_motions<dim> < dim ? link.branch.norm() : 1.0);
           const Unknowns change = step * Unknowns::Unit(network.n_unknowns(), i);
           const Motion<dim> difference =
-            (turned(link, Unknowns(here + change)).motion - turned(link, Unknowns(here - change)).motion) / 2.0;
-          // Central differences: a millionth squared of what is computed, round-off a tenth of that of the step.
-          EXPECT_LT((difference - link_motion(link, place.gradient, change)).norm(),
-                    1e-8 * step * link.branch.norm() + 1e-9 * difference.norm())
-            << k << " " << i;
+            (TurnedLink<dim>(link, here + change).motion() - TurnedLink<dim>(link, here - change).motion()) / 2.0;
+          // Central differences: the step's third power over length², and the round-off of two motions.
+          const double tolerance = 1e-9 * difference.norm() + 1e-15 * place.motion().norm();
+          EXPECT_LT((difference - link_motion(link, place.gradient(), change)).norm(), tolerance) << k << " " << i;
         }
     }
 }
@@ -72,12 +71,12 @@ TYPED_TEST(TurnedLinks, GiveTheirGrainsTheTransposeOfTheirMotion)
   const Network<dim> network(periodic_specimen<dim>());
   const Link<dim>& link = network.links()[3];
   const Unknowns here = moved(network, link, 0.03);
-  const auto place = turned(link, here);
+  const TurnedLink<dim> place(link, here);
   const Motion<dim> forces = Motion<dim>::LinSpaced(1.0, 2.0);
   Unknowns sum = Unknowns::Zero(network.n_unknowns());
-  add_forces(link, place.gradient, forces, sum);
+  add_forces(link, place.gradient(), forces, sum);
   const Unknowns any = moved(network, link, 1.0).reverse();
-  EXPECT_NEAR(sum.dot(any), forces.dot(link_motion(link, place.gradient, any)), 1e-13 * sum.norm() * any.norm());
+  EXPECT_NEAR(sum.dot(any), forces.dot(link_motion(link, place.gradient(), any)), 1e-13 * sum.norm() * any.norm());
 }
 
 TYPED_TEST(TurnedLinks, AreStiffenedByTheForcesThatTurnWithThem)
@@ -88,14 +87,15 @@ TYPED_TEST(TurnedLinks, AreStiffenedByTheForcesThatTurnWithThem)
   const double angle = 0.01;
   const Unknowns here = moved(network, link, angle);
   const Motion<dim> forces = Motion<dim>::LinSpaced(1.0, 2.0);
-  const Tensor<dim> stiffness = turning_stiffness(link, here, forces);
+  const Tensor<dim> stiffness = TurnedLink<dim>(link, here).stiffness(forces);
   for (int c = 0; c < dim; ++c)
     {
       const double step = 1e-6 * link.branch.norm();
       Unknowns change = Unknowns::Zero(network.n_unknowns());
       change.template segment<dim>(n_motions<dim> * Eigen::Index(link.grain_2)) = step * link.axes.row(c).transpose();
       const Vector<dim> difference =
-        (turned(link, Unknowns(here + change)).gradient - turned(link, Unknowns(here - change)).gradient).transpose() *
+        (TurnedLink<dim>(link, here + change).gradient() - TurnedLink<dim>(link, here - change).gradient())
+          .transpose() *
         forces.template head<dim>() / (2.0 * step);
       EXPECT_LT((difference - stiffness.col(c)).norm(), 3.0 * angle * angle * stiffness.norm());
     }
@@ -108,7 +108,7 @@ TYPED_TEST(TurnedLinks, AreThoseOfSmallStrainsInTheLimit)
   const Link<dim>& link = network.links()[4];
   const auto error = [&](const double size) {
     const Unknowns here = moved(network, link, size);
-    return (turned(link, here).motion - link_motion(link, here)).norm() / (size * link.branch.norm());
+    return (TurnedLink<dim>(link, here).motion() - link_motion(link, here)).norm() / (size * link.branch.norm());
   };
   EXPECT_NEAR(error(1e-4) / error(1e-3), 0.1, 0.01); // of the order of the strain
   EXPECT_LT(error(1e-6), 1e-5);
@@ -123,7 +123,7 @@ TEST(TurnedLink, IsNotMovedByARigidRotationInThePlane)
   const Vector<2> way = (Eigen::Rotation2Dd(angle).toRotationMatrix() - Tensor<2>::Identity()) * link.branch;
   position.segment<2>(3 * Eigen::Index(link.grain_2)) = way;
   position[3 * Eigen::Index(link.grain_1) + 2] = position[3 * Eigen::Index(link.grain_2) + 2] = angle;
-  EXPECT_LT(turned(link, position).motion.norm(), 1e-15);
+  EXPECT_LT(TurnedLink<2>(link, position).motion().norm(), 1e-15);
   EXPECT_GT(link_motion(link, position).norm(), 0.04 * link.branch.norm()); // (1 - cos 0.3) of the branch
 }
 

@@ -20,13 +20,15 @@ class Paths : public testing::Test
 TYPED_TEST_SUITE(Paths, Dimensions);
 
 template <int dim>
-PathRun<dim> pull(const double strain = 3e-4)
+PathRun<dim> pull(const double strain = 3e-4, const Kinematics kinematics = Kinematics::small_strains)
 {
+  PathParameters parameters;
+  parameters.equilibrium.kinematics = kinematics;
   Control<dim> control;
   control.stress_given.fill(true);
   control.stress_given[dim - 1] = false;
   control.strain[dim - 1] = strain;
-  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>()), {{control, true}}, {}};
+  return {std::make_shared<const Network<dim>>(periodic_specimen<dim>()), {{control, true}}, parameters};
 }
 
 template <int dim>
@@ -38,24 +40,26 @@ bool same(const PathSample<dim>& a, const PathSample<dim>& b)
          a.boundary_stress_error == b.boundary_stress_error && a.crack_density == b.crack_density;
 }
 
-TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
+/// Whether a path that is taken up from checkpoints goes on to the bits of the unbroken one.
+template <int dim>
+void expect_same_bits_when_taken_up(const Kinematics kinematics)
 {
-  constexpr int dim = TypeParam::value;
-  PathRun<dim> whole = pull<dim>();
+  const auto pulled = [&] { return pull<dim>(3e-4, kinematics); };
+  PathRun<dim> whole = pulled();
   while (!whole.has_ended())
     whole.advance();
   EXPECT_GT(whole.record().cracks.size(), 5u);
 
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
-  PathRun<dim> broken = pull<dim>();
+  PathRun<dim> broken = pulled();
   for (unsigned int k = 0; !broken.has_ended(); ++k)
     {
       broken.advance();
       if (k % 4 == 3)
         {
           broken.write_checkpoint(file, "the same");
-          PathRun<dim> next = pull<dim>();
+          PathRun<dim> next = pulled();
           next.read_checkpoint(file, "the same");
           broken = next;
         }
@@ -68,8 +72,17 @@ TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
     EXPECT_EQ(broken.record().cracks[k].segment, whole.record().cracks[k].segment);
   EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
 
-  PathRun<dim> other = pull<dim>();
+  PathRun<dim> other = pulled();
   EXPECT_THROW(other.read_checkpoint(file, "another"), InputError);
+}
+
+TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
+{
+  for (const Kinematics kinematics : {Kinematics::small_strains, Kinematics::finite})
+    {
+      SCOPED_TRACE(kinematics == Kinematics::finite ? "finite" : "small strains");
+      expect_same_bits_when_taken_up<TypeParam::value>(kinematics);
+    }
 }
 
 TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)
