@@ -55,6 +55,12 @@ CONFINED = (
     "Tests/Confinements = 5, 20, 60 MPa",
     "Tests/Stop strain = 12e-3",  # at 60 MPa not every sample has a peak
 )
+FINITE = (
+    "Tests/List = triaxial_compression",
+    "Tests/Confinements = 60 MPa",
+    "Tests/Stop strain = 12e-3",
+    "Representative volume/Kinematics = finite",
+)
 
 
 def at_boundary(boundary):
@@ -77,6 +83,7 @@ EXPERIMENTS = {
     "confined": Experiment("lab", "confined"),
     "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
+    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 2, *FINITE)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
 for across, along in MESHES[1:]:
@@ -200,7 +207,7 @@ def keep(name, outs):
     for out in outs:
         with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
             summaries.append(json.load(file))
-        if name == "sample-confined":
+        if name in ("sample-confined", "sample-finite"):
             add_ends(out, summaries[-1])
     summary = summaries[0]
     command = EXPERIMENTS[name].command
@@ -394,6 +401,22 @@ def print_confined():
             f"{shown(initiation[0], 0)}, {shown(initiation[2], 0)}",
         ]
         print(f"| {' | '.join(cells)} |")
+    print()
+
+
+def print_kinematics():
+    """The sample at 60 MPa by both kinematics of its cells; the highest stress, and that at 1.2 % of strain if it came there."""
+    print("| seed | small strains: highest σ_1 [MPa] | at [1e-3] | finite: highest σ_1 [MPa] | at [1e-3] |")
+    print("|---|---|---|---|---|")
+    finite = {test["seed"]: test for test in results("sample-finite")["tests"]}
+    for test in results("sample-confined")["tests"]:
+        if test["seed"] in finite and round(test["confining_pressure_Pa"] / 1e6) == 60:
+            cells = [str(test["seed"])]
+            for one in (test, finite[test["seed"]]):
+                has_peak = one["peak_stress_Pa"] is not None
+                cells.append(f"{(one['peak_stress_Pa'] or one['stress_at_end_Pa']) / 1e6:.0f}")
+                cells.append(f"{1e3 * one['strain_at_peak']:.1f}" if has_peak else "no peak")
+            print(f"| {' | '.join(cells)} |")
     print()
 
 
@@ -629,6 +652,7 @@ def main():
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
     print_dealings()
     print_confined()
+    print_kinematics()
     print_meshes()
     print_same_cells()
     print_angles()

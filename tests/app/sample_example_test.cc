@@ -185,6 +185,23 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
                         mean_and_deviation(shares, 3), of_sample, without_peak));
     }
 
+  // Kinematics of the cells.
+  const auto finite = committed("sample-finite");
+  EXPECT_GE(finite["tests"].size(), 1u);
+  for (const auto& turned : finite["tests"])
+    for (const auto& test : sample_under_pressure["tests"])
+      if (test["seed"] == turned["seed"] && test["confining_pressure_Pa"] == turned["confining_pressure_Pa"])
+        {
+          std::string row = fmt::format("| {} |", test["seed"].get<int>());
+          for (const auto* const one : {&test, &turned})
+            if ((*one)["peak_stress_Pa"].is_null())
+              row += fmt::format(" {:.0f} | no peak |", (*one)["stress_at_end_Pa"].get<double>() / 1e6);
+            else
+              row += fmt::format(" {:.0f} | {:.1f} |", (*one)["peak_stress_Pa"].get<double>() / 1e6,
+                                 1e3 * (*one)["strain_at_peak"].get<double>());
+          shown(row);
+        }
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {

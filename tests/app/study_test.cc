@@ -362,7 +362,7 @@ const std::vector<Piece> pieces{
   {"SampleUnderPressureBegun",
    "multiscale",
    "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-confined.json"},
+   {"multiscale-and-grains/results/sample-confined.json", "multiscale-and-grains/results/sample-finite.json"},
    {{"Tests", "List", "triaxial_compression"},
     {"Tests", "Confinements", "5 MPa"},
     {"Tests", "Stop strain", "1e-4"},
