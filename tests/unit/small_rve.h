@@ -82,6 +82,24 @@ std::size_t strain_to(RepresentativeVolume<dim>& rve, const std::type_identity_t
   return n_breaks;
 }
 
+/// The change of the stress with the strain, bonds frozen, by central differences [Pa]. `step`: so small that no face opens,
+/// closes or begins to slide within it.
+template <int dim>
+Stiffness<dim> stiffness_by_differences(const RepresentativeVolume<dim>& rve, const Voigt<dim>& here,
+                                        const double step = 1e-9)
+{
+  Stiffness<dim> differences;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    {
+      const Voigt<dim> change = step * Voigt<dim>::Unit(k);
+      const auto plus = rve.trial(Voigt<dim>(here + change), Bonds::frozen);
+      const auto minus = rve.trial(Voigt<dim>(here - change), Bonds::frozen);
+      EXPECT_TRUE(plus.in_equilibrium && minus.in_equilibrium);
+      differences.col(k) = (plus.state.stress - minus.state.stress) / (2.0 * step);
+    }
+  return differences;
+}
+
 template <int dim>
 Voigt<dim> random_direction(Random& random)
 {
