@@ -11,10 +11,10 @@ enum class Kinematics
   finite         ///< normals and branches follow the grains
 };
 
-/// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance of
-/// the centres; the slip is the angle by which the branch has turned, times its length at rest, less the turns of the grains
-/// times their arms. In the plane a rigid rotation of both grains is no motion; in space it is one of second order in the
-/// rotation.
+/// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance
+/// of the centres; the slip is the angle by which the branch has turned, times its length at rest, less the turns of the
+/// grains times their arms. In the plane a rigid rotation of both grains is no motion. In space it is a false slip of half
+/// the product of its twist and its tilt.
 template <int dim>
 class TurnedLink
 {

@@ -24,7 +24,9 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
                   "whether segments with 0.98 of the worst overload break together with it", varies),
     entry::choice(
       "Kinematics", &P::kinematics, {{"small strains", Kinematics::small_strains}, {"finite", Kinematics::finite}},
-      "of an RVE event by event once something breaks in it; finite: contacts turn with their grains", varies),
+      "small strains: the contacts of an RVE keep the directions that they have at rest; finite: they turn with their "
+      "grains from the first break on; explicit dynamics always turn them",
+      varies),
     entry::integer("Most iterations", &P::most_iterations, {'[', 1.0, 1e6, ']'},
                    "by Newton's method in search of one equilibrium, before damped motion brings it nearer", varies)};
 }

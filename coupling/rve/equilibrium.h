@@ -29,7 +29,7 @@ struct LinkForces
   {
     Vector<dim> own = values[k].template head<dim>();
     if (!turns.empty())
-      own = turns[k].gradient.transpose() * own.eval();
+      own = turns[k].gradient.transpose() * own;
     return link.axes.transpose() * own;
   }
 };

@@ -9,7 +9,7 @@
 /// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// At a state in small strains.
+/// Of a network in small strains, at a state of it.
 template <int dim>
 LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
 

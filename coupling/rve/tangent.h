@@ -26,7 +26,7 @@ template <int dim>
 Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
 
 /// A number for the frozen states, and for how far a face is closed to a thousandth: where it is the same, so is the
-/// tangent.
+/// tangent, in finite kinematics but for what the contacts have turned since.
 template <int dim>
 std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
 

@@ -405,7 +405,7 @@ def print_confined():
 
 
 def print_kinematics():
-    """The sample at 60 MPa by both kinematics of its cells; the highest stress, and that at 1.2 % of strain if it came there."""
+    """The sample at 60 MPa by both kinematics of its cells: the highest stress and its strain."""
     print("| seed | small strains: highest σ_1 [MPa] | at [1e-3] | finite: highest σ_1 [MPa] | at [1e-3] |")
     print("|---|---|---|---|---|")
     finite = {test["seed"]: test for test in results("sample-finite")["tests"]}

@@ -187,7 +187,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
 
   // Kinematics of the cells.
   const auto finite = committed("sample-finite");
-  EXPECT_GE(finite["tests"].size(), 1u);
+  ASSERT_EQ(finite["tests"].size(), 2u);
+  std::size_t n_pairs = 0;
   for (const auto& turned : finite["tests"])
     for (const auto& test : sample_under_pressure["tests"])
       if (test["seed"] == turned["seed"] && test["confining_pressure_Pa"] == turned["confining_pressure_Pa"])
@@ -200,7 +201,9 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
               row += fmt::format(" {:.0f} | {:.1f} |", (*one)["peak_stress_Pa"].get<double>() / 1e6,
                                  1e3 * (*one)["strain_at_peak"].get<double>());
           shown(row);
+          ++n_pairs;
         }
+  EXPECT_EQ(n_pairs, 2u);
 
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
