@@ -13,6 +13,7 @@
 #include "app/run/provenance.h"
 #include "app/run/run_record.h"
 #include "app/screen/progress.h"
+#include "base/given_up.h"
 #include "base/input_error.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/rve_file.h"
@@ -83,6 +84,25 @@ std::string describe(const PathSample<dim>& sample)
 template <int dim>
 using Listener = std::function<void(double progress, const PathSample<dim>& sample)>;
 
+/// What was begun when the run is asked to end is begun anew by the one that takes it up.
+template <int dim>
+void advance(PathRun<dim>& run)
+{
+  try
+    {
+      run.advance(interrupted);
+    }
+  catch (const GivenUp&)
+    {
+    }
+}
+
+template <int dim>
+void advance(ExplicitRun<dim>& run)
+{
+  run.advance();
+}
+
 /// A path from its last checkpoint, if there is one, to its end or to Ctrl-C. `begin` makes the run at the start of its
 /// path.
 template <typename Begin, typename Show>
@@ -92,7 +112,7 @@ auto go_path(const Begin& begin, const Checkpoints& checkpoints, const Show& sho
   CheckpointClock clock;
   while (!run.has_ended() && !interrupted())
     {
-      run.advance();
+      advance(run);
       show(run.progress(), run.record().samples.back());
       if (clock.is_due())
         clock.time([&] { checkpoints.write(run); });

@@ -1,5 +1,7 @@
 #include "coupling/rve/relaxation.h"
 
+#include "base/given_up.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,9 +42,9 @@ double measure(const Balance<dim>& of, const Control<dim>& control)
 /// is the stiffness with all that can touch touching, so that no mode is faster than a step: with the intact one grains
 /// that no joint holds had none, and flew off once they were hit.
 template <int dim>
-Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
-                             const double tolerance)
+Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search)
 {
+  const auto& [control, tolerance, gives_up] = search;
   const Network<dim>& network = history.network();
   Unknowns& position = from.position;
   Balance<dim>& present = from.balance;
@@ -59,6 +61,7 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
   unsigned int k = 0;
   for (; k < most_steps && !(measure(present, control) <= tolerance); ++k)
     {
+      leave_if(gives_up);
       const Unknowns force = unbalanced(network, present, control);
       const Unknowns acceleration = history.factorised_stiffest().solve(force, control.stress_given);
       if (force.dot(velocity) > 0.0)
@@ -90,9 +93,10 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
 }
 
 template <int dim>
-Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
-                             const double tolerance, const unsigned int most_iterations, TangentSolver<dim>& solver)
+Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search,
+                             const unsigned int most_iterations, TangentSolver<dim>& solver)
 {
+  const auto& [control, tolerance, gives_up] = search;
   const Network<dim>& network = history.network();
   Unknowns& position = from.position;
   Balance<dim>& present = from.balance;
@@ -112,6 +116,7 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
         return ended(true);
       if (k == most_iterations)
         return ended(error <= tolerance);
+      leave_if(gives_up);
       ++iterations;
       const auto is_symmetric = [](const LinkResponse<dim>& response) {
         constexpr double round_off = 1e-12;
@@ -170,10 +175,10 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
   return ended(true);
 }
 
-template Relaxed<2> relax_by_newton(const NetworkHistory<2>&, Configuration<2>, const Control<2>&, double, unsigned int,
+template Relaxed<2> relax_by_newton(const NetworkHistory<2>&, Configuration<2>, const Search<2>&, unsigned int,
                                     TangentSolver<2>&);
-template Relaxed<3> relax_by_newton(const NetworkHistory<3>&, Configuration<3>, const Control<3>&, double, unsigned int,
+template Relaxed<3> relax_by_newton(const NetworkHistory<3>&, Configuration<3>, const Search<3>&, unsigned int,
                                     TangentSolver<3>&);
-template Relaxed<2> relax_by_motion(const NetworkHistory<2>&, Configuration<2>, const Control<2>&, double);
-template Relaxed<3> relax_by_motion(const NetworkHistory<3>&, Configuration<3>, const Control<3>&, double);
+template Relaxed<2> relax_by_motion(const NetworkHistory<2>&, Configuration<2>, const Search<2>&);
+template Relaxed<3> relax_by_motion(const NetworkHistory<3>&, Configuration<3>, const Search<3>&);
 } // namespace feldspar

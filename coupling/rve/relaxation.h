@@ -3,6 +3,8 @@
 #include "coupling/rve/parameters.h"
 #include "coupling/rve/tangent.h"
 
+#include <functional>
+
 /// Two ways to where the forces of a network balance, bonds frozen; docs/theory.md §9.3.
 namespace feldspar
 {
@@ -23,6 +25,16 @@ Control<dim> strain_control(const Voigt<dim>& strain)
   return control;
 }
 
+/// What a search for equilibrium is for, and when it is left.
+template <int dim>
+struct Search
+{
+  const Control<dim>& control;
+  double tolerance; ///< largest unbalanced over mean contact force
+  /// Asked in every iteration; where it says so, GivenUp is thrown. Empty: never.
+  const std::function<bool()>& gives_up;
+};
+
 /// Where a way to equilibrium ended.
 template <int dim>
 struct Relaxed
@@ -34,11 +46,10 @@ struct Relaxed
 
 /// By Newton's method, from a configuration whose given strains are reached. `solver` keeps what it factorises.
 template <int dim>
-Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
-                             double tolerance, unsigned int most_iterations, TangentSolver<dim>& solver);
+Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search,
+                             unsigned int most_iterations, TangentSolver<dim>& solver);
 
 /// By damped motion, nearer to equilibrium where Newton's method goes in circles.
 template <int dim>
-Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Control<dim>& control,
-                             double tolerance);
+Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search);
 } // namespace feldspar

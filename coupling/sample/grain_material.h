@@ -6,6 +6,7 @@
 
 #include <any>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -29,9 +30,10 @@ template <int dim>
 class GrainPoint final : public fem::MaterialPoint<dim>
 {
 public:
-  /// orientation: turns the axes of the RVE into those of the sample.
+  /// orientation: turns the axes of the RVE into those of the sample. gives_up: asked in every iteration of trial() and
+  /// relax(), which throw GivenUp where it says so; then only reject() is of use.
   GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-             const EquilibriumParameters& parameters);
+             const EquilibriumParameters& parameters, std::function<bool()> gives_up = {});
 
   fem::MaterialResponse<dim> trial(const Voigt<dim>& strain) const override;
   std::size_t relax(const Voigt<dim>& strain) override { return relax(strain, Bonds::may_break).n; }
@@ -57,7 +59,7 @@ public:
 
 private:
   fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
-  Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds) const;
+  Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds, const std::function<bool()>& leaves) const;
   void forget_trial();
   Voigt<dim> to_rve(const Voigt<dim>& strain) const;
 
@@ -65,6 +67,7 @@ private:
   Stiffness<dim> strain_to_rve; ///< Voigt strain of the sample's axes to that of the RVE's
   RepresentativeVolume<dim> accepted;
   RepresentativeVolume<dim> at_work; ///< with what broke in this step
+  std::function<bool()> gives_up;
   std::vector<BreakEvent<dim>> events_at_work;
   std::vector<BreakEvent<dim>> events_accepted;
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the RVE's axes; of which `tried` is the response
@@ -84,6 +87,7 @@ struct GrainMaterialParameters
   unsigned int n_points_of_cell = 1;
   bool in_local_axes = false; ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
   EquilibriumParameters equilibrium;
+  std::function<bool()> gives_up = {}; ///< as of GrainPoint
 };
 
 /// The same packing with bonds of this share of their strengths.

@@ -393,6 +393,7 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   material.n_points_of_cell = n_points_of_cell(sample);
   material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
   material.equilibrium = equilibrium;
+  material.gives_up = set_up.gives_up;
   const Network<dim>& first = *realisations.front().inside;
   const double size = std::pow(first.volume() / first.thickness(), 1.0 / dim);
   const double unscaled = 0.0; // any element is larger

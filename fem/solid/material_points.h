@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/given_up.h"
 #include "fem/materials/material.h"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -14,11 +15,6 @@
 
 namespace feldspar::fem
 {
-/// Not all points were asked, because the run is to end.
-struct GivenUp
-{
-};
-
 /// The material points of one rank, worked on by all its cores. Vectors run over the points in the order of add().
 template <int dim>
 class MaterialPoints
@@ -43,7 +39,7 @@ public:
   {
     Responses responses(points.size());
     for_each([&](const std::size_t i) {
-      end_if(gives_up);
+      leave_if(gives_up);
       responses[i] = points[i]->trial(strains[i]);
     });
     return responses;
@@ -57,7 +53,7 @@ public:
       [&](const Range& part, std::size_t n_events) {
         for (std::size_t i = part.begin(); i != part.end(); ++i)
           {
-            end_if(gives_up);
+            leave_if(gives_up);
             timed(i, [&] { n_events += points[i]->relax(strains[i]); });
           }
         return n_events;
@@ -92,12 +88,6 @@ public:
 
 private:
   using Range = oneapi::tbb::blocked_range<std::size_t>;
-
-  static void end_if(const std::function<bool()>& gives_up)
-  {
-    if (gives_up && gives_up())
-      throw GivenUp();
-  }
 
   /// Points differ in cost by orders of magnitude: ranges are split down to one point where threads are idle.
   Range range() const { return {0, points.size()}; }

@@ -1,10 +1,13 @@
 #include "tests/unit/small_rve.h"
 
+#include "base/given_up.h"
 #include "base/input_error.h"
 #include "coupling/rve/path_run.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 /// Paths: interrupted and taken up, controlled in mixed ways, and led where there is no equilibrium.
 namespace feldspar
@@ -83,6 +86,43 @@ TYPED_TEST(Paths, TakenUpGivesTheBitsOfTheUnbrokenRun)
       SCOPED_TRACE(kinematics == Kinematics::finite ? "finite" : "small strains");
       expect_same_bits_when_taken_up<TypeParam::value>(kinematics);
     }
+}
+
+// In the first iteration of an increment, in its second, ..., until an increment is gone before it is asked so often.
+TYPED_TEST(Paths, LeftAmidAnyIncrementGoOnToTheSameBits)
+{
+  constexpr int dim = TypeParam::value;
+  PathRun<dim> whole = pull<dim>();
+  PathRun<dim> left = pull<dim>();
+  unsigned int times_left = 0;
+  unsigned int latest = 0;
+  while (!whole.has_ended())
+    {
+      bool was_left = true;
+      for (unsigned int last_asking = 1; was_left; ++last_asking)
+        {
+          unsigned int n_asked = 0;
+          try
+            {
+              left.advance([&] { return ++n_asked == last_asking; });
+              was_left = false;
+            }
+          catch (const GivenUp&)
+            {
+              ++times_left;
+              latest = std::max(latest, last_asking);
+              ASSERT_EQ(left.record().samples.size(), whole.record().samples.size());
+              ASSERT_EQ(left.state().motions, whole.state().motions);
+            }
+        }
+      whole.advance();
+      ASSERT_EQ(left.record().samples.size(), whole.record().samples.size());
+      ASSERT_TRUE(same(left.record().samples.back(), whole.record().samples.back()));
+      ASSERT_EQ(left.state().motions, whole.state().motions);
+    }
+  EXPECT_TRUE(left.has_ended());
+  EXPECT_GT(times_left, 50u);
+  EXPECT_GT(latest, 10u); // in the searches that follow breaks, not in the first only
 }
 
 TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)

@@ -1,3 +1,4 @@
+#include "base/given_up.h"
 #include "coupling/sample/grain_material.h"
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
@@ -223,6 +224,34 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   EXPECT_GT(point.fields()[0], 0.0);
   point.accept(strain);
   EXPECT_TRUE(point.cracks_of_last_step().empty());
+}
+
+TEST(GrainMaterial, ASearchThatIsLeftLeavesNothingBehind)
+{
+  unsigned int n_left = 0; // until it is left
+  const auto gives_up = [&] { return n_left > 0 && --n_left == 0; };
+  const auto network = std::make_shared<const Network<2>>(periodic_specimen());
+  GrainPoint<2> point(network, Tensor<2>::Identity(), {}, gives_up);
+  GrainPoint<2> undisturbed(network, Tensor<2>::Identity(), {});
+  const Voigt<2> strain(0.0, 3e-4, 0.0);
+  const std::string before = point.stored();
+
+  n_left = 10;
+  point.trial(strain);
+  EXPECT_THROW(point.relax(strain), GivenUp);
+  point.reject();
+  EXPECT_EQ(point.stored(), before);
+
+  for (GrainPoint<2>* each : {&point, &undisturbed})
+    {
+      n_left = 0;
+      each->trial(strain);
+      while (each->relax(strain) > 0)
+        ;
+      n_left = 1; // accepting is no matter of asking
+      each->accept(strain);
+    }
+  EXPECT_EQ(point.stored(), undisturbed.stored());
 }
 
 // A quarter turn and the pull turned with it: the same cracks, their normals along x instead of y.
