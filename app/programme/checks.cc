@@ -42,9 +42,8 @@ void check_reference(const Input& input)
 void check_equilibria(const SpecimenParameters& specimen, const std::string_view remedy)
 {
   if (!JointLaws::has_equilibria(specimen.joint_law))
-    refuse(fmt::format(
-      "Specimen/Joint law = {}: has no equilibria event by event, because its bonds soften between breaks; {}",
-      specimen.joint_law, remedy));
+    refuse(fmt::format("Specimen/Joint law = {}: its faces have no response yet from one equilibrium to the next; {}",
+                       specimen.joint_law, remedy));
 }
 
 /// Of representative volumes.

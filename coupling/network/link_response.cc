@@ -90,115 +90,221 @@ private:
   double width; ///< [m]
 };
 
-/// Of a flat joint, or of a pair without a face.
+/// A segment of a link on its way from the last event.
+template <int dim>
+struct MovingSegment
+{
+  const Link<dim>& link;
+  FaceElement<dim> element;
+  flat_joint::Segment<dim, double> face;
+  ElementRows<dim> rows;
+  Vector<dim> before, now; ///< opening since rest, and shear
+  double slope;
+
+  double gap_before() const { return link.opening + before[0]; }
+  double gap() const { return link.opening + now[0]; }
+};
+
+template <int dim>
+MovingSegment<dim> moving_segment(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
+                                  const std::uint32_t i)
+{
+  const Link<dim>& link = network.links()[active.link];
+  // A pair without a face touches at a point: no slope, no moment.
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
+  const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
+  const auto rows = element_rows(element, link.half_length);
+  const double slope = dim == 2 && link.has_face ? motion[2] : 0.0; // elements of a disk are lumped
+  return {link,          element, segment_of(link, element, network.thickness()), rows, rows * active.motion,
+          rows * motion, slope};
+}
+
+/// Adds what a segment does, its bond intact or not.
+template <int dim>
+void add_segment(const MovingSegment<dim>& of, const flat_joint::NormalResponse<double>& normal,
+                 const std::array<double, dim - 1>& shear_stress, Motion<dim>& forces)
+{
+  Vector<dim> force;
+  force[0] = -normal.force;
+  for (int c = 0; c < dim - 1; ++c)
+    force[c + 1] = -shear_stress[c] * of.face.area();
+  forces += of.rows.transpose() * force;
+  if constexpr (dim == 2)
+    if (of.link.has_face)
+      forces[2] -= normal.moment;
+}
+
+/// Of an unbonded segment: of the part that presses.
+template <int dim>
+struct PressingStiffness
+{
+  double share = 0.0;                                                                   ///< of the segment's area
+  Eigen::Matrix<double, 1, n_motions<dim>> stress_rate = decltype(stress_rate)::Zero(); ///< dσ̂
+  JointStiffness<dim> normal = JointStiffness<dim>::Zero();
+};
+
+template <int dim>
+PressingStiffness<dim> pressing_stiffness(const MovingSegment<dim>& of, const double thickness)
+{
+  const Pressing part = pressing_part(of.face, of.gap(), of.slope);
+  PressingStiffness<dim> result;
+  result.share = part.share;
+  if (part.share == 0.0)
+    return result;
+  const double k_n = of.link.normal_stiffness;
+  FaceElement<dim> pressing = of.element;
+  pressing.offset[0] += part.offset / of.link.half_length;
+  const auto part_rows = element_rows(pressing, of.link.half_length);
+  result.stress_rate = k_n * part.share * part_rows.row(0);
+  result.normal = of.face.area() * part_rows.row(0).transpose() * result.stress_rate;
+  if constexpr (dim == 2)
+    {
+      const double part_length = part.share * of.face.length;
+      const double second_moment = of.link.has_face ? part_length * part_length * part_length * thickness / 12.0 : 0.0;
+      result.normal(2, 2) += k_n * second_moment;
+    }
+  return result;
+}
+
+/// A bond that holds, and has not softened: the stiffness of its segment.
+template <int dim>
+void add_bonded(const MovingSegment<dim>& of, const JointStiffness<dim>& stiffness, const Motion<dim>& motion,
+                LinkResponse<dim>& sum, SegmentResponse<dim>& segment)
+{
+  const double k_n = of.link.normal_stiffness;
+  for (int c = 0; c < dim - 1; ++c)
+    segment.shear_stress[c] = -of.link.shear_stiffness * of.now[c + 1]; // (13), the whole way since rest
+  segment.bond_stress = {k_n * of.now[0], k_n * of.now[0], flat_joint::magnitude(segment.shear_stress)}; // (10)
+  sum.forces += stiffness * motion;
+  sum.tangent += stiffness;
+  sum.derivative += stiffness;
+  sum.stored_energy += 0.5 * motion.dot(stiffness * motion);
+}
+
+/// Without a bond: one return map from the last event, first as if nothing slid.
+template <int dim>
+void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, const double thickness,
+                  LinkResponse<dim>& sum, SegmentResponse<dim>& segment)
+{
+  const Link<dim>& link = of.link;
+  const double k_s = link.shear_stiffness;
+  const double area = of.face.area();
+  const Closure closure(closure_width_ratio * link.half_length);
+  flat_joint::SegmentMotion<dim, double> step;
+  step.gap_before = of.gap_before();
+  step.gap = of.gap();
+  step.slope = of.slope;
+  const double share = closure.mean(step.gap_before, step.gap);
+  std::array<double, dim - 1> trial;
+  for (int c = 0; c < dim - 1; ++c)
+    trial[c] = old.shear_stress[c] - k_s * share * (of.now[c + 1] - of.before[c + 1]);
+  step.shear_increment = {};
+  const auto update = flat_joint::update<dim, double>(of.face, {0.0, 0.0, 0.0}, {trial, false}, step);
+  segment.shear_stress = update.state.shear_stress;
+
+  add_segment(of, update.normal, segment.shear_stress, sum.forces);
+  sum.stored_energy += flat_joint::normal_energy(of.face, step.gap, step.slope, false) +
+                       0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
+  bool sticks = true;
+  for (int c = 0; c < dim - 1; ++c)
+    {
+      // Of a face an edge may press while the middle is open: what the shear does not follow there is slip too.
+      const double left_open = link.has_face ? 1.0 - share : 0.0;
+      segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s - left_open * (of.now[c + 1] - of.before[c + 1]);
+      sticks = sticks && trial[c] == segment.shear_stress[c];
+    }
+
+  const PressingStiffness<dim> pressing = pressing_stiffness(of, thickness);
+  if (pressing.share == 0.0)
+    return;
+  sum.tangent += pressing.normal;
+  sum.derivative += pressing.normal;
+  const auto shear_rows = of.rows.bottomRows(dim - 1);
+  if (sticks)
+    sum.tangent += k_s * closure.at(step.gap) * area * shear_rows.transpose() * shear_rows;
+
+  // Of -τ: as if nothing slid; then |τ| = -μσ̂ along the trial stress, which the slip across it turns.
+  using ShearRate = Eigen::Matrix<double, dim - 1, n_motions<dim>>;
+  using Shear = Eigen::Matrix<double, dim - 1, 1>;
+  ShearRate shear_rate = k_s * (share * shear_rows + (of.now - of.before).template tail<dim - 1>() *
+                                                       closure.mean_rate(step.gap_before, step.gap) * of.rows.row(0));
+  if (!sticks)
+    {
+      const double size = flat_joint::magnitude(trial);
+      const Shear along = Eigen::Map<const Shear>(trial.data()) / size;
+      const ShearRate across = shear_rate - along * (along.transpose() * shear_rate);
+      shear_rate =
+        link.friction * along * pressing.stress_rate + flat_joint::magnitude(segment.shear_stress) / size * across;
+    }
+  sum.derivative += area * shear_rows.transpose() * shear_rate;
+}
+
+/// With a bond that has softened, and softens no further before the next event: between bonded and unbonded, and elastic in
+/// shear.
+template <int dim>
+void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonded_stiffness,
+                  const SegmentHistory<dim>& old, const double thickness, LinkResponse<dim>& sum,
+                  SegmentResponse<dim>& segment)
+{
+  const double k_s = of.link.shear_stiffness;
+  const double area = of.face.area();
+  const double damage = old.more.front();
+  for (int c = 0; c < dim - 1; ++c)
+    segment.shear_stress[c] = old.shear_stress[c] - k_s * (of.now[c + 1] - of.before[c + 1]);
+  add_segment(of, softening::damaged_response<dim, double>(of.face, of.gap(), of.slope, damage), segment.shear_stress,
+              sum.forces);
+  sum.stored_energy += flat_joint::normal_energy(of.face, of.gap(), of.slope, false) +
+                       (1.0 - damage) * softening::energy_of_bond<dim, double>(of.face, of.gap(), of.slope) +
+                       0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
+
+  const auto shear_rows = of.rows.bottomRows(dim - 1);
+  const JointStiffness<dim> shear = k_s * area * shear_rows.transpose() * shear_rows;
+  const JointStiffness<dim> normal_of_bond = bonded_stiffness - shear;
+  const JointStiffness<dim> stiffness =
+    shear + normal_of_bond + damage * (pressing_stiffness(of, thickness).normal - normal_of_bond);
+  sum.tangent += stiffness;
+  sum.derivative += stiffness;
+}
+
+/// Of a flat joint, whose bonds may soften, or of a pair without a face.
+template <typename Law, int dim>
+LinkResponse<dim> flat_joint_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                                      const Motion<dim>& motion)
+{
+  LinkResponse<dim> result;
+  result.segments.resize(active.segments.size());
+  for (std::uint32_t i = 0; i < active.segments.size(); ++i)
+    {
+      const auto moving = moving_segment(network, active, motion, i);
+      const SegmentHistory<dim>& old = active.segments[i];
+      SegmentResponse<dim>& segment = result.segments[i];
+      if (!old.bonded)
+        {
+          add_unbonded(moving, old, network.thickness(), result, segment);
+          continue;
+        }
+      const JointStiffness<dim> stiffness =
+        law.bonded_stiffness(moving.link.face(network.thickness()), moving.element, moving.rows);
+      if (old.has_softened())
+        add_softened(moving, stiffness, old, network.thickness(), result, segment);
+      else
+        add_bonded(moving, stiffness, motion, result, segment);
+    }
+  return result;
+}
+
 template <int dim>
 LinkResponse<dim> face_response(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
                                 const Motion<dim>& motion)
 {
-  const Link<dim>& link = network.links()[active.link];
-  const double k_n = link.normal_stiffness;
-  const double k_s = link.shear_stiffness;
-  // A pair without a face touches at a point: no slope, no moment.
-  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
-  const double slope = dim == 2 && link.has_face ? motion[2] : 0.0; // elements of a disk are lumped
+  return flat_joint_response(law, network, active, motion);
+}
 
-  LinkResponse<dim> result;
-  result.segments.resize(link.n_segments);
-  for (std::uint32_t i = 0; i < link.n_segments; ++i)
-    {
-      const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
-      const double r = link.half_length;
-      const auto face = segment_of(link, element, network.thickness());
-      const double area = face.area();
-      const auto rows = element_rows(element, r);
-      const Vector<dim> now = rows * motion;
-      const Vector<dim> before = rows * active.motion;
-      const SegmentHistory<dim>& old = active.segments[i];
-      SegmentResponse<dim>& segment = result.segments[i];
-
-      if (old.bonded)
-        {
-          for (int c = 0; c < dim - 1; ++c)
-            segment.shear_stress[c] = -k_s * now[c + 1]; // (13), the whole way since rest
-          segment.bond_stress = {k_n * now[0], k_n * now[0], flat_joint::magnitude(segment.shear_stress)}; // (10)
-          const JointStiffness<dim> stiffness = law.bonded_stiffness(link.face(network.thickness()), element, rows);
-          result.forces += stiffness * motion;
-          result.tangent += stiffness;
-          result.derivative += stiffness;
-          result.stored_energy += 0.5 * motion.dot(stiffness * motion);
-          continue;
-        }
-
-      // One return map from the last event: first as if nothing slid.
-      const Closure closure(closure_width_ratio * r);
-      flat_joint::SegmentMotion<dim, double> step;
-      step.gap_before = link.opening + before[0];
-      step.gap = link.opening + now[0];
-      step.slope = slope;
-      const double share = closure.mean(step.gap_before, step.gap);
-      std::array<double, dim - 1> trial;
-      for (int c = 0; c < dim - 1; ++c)
-        trial[c] = old.shear_stress[c] - k_s * share * (now[c + 1] - before[c + 1]);
-      step.shear_increment = {};
-      const auto update = flat_joint::update<dim, double>(face, {0.0, 0.0, 0.0}, {trial, false}, step);
-      segment.shear_stress = update.state.shear_stress;
-
-      Vector<dim> force;
-      force[0] = -update.normal.force;
-      for (int c = 0; c < dim - 1; ++c)
-        force[c + 1] = -segment.shear_stress[c] * area;
-      result.forces += rows.transpose() * force;
-      if constexpr (dim == 2)
-        if (link.has_face)
-          result.forces[2] -= update.normal.moment;
-      result.stored_energy += flat_joint::normal_energy(face, step.gap, step.slope, false) +
-                              0.5 * shear_squared<dim>(segment.shear_stress) * area / k_s;
-      bool sticks = true;
-      for (int c = 0; c < dim - 1; ++c)
-        {
-          // Of a face an edge may press while the middle is open: what the shear does not follow there is slip too.
-          const double left_open = link.has_face ? 1.0 - share : 0.0;
-          segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s - left_open * (now[c + 1] - before[c + 1]);
-          sticks = sticks && trial[c] == segment.shear_stress[c];
-        }
-
-      const Pressing part = pressing_part(face, step.gap, step.slope);
-      if (part.share == 0.0)
-        continue;
-      FaceElement<dim> pressing = element;
-      pressing.offset[0] += part.offset / r;
-      const auto part_rows = element_rows(pressing, r);
-      const Eigen::Matrix<double, 1, n_motions<dim>> stress_rate = k_n * part.share * part_rows.row(0);
-      JointStiffness<dim> normal = area * part_rows.row(0).transpose() * stress_rate;
-      if constexpr (dim == 2)
-        {
-          const double part_length = part.share * face.length;
-          const double second_moment =
-            link.has_face ? part_length * part_length * part_length * network.thickness() / 12.0 : 0.0;
-          normal(2, 2) += k_n * second_moment;
-        }
-      result.tangent += normal;
-      result.derivative += normal;
-      const auto shear_rows = rows.bottomRows(dim - 1);
-      if (sticks)
-        result.tangent += k_s * closure.at(step.gap) * area * shear_rows.transpose() * shear_rows;
-
-      // Of -τ: as if nothing slid; then |τ| = -μσ̂ along the trial stress, which the slip across it turns.
-      using ShearRate = Eigen::Matrix<double, dim - 1, n_motions<dim>>;
-      using Shear = Eigen::Matrix<double, dim - 1, 1>;
-      ShearRate shear_rate = k_s * (share * shear_rows + (now - before).template tail<dim - 1>() *
-                                                           closure.mean_rate(step.gap_before, step.gap) * rows.row(0));
-      if (!sticks)
-        {
-          const double size = flat_joint::magnitude(trial);
-          const Shear along = Eigen::Map<const Shear>(trial.data()) / size;
-          const ShearRate across = shear_rate - along * (along.transpose() * shear_rate);
-          shear_rate =
-            link.friction * along * stress_rate + flat_joint::magnitude(segment.shear_stress) / size * across;
-        }
-      result.derivative += area * shear_rows.transpose() * shear_rate;
-    }
-  return result;
+template <int dim>
+LinkResponse<dim> face_response(const SofteningFlatJoint<dim>& law, const Network<dim>& network,
+                                const ActiveLink<dim>& active, const Motion<dim>& motion)
+{
+  return flat_joint_response(law, network, active, motion);
 }
 
 /// Of a parallel bond: beside it the linear contact, by one return map from the last event.
@@ -275,6 +381,80 @@ LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& a
     network.law());
 }
 
+namespace
+{
+/// d that is asked of a bond, by tension and then by shear. In shear a bond that an event has softened farther than was asked of
+/// it has done half a step of the next way already; in tension its opening says how far it is.
+struct Asked
+{
+  double by_tension;
+  double by_shear;
+
+  double d() const { return by_tension + by_shear; }
+};
+
+Asked asked(const softening::Demand<double>& of, const Memory& memory, const double least_step)
+{
+  const bool is_ahead = memory[1] > 0.0 && of.now < 1.0; // at its end it breaks
+  return {of.pulled, std::max(0.0, of.now - of.pulled - (is_ahead ? 0.5 * least_step : 0.0))};
+}
+} // namespace
+
+template <int dim>
+SofteningDemand softening_demand(const Network<dim>& network, const Link<dim>& link, const std::uint32_t i,
+                                 const SegmentHistory<dim>& old, const double opening,
+                                 const std::array<double, dim - 1>& shear_stress, const double least_step)
+{
+  const auto segment = segment_of(link, network.elements()[i], network.thickness());
+  const Bond<double>& bond = network.bond(link.first_segment + i);
+  const double over_opening = std::get<SofteningFlatJoint<dim>>(network.law()).softening_opening();
+  const auto of =
+    softening::demand<dim, double>(segment, bond, over_opening, old.more.front(), link.opening + opening, shear_stress);
+  // As if nothing of the bond had softened: over its strength and the way that it has softened so far.
+  const double softened = of.before * over_opening;
+  const double by_tension =
+    segment.normal_stiffness * (link.opening + opening) / (bond.tensile_strength + segment.normal_stiffness * softened);
+  const double by_shear =
+    (of.size + segment.shear_stiffness * softened) / (of.limit(of.before) + segment.shear_stiffness * softened);
+  return {std::max(by_tension, by_shear),
+          asked(of, old.more, least_step).d() >= std::min(1.0, of.before + 0.5 * least_step)};
+}
+
+template <int dim>
+BondEvent loosen(const Network<dim>& network, ActiveLink<dim>& active, const std::uint32_t i, const bool in_tension,
+                 const double least_step)
+{
+  SegmentHistory<dim>& segment = active.segments[i];
+  const auto* const law = std::get_if<SofteningFlatJoint<dim>>(&network.law());
+  if (!law)
+    {
+      segment.bonded = false;
+      if (network.is_linear_while_bonded())
+        segment.shear_stress = {};
+      return {true, in_tension, 0.0, 0.0};
+    }
+  const auto at = moving_segment(network, active, active.motion, i);
+  const auto tau = response(network, active, active.motion).segments[i].shear_stress;
+  const softening::State<dim, double> old{tau, true, segment.more};
+  const Bond<double>& bond = network.bond(at.link.first_segment + i);
+  const double over_opening = law->softening_opening();
+  const auto of = softening::demand<dim, double>(at.face, bond, over_opening, segment.more.front(), at.gap(), tau);
+  const Asked by = asked(of, segment.more, least_step);
+  const double d = std::min(1.0, by.d() + 0.5 * least_step);
+  const bool sheared = by.by_shear > by.by_tension - of.before;
+  const auto update =
+    softening::soften<dim, double>(at.face, bond, over_opening, old, {at.gap(), at.gap(), at.slope, {}}, tau, of, d,
+                                   sheared ? d - by.by_tension : by.by_shear);
+  segment = {update.state.bonded, update.state.shear_stress, update.state.more};
+  return {!update.state.bonded, update.tension_break, update.slip_energy, update.released_energy};
+}
+
+template SofteningDemand softening_demand(const Network<2>&, const Link<2>&, std::uint32_t, const SegmentHistory<2>&,
+                                          double, const std::array<double, 1>&, double);
+template SofteningDemand softening_demand(const Network<3>&, const Link<3>&, std::uint32_t, const SegmentHistory<3>&,
+                                          double, const std::array<double, 2>&, double);
+template BondEvent loosen(const Network<2>&, ActiveLink<2>&, std::uint32_t, bool, double);
+template BondEvent loosen(const Network<3>&, ActiveLink<3>&, std::uint32_t, bool, double);
 template LinkResponse<2> response<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);
 template LinkResponse<3> response<3>(const Network<3>&, const ActiveLink<3>&, const Motion<3>&);
 } // namespace feldspar

@@ -16,12 +16,24 @@ struct UnbondedSegment
   std::array<double, dim - 1> shear_stress; ///< [Pa]
 };
 
+/// What a bond remembers of its softening (softening::State::more): 0 of one that has not softened.
+using Memory = std::array<double, 3>;
+
+/// A segment whose bond holds and has softened.
+template <int dim>
+struct SoftenedSegment
+{
+  std::uint32_t segment;
+  std::array<double, dim - 1> shear_stress; ///< [Pa]
+  Memory more;
+};
+
 /// Since the RVE was at rest [J], each summed on its own.
 struct NetworkWork
 {
   double boundary = 0.0; ///< ∫ V σ : dε
   double slip = 0.0;     ///< by friction of broken segments
-  double released = 0.0; ///< stored in segments at the moment they broke
+  double released = 0.0; ///< stored in segments at the moment they broke, or given up by bonds that soften
   double settled = 0.0;  ///< done by unbalanced forces on the way to equilibrium after a break
 };
 
@@ -34,6 +46,7 @@ struct NetworkState
   bool intact = true;                         ///< and linear
   std::vector<double> motions;                ///< of all grains; empty while intact
   std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
+  std::vector<SoftenedSegment<dim>> softened; ///< ascending
   /// The shear stress of every segment, by a law that is not linear while it holds [Pa]; empty at rest and otherwise.
   std::vector<std::array<double, dim - 1>> contact_shear;
   std::uint32_t n_tension_breaks = 0;

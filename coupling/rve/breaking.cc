@@ -9,14 +9,41 @@ namespace
 {
 constexpr double near_worst_share = 0.98;
 constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
+
+/// Of a segment since rest [m].
+template <int dim>
+double opening_at(const Network<dim>& network, const NetworkHistory<dim>& history, const std::uint32_t link,
+                  const std::uint32_t i, const Unknowns& position)
+{
+  return element_rows(network.elements()[i], network.links()[link].half_length).row(0) * history.motion(link, position);
+}
+
+/// Nothing, of one that has not.
+template <int dim>
+const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, const std::uint32_t link,
+                                            const std::uint32_t i)
+{
+  if (!history.is_active(link))
+    return nullptr;
+  const SegmentHistory<dim>& segment = history.active()[history.active_number(link)].segments[i];
+  return segment.has_softened() ? &segment : nullptr;
+}
 } // namespace
 
 template <int dim>
 std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present,
-                                const BreakRule rule)
+                                const EquilibriumParameters& parameters)
 {
   const Network<dim>& network = history.network();
   std::vector<Overload> result;
+  const auto check_softened = [&](const std::uint32_t k, const std::uint32_t i, const SegmentHistory<dim>& old) {
+    const double opening = opening_at(network, history, k, i, present.position);
+    const auto& shear_stress = present.balance.active[history.active_number(k)].segments[i].shear_stress;
+    const auto demand =
+      softening_demand(network, network.links()[k], i, old, opening, shear_stress, 1.0 / parameters.softening_steps);
+    if (demand.exceeded)
+      result.push_back({demand.ratio, network.links()[k].first_segment + i, opening > 0.0});
+  };
   const auto check = [&](const std::uint32_t segment, const BondStress& stress) {
     if (const Bond<double>& bond = network.bond(segment); is_overloaded(bond, stress))
       result.push_back({overload_ratio(bond, stress), segment, breaks_in_tension(bond, stress)});
@@ -31,9 +58,14 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
           {
             if (is_active)
               {
-                if (!history.active()[history.active_number(k)].segments[i].bonded)
+                const SegmentHistory<dim>& old = history.active()[history.active_number(k)].segments[i];
+                if (!old.bonded)
                   continue;
-                check(link.first_segment + i, present.balance.active[history.active_number(k)].segments[i].bond_stress);
+                if (old.has_softened())
+                  check_softened(k, i, old);
+                else
+                  check(link.first_segment + i,
+                        present.balance.active[history.active_number(k)].segments[i].bond_stress);
               }
             else
               {
@@ -47,7 +79,7 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
   double worst = 0.0;
   for (const Overload& overload : result)
     worst = std::max(worst, overload.ratio);
-  if (rule == BreakRule::only_worst)
+  if (parameters.break_rule == BreakRule::only_worst)
     {
       // The first by number among equals.
       const auto first = std::find_if(result.begin(), result.end(),
@@ -60,7 +92,8 @@ std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Config
 }
 
 template <int dim>
-double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history, const Unknowns& position)
+double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history,
+                   const Configuration<dim>& present, const EquilibriumParameters& parameters)
 {
   const Network<dim>& network = history.network();
   double first = 1.0;
@@ -68,14 +101,22 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
     {
       const std::uint32_t number = network.link_of_segment(overload.segment);
       const Link<dim>& link = network.links()[number];
-      const auto rows = element_rows(network.elements()[overload.segment - link.first_segment], link.half_length);
+      const std::uint32_t i = overload.segment - link.first_segment;
+      const auto rows = element_rows(network.elements()[i], link.half_length);
       const Bond<double>& bond = network.bond(overload.segment);
       const auto shorten = [&](const auto& law) {
         const auto before = law.strain(rows, history.motion(number, history.position()));
-        const auto now = law.strain(rows, history.motion(number, position));
+        const auto now = law.strain(rows, history.motion(number, present.position));
+        const SegmentHistory<dim>* const old = softened_segment(history, number, i);
         const auto holds = [&](const double share) {
           const std::remove_const_t<decltype(now)> strain = before + share * (now - before);
-          return !is_overloaded(bond, law.bond_stress(link.face(network.thickness()), strain));
+          if (!old)
+            return !is_overloaded(bond, law.bond_stress(link.face(network.thickness()), strain));
+          auto shear_stress = present.balance.active[history.active_number(number)].segments[i].shear_stress;
+          for (std::size_t c = 0; c < shear_stress.size(); ++c)
+            shear_stress[c] = old->shear_stress[c] + share * (shear_stress[c] - old->shear_stress[c]);
+          return !softening_demand(network, link, i, *old, strain[0], shear_stress, 1.0 / parameters.softening_steps)
+                    .exceeded;
         };
         double low = 0.0;
         double high = first;
@@ -90,8 +131,12 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
   return first;
 }
 
-template std::vector<Overload> overloads(const NetworkHistory<2>&, const Configuration<2>&, BreakRule);
-template std::vector<Overload> overloads(const NetworkHistory<3>&, const Configuration<3>&, BreakRule);
-template double share_until(const std::vector<Overload>&, const NetworkHistory<2>&, const Unknowns&);
-template double share_until(const std::vector<Overload>&, const NetworkHistory<3>&, const Unknowns&);
+template std::vector<Overload> overloads(const NetworkHistory<2>&, const Configuration<2>&,
+                                         const EquilibriumParameters&);
+template std::vector<Overload> overloads(const NetworkHistory<3>&, const Configuration<3>&,
+                                         const EquilibriumParameters&);
+template double share_until(const std::vector<Overload>&, const NetworkHistory<2>&, const Configuration<2>&,
+                            const EquilibriumParameters&);
+template double share_until(const std::vector<Overload>&, const NetworkHistory<3>&, const Configuration<3>&,
+                            const EquilibriumParameters&);
 } // namespace feldspar

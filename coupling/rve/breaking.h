@@ -8,20 +8,21 @@
 /// Which segments break, and when; docs/theory.md §9.3.
 namespace feldspar
 {
-/// A segment beyond its strength.
+/// A segment beyond its strength, or, where its bond softens, beyond what is left of it.
 struct Overload
 {
-  double ratio; ///< max(σ̂/σ_b, |τ|/τ_c)
+  double ratio; ///< max(σ̂/σ_b, |τ|/τ_c), or SofteningDemand::ratio
   std::uint32_t segment;
   bool in_tension;
 };
 
 /// Segments with bonds that are overloaded where the network stands, as many as break at once by the rule.
 template <int dim>
-std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present, BreakRule rule);
+std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present,
+                                const EquilibriumParameters& parameters);
 
 /// The share of the way since the last event, taken as straight, at which the first of these is overloaded.
 template <int dim>
 double share_until(const std::vector<Overload>& overloads, const NetworkHistory<dim>& history,
-                   const Unknowns& position);
+                   const Configuration<dim>& present, const EquilibriumParameters& parameters);
 } // namespace feldspar

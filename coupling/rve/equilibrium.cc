@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace feldspar
 {
@@ -85,15 +86,16 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
     iterations += relaxed.n_iterations;
     return relaxed.balanced;
   };
+  const Search<dim> search{control, tolerance, gives_up};
   for (unsigned int round = 0;; ++round)
     {
       const Unknowns before = present.position;
-      if (take(relax_by_newton(history, std::move(present), control, tolerance, parameters.most_iterations, solver)))
+      if (take(relax_by_newton(history, std::move(present), search, parameters.most_iterations, solver)))
         return is_small();
       if (round == most_rounds)
         return false;
       stand_at(before);
-      take(relax_by_motion(history, std::move(present), control, tolerance));
+      take(relax_by_motion(history, std::move(present), search));
       if (!is_small()) // it flies apart
         return false;
       // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only
@@ -188,19 +190,21 @@ template <int dim>
 void Equilibrium<dim>::break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events)
 {
   commit();
+  const bool softens = std::holds_alternative<SofteningFlatJoint<dim>>(network.law());
   for (const Overload& overload : overloads)
     {
       const std::uint32_t link = network.link_of_segment(overload.segment);
       ActiveLink<dim>& broken = history.activate(link);
       const double stored = response(network, broken, broken.motion).stored_energy;
-      SegmentHistory<dim>& segment = broken.segments[overload.segment - network.links()[link].first_segment];
-      segment.bonded = false;
-      if (network.is_linear_while_bonded())
-        segment.shear_stress = {};
-      const double released = stored - response(network, broken, broken.motion).stored_energy;
+      const std::uint32_t i = overload.segment - network.links()[link].first_segment;
+      const BondEvent event = loosen(network, broken, i, overload.in_tension, 1.0 / parameters.softening_steps);
+      const double released = stored - response(network, broken, broken.motion).stored_energy - event.slip_energy;
+      last.work.slip += event.slip_energy;
       last.work.released += released;
-      ++(overload.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
-      events.push_back({overload.segment, overload.in_tension, released});
+      if (!event.broke)
+        continue;
+      ++(event.in_tension ? last.n_tension_breaks : last.n_shear_breaks);
+      events.push_back({overload.segment, event.in_tension, softens ? event.released_energy : released});
     }
   history.release_loose_pairs();
   begin_again();
@@ -228,19 +232,23 @@ NetworkState<dim> Equilibrium<dim>::state()
   result.intact = history.active().empty();
   result.motions.clear();
   result.unbonded.clear();
+  result.softened.clear();
   result.contact_shear.clear();
   if (result.intact)
     return result;
   result.motions.assign(present.position.data(), present.position.data() + n_own);
   for (const ActiveLink<dim>& link : history.active())
     for (std::uint32_t i = 0; i < link.segments.size(); ++i)
-      if (!link.segments[i].bonded)
-        {
-          const bool idle = !network.links()[link.link].has_face &&
-                            link.segments[i].shear_stress == decltype(link.segments[i].shear_stress){};
-          if (!idle)
-            result.unbonded.push_back({network.links()[link.link].first_segment + i, link.segments[i].shear_stress});
-        }
+      {
+        const SegmentHistory<dim>& segment = link.segments[i];
+        const std::uint32_t segment_number = network.links()[link.link].first_segment + i;
+        const bool idle =
+          !network.links()[link.link].has_face && segment.shear_stress == decltype(segment.shear_stress){};
+        if (segment.has_softened())
+          result.softened.push_back({segment_number, segment.shear_stress, segment.more});
+        else if (!segment.bonded && !idle)
+          result.unbonded.push_back({segment_number, segment.shear_stress});
+      }
   if (!network.is_linear_while_bonded())
     {
       result.contact_shear.resize(network.n_segments());
@@ -251,8 +259,9 @@ NetworkState<dim> Equilibrium<dim>::state()
             result.contact_shear[network.links()[link].first_segment + i] = segments[i].shear_stress;
         }
     }
-  std::sort(result.unbonded.begin(), result.unbonded.end(),
-            [](const auto& a, const auto& b) { return a.segment < b.segment; });
+  const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
+  std::sort(result.unbonded.begin(), result.unbonded.end(), by_segment);
+  std::sort(result.softened.begin(), result.softened.end(), by_segment);
   return result;
 }
 

@@ -14,7 +14,7 @@ struct BreakEvent
 {
   std::uint32_t segment;
   bool in_tension;
-  double released_energy; ///< [J]
+  double released_energy; ///< by all of its events [J]
 };
 
 /// What all links of a network bear.
@@ -52,20 +52,23 @@ public:
   void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { solver.begin_with(std::move(nearby)); }
   const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return solver.last_factorised(); }
 
+  /// relax() asks this in every iteration and throws GivenUp where it says so: the network is then of no use any more.
+  void leave_when(std::function<bool()> wanted) { gives_up = std::move(wanted); }
+
   /// Bonds frozen: unknowns at which the forces balance to `tolerance`. False if there is no equilibrium to be found;
   /// then it stands where the search ended.
   bool relax(const Control<dim>& control, double tolerance);
 
   /// Segments with bonds that break where it stands.
-  std::vector<Overload> overloads() const { return feldspar::overloads(history, present, parameters.break_rule); }
+  std::vector<Overload> overloads() const { return feldspar::overloads(history, present, parameters); }
 
   /// The share of the way since the last event, taken as straight, at which the first of these is overloaded.
   double share_until(const std::vector<Overload>& overloads) const
   {
-    return feldspar::share_until(overloads, history, present.position);
+    return feldspar::share_until(overloads, history, present, parameters);
   }
 
-  /// Makes the present position the last event and breaks these.
+  /// Makes the present position the last event and breaks these, or lets them soften.
   void break_segments(const std::vector<Overload>& overloads, std::vector<BreakEvent<dim>>& events);
 
   /// The state at the present position; the next event begins from it.
@@ -106,6 +109,7 @@ private:
   Balance<dim> at_event;
   Configuration<dim> present;
   TangentSolver<dim> solver;
+  std::function<bool()> gives_up;
   unsigned int iterations = 0;
 };
 } // namespace feldspar

@@ -28,6 +28,13 @@ NetworkHistory<dim>::NetworkHistory(const Network<dim>& network, const NetworkSt
       segment.shear_stress = unbonded.shear_stress;
     }
   release_loose_pairs();
+  for (const auto& softened : state.softened)
+    {
+      const std::uint32_t link = network.link_of_segment(softened.segment);
+      auto& segment = activate(link).segments[softened.segment - network.links()[link].first_segment];
+      segment.shear_stress = softened.shear_stress;
+      segment.more = softened.more;
+    }
   if (network.is_linear_while_bonded())
     return;
   for (std::uint32_t link = 0; link < network.n_joints(); ++link)
@@ -116,8 +123,9 @@ void NetworkHistory<dim>::keep(const Configuration<dim>& present)
     {
       active_links[a].motion = motion(active_links[a].link, present.position);
       for (std::size_t i = 0; i < active_links[a].segments.size(); ++i)
-        if (!active_links[a].segments[i].bonded || !of.is_linear_while_bonded())
-          active_links[a].segments[i].shear_stress = present.balance.active[a].segments[i].shear_stress;
+        if (auto& segment = active_links[a].segments[i];
+            !segment.bonded || segment.has_softened() || !of.is_linear_while_bonded())
+          segment.shear_stress = present.balance.active[a].segments[i].shear_stress;
     }
   position_at_event = present.position;
   for (const auto& [link, touch] : present.balance.touches)

@@ -1,5 +1,6 @@
 #include "coupling/rve/path_run.h"
 
+#include "base/given_up.h"
 #include "coupling/rve/path_checkpoint.h"
 #include "coupling/rve/state_archive.h"
 
@@ -112,21 +113,50 @@ void PathRun<dim>::begin_leg()
 }
 
 template <int dim>
-void PathRun<dim>::advance()
+void PathRun<dim>::advance(const std::function<bool()>& gives_up)
 {
+  // What an increment changes before its last search.
+  const NetworkState<dim> state = body.state();
+  const PathSample<dim> row = path_record.samples.back();
+  const BornForces<dim> forces_before = forces;
+  const bool was_short = next_is_short;
+  try
+    {
+      go_an_increment(gives_up);
+    }
+  catch (const GivenUp&)
+    {
+      body.restore(state);
+      path_record.samples.back() = row;
+      forces = forces_before;
+      next_is_short = was_short;
+      throw;
+    }
+}
+
+template <int dim>
+void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
+{
+  const auto options = [&](const Bonds bonds, const double share_of_tolerance = 1.0) {
+    TrialOptions<dim> with;
+    with.bonds = bonds;
+    with.share_of_tolerance = share_of_tolerance;
+    with.gives_up = gives_up;
+    return with;
+  };
   // To the next mark of its own kind, also from where a break was found between two.
   const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
   std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
   next_is_short = false;
   Trial<dim> trial =
-    body.trial(control_at(position + increment), increment > 1 ? Bonds::until_break : Bonds::may_break);
+    body.trial(control_at(position + increment), options(increment > 1 ? Bonds::until_break : Bonds::may_break));
   if (trial.would_break)
     {
       // As far as nothing breaks; the break itself is then within one of the smallest cuts.
       const auto until_break = std::uint64_t(std::ceil(trial.share_until_break * double(increment)));
       increment = std::clamp(until_break > 1 ? until_break - 1 : 1, std::uint64_t(1), increment - 1);
-      trial = body.trial(control_at(position + increment));
-      next_is_short = trial.breaks.empty();
+      trial = body.trial(control_at(position + increment), options(Bonds::may_break));
+      next_is_short = trial.n_loosened == 0;
     }
   if (!trial.in_equilibrium)
     {
@@ -142,12 +172,13 @@ void PathRun<dim>::advance()
   // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
   // through the RVE: then the same from a more exact beginning, which takes the place of the last row, to a more exact
   // end.
-  TrialOptions<dim> exacter;
+  double share_of_tolerance = 1.0;
   for (int k = 0; k < 3 && look.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
     {
-      exacter.share_of_tolerance *= 0.1;
+      share_of_tolerance *= 0.1;
+      const auto exacter = options(Bonds::may_break, share_of_tolerance);
       auto beginning = body.trial(control_at(position), exacter);
-      if (!beginning.in_equilibrium || !beginning.breaks.empty())
+      if (!beginning.in_equilibrium || beginning.n_loosened > 0)
         break;
       auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio);
       auto& row = path_record.samples.back();

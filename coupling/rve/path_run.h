@@ -103,8 +103,8 @@ public:
 
   bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
   /// One increment, or one more cut of it. One in which segments break goes no farther than to the first break, within
-  /// the smallest cut.
-  void advance();
+  /// the smallest cut. gives_up: asked in every iteration; where it says so, GivenUp is thrown and nothing has happened.
+  void advance(const std::function<bool()>& gives_up = {});
   /// Share of the path that is behind, 0 … 1.
   double progress() const;
 
@@ -118,6 +118,7 @@ public:
   void read_checkpoint(const std::filesystem::path& file, const std::string& identity);
 
 private:
+  void go_an_increment(const std::function<bool()>& gives_up);
   void begin_leg();
   Control<dim> control_at(const std::uint64_t place) const { return course.at(double(place) / double(length)); }
   struct Look

@@ -58,6 +58,7 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
   if (options.nearby)
     equilibrium.begin_at(*options.nearby);
   equilibrium.begin_with(options.factorised);
+  equilibrium.leave_when(options.gives_up);
   for (;;)
     {
       trial.in_equilibrium = equilibrium.relax(control, parameters.event_tolerance);
@@ -70,12 +71,13 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
         }
       if (overloads.empty())
         break;
-      if (trial.breaks.empty())
+      if (trial.n_loosened == 0)
         trial.share_until_break = equilibrium.share_until(overloads);
       trial.would_break = options.bonds == Bonds::until_break;
       if (trial.would_break)
         return trial;
       equilibrium.break_segments(overloads, trial.breaks);
+      trial.n_loosened += overloads.size();
       may_break = options.bonds != Bonds::break_once;
     }
   if (options.with_tangent && trial.in_equilibrium)

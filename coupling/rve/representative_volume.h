@@ -2,6 +2,7 @@
 
 #include "coupling/rve/equilibrium.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,6 +24,7 @@ struct Trial
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
   NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
   std::vector<BreakEvent<dim>> breaks;
+  std::size_t n_loosened = 0;          ///< bonds that broke or softened, one as often as it did
   bool would_break = false;            ///< it stands overloaded; with Bonds::until_break
   double share_until_break = 1.0;      ///< of the way from the state before, about; 1: nothing broke
   std::optional<Tangent<dim>> tangent; ///< on request
@@ -55,7 +57,8 @@ struct TrialOptions
   std::shared_ptr<const FactorisedNetwork<dim>> factorised;
   /// The tangent of an earlier trial, handed out again where the states are the same.
   std::optional<Tangent<dim>> tangent{};
-  double share_of_tolerance = 1.0; ///< of the final one, up to which the forces may stay unbalanced
+  double share_of_tolerance = 1.0;  ///< of the final one, up to which the forces may stay unbalanced
+  std::function<bool()> gives_up{}; ///< asked in every iteration of a search; where it says so, GivenUp is thrown
 };
 
 /// A periodic specimen that responds to a macroscopic strain with a stress; docs/theory.md §9. Copies share the reference

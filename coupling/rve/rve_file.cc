@@ -24,19 +24,23 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   std::size_t n_segments = network.n_segments();
   for (const Link<dim>& link : network.links())
     n_segments = std::max(n_segments, std::size_t(link.first_segment) + link.n_segments);
-  const auto by_segment = [](const UnbondedSegment<dim>& a, const UnbondedSegment<dim>& b) {
-    return a.segment < b.segment;
-  };
-  const auto is_finite = [](const std::array<double, dim - 1>& shear) {
-    return std::all_of(shear.begin(), shear.end(), [](const double stress) { return std::isfinite(stress); });
+  const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
+  const auto is_finite = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(), [](const double value) { return std::isfinite(value); });
   };
   const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
     return unbonded.segment < n_segments && is_finite(unbonded.shear_stress);
+  };
+  const auto is_softened = [&](const SoftenedSegment<dim>& softened) {
+    return softened.segment < network.n_segments() && is_finite(softened.shear_stress) && is_finite(softened.more) &&
+           softened.more.front() > 0.0 && softened.more.front() < 1.0;
   };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
          state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
          std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
+         std::all_of(state.softened.begin(), state.softened.end(), is_softened) &&
+         std::is_sorted(state.softened.begin(), state.softened.end(), by_segment) &&
          (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
          std::all_of(state.contact_shear.begin(), state.contact_shear.end(), is_finite) &&
          std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);

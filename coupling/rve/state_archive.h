@@ -21,11 +21,15 @@ void transfer(Archive& archive, NetworkState<dim>& state)
   transfer_flag(archive, "intact", state.intact);
   archive.array("motions", state.motions);
   archive.bytes("unbonded", state.unbonded);
-  bool has_contact_shear = true;
-  if constexpr (requires { archive.has(""); })
-    has_contact_shear = archive.has("contact_shear"); // files of version 0.2.0 know flat joints alone
-  if (has_contact_shear)
-    archive.bytes("contact_shear", state.contact_shear);
+  // Files of version 0.2.0 know flat joints alone, and for a while bonds did not soften from event to event.
+  const auto transfer_if_there = [&](const char* name, auto& values) {
+    if constexpr (requires { archive.has(""); })
+      if (!archive.has(name))
+        return;
+    archive.bytes(name, values);
+  };
+  transfer_if_there("contact_shear", state.contact_shear);
+  transfer_if_there("softened", state.softened);
   archive.value("n_tension_breaks", state.n_tension_breaks);
   archive.value("n_shear_breaks", state.n_shear_breaks);
   archive.value("boundary_work", state.work.boundary);

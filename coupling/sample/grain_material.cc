@@ -19,10 +19,11 @@ namespace feldspar
 {
 template <int dim>
 GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-                            const EquilibriumParameters& parameters)
+                            const EquilibriumParameters& parameters, std::function<bool()> leaves)
   : turn(orientation)
   , accepted(network, parameters)
   , at_work(std::move(network), parameters)
+  , gives_up(std::move(leaves))
 {
   for (int k = 0; k < n_voigt<dim>; ++k)
     strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
@@ -41,6 +42,7 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
   if (!tried_strain || *tried_strain != wanted)
     {
       TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
+      options.gives_up = gives_up;
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
         options.nearby = &nearby;
@@ -59,9 +61,11 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
 
 /// From where Newton's method was last.
 template <int dim>
-Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) const
+Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
+                                   const std::function<bool()>& leaves) const
 {
   TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
+  options.gives_up = leaves;
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
   Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
@@ -72,10 +76,10 @@ Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds) 
 template <int dim>
 fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bonds bonds)
 {
-  Trial<dim> broken = settle(strain, bonds);
+  Trial<dim> broken = settle(strain, bonds, gives_up);
   if (!broken.in_equilibrium)
     throw fem::PointFailure("the grains of an RVE find no equilibrium after a break");
-  const std::size_t n_events = broken.breaks.size();
+  const std::size_t n_events = broken.n_loosened;
   const Voigt<dim> stress = strain_to_rve.transpose() * broken.state.stress;
   if (n_events == 0)
     {
@@ -88,11 +92,13 @@ fem::PointEvents<dim> GrainPoint<dim>::relax(const Voigt<dim>& strain, const Bon
   return {n_events, stress};
 }
 
+/// All points are to accept, or none.
 template <int dim>
 void GrainPoint<dim>::accept(const Voigt<dim>& strain)
 {
+  const std::function<bool()> never;
   Trial<dim> found =
-    stable && stable->first == to_rve(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen);
+    stable && stable->first == to_rve(strain) ? std::move(stable->second) : settle(strain, Bonds::frozen, never);
   if (!found.in_equilibrium)
     throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
@@ -324,7 +330,7 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
       turn = random_turn<dim>(random);
     if (parameters.in_local_axes)
       turn = local_axes<dim>(place) * turn;
-    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium);
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up);
   };
   return material;
 }

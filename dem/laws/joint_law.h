@@ -175,8 +175,8 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     law.stiffest(face)
     } -> std::same_as<FaceSprings>;
 
-  // In small strains: whether a face responds linearly as long as all its bonds hold, with the stiffness below, and none of
-  // its elements has a shear stress to remember.
+  // In small strains: whether a face responds linearly as long as all its bonds hold and none remembers anything, with the
+  // stiffness below, and none of its elements has a shear stress to remember.
   {
     Law::linear_while_bonded
     } -> std::convertible_to<bool>;

@@ -18,26 +18,24 @@ struct SofteningFlatJoint : CarriedPlane<dim>
   static constexpr std::size_t n_more = 3;
   static constexpr bool face_outlives_bonds = true;
   static constexpr bool face_can_slide_off = true;
-  /// A segment that has softened remembers it while its bond holds.
-  static constexpr bool linear_while_bonded = false;
-  static constexpr bool has_equilibria = false;
+  static constexpr bool linear_while_bonded = true;
+  static constexpr bool has_equilibria = true;
 
   SofteningFlatJoint() = default;
   SofteningFlatJoint(const Parameters& wanted, const ParticleContactParameters&)
-    : softening_opening(wanted.softening_opening)
+    : over_opening(wanted.softening_opening)
   {
   }
+
+  double softening_opening() const { return over_opening; } ///< w [m]
 
   template <typename Archive>
   void transfer(Archive& archive)
   {
-    archive.value("softening_opening", softening_opening);
+    archive.value("softening_opening", over_opening);
   }
 
-  bool is_possible() const
-  {
-    return softening_opening >= 0.0 && softening_opening <= std::numeric_limits<double>::max();
-  }
+  bool is_possible() const { return over_opening >= 0.0 && over_opening <= std::numeric_limits<double>::max(); }
 
   template <typename Real>
   using State = softening::State<dim, Real>;
@@ -60,7 +58,7 @@ struct SofteningFlatJoint : CarriedPlane<dim>
   {
     return update_face_by<dim, Real>(
       [this](const auto& segment, const auto& bond, const auto& old, const auto& moves) {
-        return softening::update<dim, Real>(segment, bond, softening_opening, old, moves);
+        return softening::update<dim, Real>(segment, bond, over_opening, old, moves);
       },
       face, elements, motion, states);
   }
@@ -133,6 +131,6 @@ struct SofteningFlatJoint : CarriedPlane<dim>
   }
 
 private:
-  double softening_opening = 0.0; ///< w [m]
+  double over_opening = 0.0; ///< w [m]
 };
 } // namespace feldspar

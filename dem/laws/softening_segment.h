@@ -94,59 +94,83 @@ Real energy_of_bond(const flat_joint::Segment<dim, Real>& segment, const Real& g
          flat_joint::normal_energy(segment, gap, slope, Mask(false));
 }
 
-/// One update of one segment whose bond holds, in this order: tension, trial shear, shear strength, response.
+/// How far a bond would soften to follow its segment.
+template <typename Real>
+struct Demand
+{
+  Real before; ///< d so far
+  Real pulled; ///< d that the opening asks for (s.1), at least `before`
+  Real now;    ///< d that the shear asks for beyond that (s.5)
+  // What the segment bears in shear: (s.4).
+  Real residual; ///< τ_r of friction [Pa]
+  Real of_bond;  ///< τ_c - τ_r [Pa]
+  Real size;     ///< |τ| as if the bond did not soften [Pa]
+
+  Real limit(const Real& d) const { return residual + (1.0 - d) * of_bond; }
+};
+
+/// tau: as if the bond did not soften.
 template <int dim, typename Real>
-Update<dim, Real> update_bonded(const flat_joint::Segment<dim, Real>& segment, const Bond<Real>& bond,
-                                const double softening_opening, const State<dim, Real>& old,
-                                const flat_joint::SegmentMotion<dim, Real>& motion)
+Demand<Real> demand(const flat_joint::Segment<dim, Real>& segment, const Bond<Real>& bond,
+                    const double softening_opening, const Real& damage, const Real& gap,
+                    const std::array<Real, dim - 1>& tau)
 {
   const Real k_n = segment.normal_stiffness;
-  const Real k_s = segment.shear_stiffness;
   const Softening<Real> line(softening_opening, k_n, bond.tensile_strength);
-  const Real damage_before = old.more[0];
-  const Real before = line.softened(damage_before);
-
+  Demand<Real> of;
+  of.before = line.softened(damage);
   // Tension: d follows the opening (s.1).
-  const Real pulled = larger(before, line.at(k_n * motion.gap));
+  of.pulled = larger(of.before, line.at(k_n * gap));
 
-  // Trial shear (13), and the strength: friction stays, and of the bond 1 - d (s.4).
-  Update<dim, Real> result;
-  auto& tau = result.state.shear_stress;
-  for (int c = 0; c < dim - 1; ++c)
-    tau[c] = old.shear_stress[c] - k_s * motion.shear_increment[c];
-  const Real left = select(motion.gap > 0.0, 1.0 - line.damage(pulled), Real(1.0));
-  const Real normal_stress = left * k_n * motion.gap;
+  // The strength in shear: friction stays, and of the bond 1 - d (s.4).
+  const Real left = select(gap > 0.0, 1.0 - line.damage(of.pulled), Real(1.0));
+  const Real normal_stress = left * k_n * gap;
   const Real strength = shear_strength(bond, normal_stress); // (15)
-  const Real residual = smaller(strength, segment.friction * larger(Real(0.0), -normal_stress));
-  const Real of_bond = strength - residual;
-  const Real size = magnitude(tau);
-  const Real excess = size - (residual + (1.0 - pulled) * of_bond);
-  const auto yields = excess > 0.0;
+  of.residual = smaller(strength, segment.friction * larger(Real(0.0), -normal_stress));
+  of.of_bond = strength - of.residual;
+  of.size = magnitude(tau);
+  const Real excess = of.size - of.limit(of.pulled);
 
   // Shear beyond it: d follows the way (s.5).
-  const Real fall = larger(k_s * softening_opening, Real(std::numeric_limits<double>::min()));
-  const Real now = select(yields, smaller(Real(1.0), pulled + excess / fall), pulled);
-  const Real by_shear = old.more[1] + (now - pulled);
-  const auto broke = now >= 1.0;
-  result.tension_break = broke && by_shear <= 0.5; // of the mode that has taken more of the bond
+  const Real fall = larger(segment.shear_stiffness * softening_opening, Real(std::numeric_limits<double>::min()));
+  of.now = select(excess > 0.0, smaller(Real(1.0), of.pulled + excess / fall), of.pulled);
+  return of;
+}
+
+/// A segment whose bond softens to d, of which shear takes `by_shear`. tau: as if it did not.
+template <int dim, typename Real>
+Update<dim, Real> soften(const flat_joint::Segment<dim, Real>& segment, const Bond<Real>& bond,
+                         const double softening_opening, const State<dim, Real>& old,
+                         const flat_joint::SegmentMotion<dim, Real>& motion, const std::array<Real, dim - 1>& tau,
+                         const Demand<Real>& of, const Real& d, const Real& by_shear)
+{
+  const Real k_s = segment.shear_stiffness;
+  const Real damage_before = old.more[0];
+  const Softening<Real> line(softening_opening, segment.normal_stiffness, bond.tensile_strength);
+  Update<dim, Real> result;
+  const Real all_by_shear = old.more[1] + by_shear;
+  const auto broke = d >= 1.0;
+  result.tension_break = broke && all_by_shear <= 0.5; // of the mode that has taken more of the bond
   result.shear_break = broke && !result.tension_break;
   result.state.bonded = !broke;
-  const Real damage = select(now > before, line.damage(now), damage_before);
+  const Real damage = select(d > of.before, line.damage(d), damage_before);
   result.normal = damaged_response(segment, motion.gap, motion.slope, damage);
 
   // Slip, under the mean of the stresses before and after: friction takes its part, the bond the rest.
+  result.state.shear_stress = tau;
+  const Real limit = of.limit(d);
+  const auto yields = of.size > limit;
   Real slip_energy(0.0), dissipated(0.0);
   if (simd::any(yields))
     {
-      const Real limit = residual + (1.0 - now) * of_bond;
-      const Real kept = select(yields, limit / select(yields, size, Real(1.0)), Real(1.0));
+      const Real kept = select(yields, limit / select(yields, of.size, Real(1.0)), Real(1.0));
       for (int c = 0; c < dim - 1; ++c)
         {
-          const Real trial = tau[c];
-          tau[c] = kept * trial;
-          dissipated += 0.5 * (old.shear_stress[c] + tau[c]) * (trial - tau[c]);
+          const Real left = kept * tau[c];
+          dissipated += 0.5 * (old.shear_stress[c] + left) * (tau[c] - left);
+          result.state.shear_stress[c] = left;
         }
-      slip_energy = residual * (1.0 - kept) * size * segment.area() / k_s;
+      slip_energy = of.residual * (1.0 - kept) * of.size * segment.area() / k_s;
       dissipated = dissipated * segment.area() / k_s - slip_energy;
     }
   // The energy that the bond stored under tension, as far as it has gone.
@@ -156,8 +180,21 @@ Update<dim, Real> update_bonded(const flat_joint::Segment<dim, Real>& segment, c
   const Real all_dissipated = old.more[2] + dissipated;
   result.slip_energy = slip_energy;
   result.released_energy = select(broke, all_dissipated, Real(0.0));
-  result.state.more = {damage, by_shear, select(broke, Real(0.0), all_dissipated)};
+  result.state.more = {damage, all_by_shear, select(broke, Real(0.0), all_dissipated)};
   return result;
+}
+
+/// One update of one segment whose bond holds, in this order: tension, trial shear, shear strength, response.
+template <int dim, typename Real>
+Update<dim, Real> update_bonded(const flat_joint::Segment<dim, Real>& segment, const Bond<Real>& bond,
+                                const double softening_opening, const State<dim, Real>& old,
+                                const flat_joint::SegmentMotion<dim, Real>& motion)
+{
+  std::array<Real, dim - 1> tau; // (13)
+  for (int c = 0; c < dim - 1; ++c)
+    tau[c] = old.shear_stress[c] - segment.shear_stiffness * motion.shear_increment[c];
+  const auto of = demand<dim, Real>(segment, bond, softening_opening, old.more[0], motion.gap, tau);
+  return soften<dim, Real>(segment, bond, softening_opening, old, motion, tau, of, of.now, of.now - of.pulled);
 }
 
 /// One update of one segment.

@@ -583,14 +583,19 @@ TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
 
 // A sample between smooth platens is in one state as long as it does not soften: that of its RVE along the same path, within the tolerance of Newton's
 // method.
-TEST(Multiscale, TakesParallelBonds)
+TEST(Multiscale, TakesParallelBondsAndBondsThatSoften)
 {
   TemporaryFolder folder;
-  const std::string cell = "subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n  set Height = 14 mm\n"
-                           "  set Joint law = parallel bond\nend\n";
-  for (const auto& [test, sign, size, step] :
-       {std::tuple("direct_tension", "1", "7.2e-4", "4e-5"), {"uniaxial_compression", "-1", "1.3e-3", "1e-4"}})
+  for (const auto& [law, test, sign, size, step] :
+       {std::tuple("parallel bond", "direct_tension", "1", "7.2e-4", "4e-5"),
+        {"parallel bond", "uniaxial_compression", "-1", "1.3e-3", "1e-4"},
+        {"softening flat joint", "direct_tension", "1", "1.5e-4", "1e-5"},
+        {"softening flat joint", "uniaxial_compression", "-1", "1e-3", "5e-5"}})
     {
+      SCOPED_TRACE(fmt::format("{}, {}", law, test));
+      const std::string cell = fmt::format("subsection Specimen\n  set Shape = periodic\n  set Width = 14 mm\n"
+                                           "  set Height = 14 mm\n  set Joint law = {}\nend\n",
+                                           law);
       folder.write("path.prm",
                    fmt::format("{}subsection Strain path\n  set Direction = free, {}, free\n  set Size = {}\n"
                                "  set Largest step = {}\nend\n",

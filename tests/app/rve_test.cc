@@ -459,12 +459,13 @@ TEST(Rve, CountsNoErrorsBeforeAPathSetsOff)
   EXPECT_LT(rve["boundary_stress_error"].get<double>(), 1e-2);
 }
 
-TEST(Rve, TakesBondsThatSoftenByExplicitDynamicsOnly)
+TEST(Rve, TakesBondsThatSoftenEventByEventAndByExplicitDynamics)
 {
   const TemporaryFolder folder;
   const std::string law = "subsection Specimen\n  set Joint law = softening flat joint\nend\n"
                           "subsection Softening flat joint\n  set Softening opening = 1 um\nend\n";
   folder.write("softening.prm", pulled(by_dynamics) + law);
+  folder.write("events.prm", pulled("") + law);
   folder.write("brittle.prm", pulled(by_dynamics));
   const auto highest = [&](const std::string& name) {
     const auto run = run_feldspar(folder.path(), "rve " + name + ".prm --output " + name);
@@ -472,25 +473,14 @@ TEST(Rve, TakesBondsThatSoftenByExplicitDynamicsOnly)
     const auto stress = read_table(folder.path() / name / "curves/rve.csv").at("stress_yy_Pa");
     return *std::max_element(stress.begin(), stress.end());
   };
-  EXPECT_GT(highest("softening"), 1.1 * highest("brittle")) << "bonds beside one that softens share its stress";
-  const auto softening = read_table(folder.path() / "softening/curves/rve.csv");
-  for (const double imbalance : softening.at("energy_imbalance"))
-    EXPECT_LT(imbalance, 0.01);
-
-  const std::string sample = "subsection Sample\n  set Elements across = 1\n  set Elements along = 1\nend\n";
-  folder.write("events.prm", pulled("") + law);
-  folder.write("sample.prm", small_cell + sample + law);
-  for (const auto& [arguments, remedy] :
-       {std::pair("rve events.prm", "set Strain path/Solver = explicit or take another law"),
-        std::pair("multiscale sample.prm", "take another law")})
+  const double softening = highest("softening");
+  EXPECT_GT(softening, 1.1 * highest("brittle")) << "bonds beside one that softens share its stress";
+  EXPECT_NEAR(highest("events"), softening, 0.03 * softening); // the saw, and motion
+  for (const auto& [name, largest] : {std::pair("softening", 0.01), std::pair("events", 1e-4)})
     {
-      const auto outcome = run_feldspar(folder.path(), std::string(arguments) + " --output bad");
-      EXPECT_EQ(outcome.exit_code, 2);
-      EXPECT_NE(outcome.error.find("Specimen/Joint law = softening flat joint: has no equilibria event by event"),
-                std::string::npos)
-        << outcome.error;
-      EXPECT_NE(outcome.error.find(remedy), std::string::npos) << outcome.error;
-      EXPECT_FALSE(fs::exists(folder.path() / "bad"));
+      const auto curve = read_table(folder.path() / name / "curves/rve.csv");
+      for (const double imbalance : curve.at("energy_imbalance"))
+        EXPECT_LT(imbalance, largest) << name;
     }
 }
 

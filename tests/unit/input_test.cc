@@ -149,6 +149,7 @@ subsection Representative volume
   set Event tolerance = 1e-4
   set Final tolerance = 1e-8
   set Break rule = only worst
+  set Softening steps = 12
   set Kinematics = finite
   set Most iterations = 50
   set Boundary = weakly periodic
@@ -414,6 +415,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_DOUBLE_EQ(input.continuum.friction_angle, 0.25 * std::numbers::pi);
   EXPECT_DOUBLE_EQ(input.continuum.dilation_angle, std::numbers::pi / 6.0);
   EXPECT_EQ(input.equilibrium.most_iterations, 50u);
+  EXPECT_EQ(input.equilibrium.softening_steps, 12u);
   EXPECT_EQ(input.equilibrium.kinematics, Kinematics::finite);
   EXPECT_EQ(input.reference_file, (folder.path() / "rock.json").string());
   EXPECT_EQ(input.reference_results, (folder.path() / "summary.json").string());
