@@ -31,6 +31,13 @@ const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, 
 } // namespace
 
 template <int dim>
+unsigned int most_events_of_a_bond(const Network<dim>& network, const EquilibriumParameters& parameters)
+{
+  constexpr unsigned int at_its_ends = 2; // half a step each
+  return std::holds_alternative<SofteningFlatJoint<dim>>(network.law()) ? parameters.softening_steps + at_its_ends : 1;
+}
+
+template <int dim>
 std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present,
                                 const EquilibriumParameters& parameters)
 {
@@ -131,6 +138,8 @@ double share_until(const std::vector<Overload>& overloads, const NetworkHistory<
   return first;
 }
 
+template unsigned int most_events_of_a_bond(const Network<2>&, const EquilibriumParameters&);
+template unsigned int most_events_of_a_bond(const Network<3>&, const EquilibriumParameters&);
 template std::vector<Overload> overloads(const NetworkHistory<2>&, const Configuration<2>&,
                                          const EquilibriumParameters&);
 template std::vector<Overload> overloads(const NetworkHistory<3>&, const Configuration<3>&,

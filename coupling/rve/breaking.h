@@ -16,6 +16,10 @@ struct Overload
   bool in_tension;
 };
 
+/// How many events a bond has at most, until it has broken.
+template <int dim>
+unsigned int most_events_of_a_bond(const Network<dim>& network, const EquilibriumParameters& parameters);
+
 /// Segments with bonds that are overloaded where the network stands, as many as break at once by the rule.
 template <int dim>
 std::vector<Overload> overloads(const NetworkHistory<dim>& history, const Configuration<dim>& present,

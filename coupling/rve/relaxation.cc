@@ -44,7 +44,8 @@ double measure(const Balance<dim>& of, const Control<dim>& control)
 template <int dim>
 Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search)
 {
-  const auto& [control, tolerance, gives_up] = search;
+  const Control<dim>& control = search.control;
+  const double tolerance = search.tolerance;
   const Network<dim>& network = history.network();
   Unknowns& position = from.position;
   Balance<dim>& present = from.balance;
@@ -61,7 +62,7 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
   unsigned int k = 0;
   for (; k < most_steps && !(measure(present, control) <= tolerance); ++k)
     {
-      leave_if(gives_up);
+      leave_if(search.gives_up);
       const Unknowns force = unbalanced(network, present, control);
       const Unknowns acceleration = history.factorised_stiffest().solve(force, control.stress_given);
       if (force.dot(velocity) > 0.0)
@@ -96,7 +97,8 @@ template <int dim>
 Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search,
                              const unsigned int most_iterations, TangentSolver<dim>& solver)
 {
-  const auto& [control, tolerance, gives_up] = search;
+  const Control<dim>& control = search.control;
+  const double tolerance = search.tolerance;
   const Network<dim>& network = history.network();
   Unknowns& position = from.position;
   Balance<dim>& present = from.balance;
@@ -116,7 +118,7 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
         return ended(true);
       if (k == most_iterations)
         return ended(error <= tolerance);
-      leave_if(gives_up);
+      leave_if(search.gives_up);
       ++iterations;
       const auto is_symmetric = [](const LinkResponse<dim>& response) {
         constexpr double round_off = 1e-12;

@@ -32,8 +32,10 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   bookkeeping.solver_work.emplace();
 }
 
-void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_per_rve)
+void SampleTest::Parts::take(std::unique_ptr<SampleBody> its_body, const std::uint64_t segments_per_rve,
+                             const unsigned int events_per_segment)
 {
+  most_events_per_segment = events_per_segment;
   body = std::move(its_body);
   size = body->size();
   standing.n_points = body->n_points();
@@ -104,12 +106,12 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
 {
   if (!steps)
     steps.emplace(first_steps());
-  const auto most_events =
-    std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(standing.n_segments)));
+  const std::uint64_t all_events = most_events_per_segment * standing.n_segments;
+  const auto most_events = std::max<std::uint64_t>(1, std::uint64_t(sample.most_broken_share * double(all_events)));
   constexpr unsigned int most_cuts_for_breaks = 2;
   while (!steps->finished())
     {
-      body->limit_events(avalanche ? standing.n_segments : most_events);
+      body->limit_events(avalanche ? all_events : most_events);
       const fem::NewtonReport report = solve((steps->next() - steps->done()) / (1.0 - steps->done()));
       ++bookkeeping.solver_work->n_solves;
       bookkeeping.solver_work->n_iterations += report.n_iterations;

@@ -52,7 +52,8 @@ struct SampleTest::Parts
   bool widens = false;                   ///< lateral strain is what is controlled
   double wanted_width = 0.0;             ///< lateral strain of the row that is on its way
   bool avalanche = false;                ///< the next of these steps may break as much as it likes
-  unsigned int n_cuts_for_breaks = 0;    ///< of the step that is tried
+  unsigned int most_events_per_segment = 1;
+  unsigned int n_cuts_for_breaks = 0; ///< of the step that is tried
   bool seated = false;
   bool ended = false;
   double height_at_seating = 0.0; ///< displacement of the top [m]
@@ -63,7 +64,7 @@ struct SampleTest::Parts
   /// Throws InputError for a test that such a sample cannot make.
   Parts(const TestCase& which, const SampleParameters& of, const TestParameters& parameters);
 
-  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_per_rve);
+  void take(std::unique_ptr<SampleBody> its_body, std::uint64_t segments_per_rve, unsigned int events_per_segment);
   SampleSetUp set_up();
 
   /// Pressure all round, the top plate free to follow.

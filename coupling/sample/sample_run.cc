@@ -1,6 +1,7 @@
 #include "coupling/sample/sample_run.h"
 
 #include "base/input_error.h"
+#include "coupling/rve/breaking.h"
 #include "coupling/sample/running_sample.h"
 
 #include <fmt/format.h>
@@ -20,9 +21,10 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
   const std::uint64_t segments_per_rve = realisations.front().inside->n_segments();
+  const unsigned int events_per_segment = most_events_of_a_bond(*realisations.front().inside, equilibrium);
   parts->take(make_body_of_grains<dim>(sample, parts->set_up(), equilibrium, std::move(realisations),
                                        std::move(weak_twins), seed),
-              segments_per_rve);
+              segments_per_rve, events_per_segment);
   parts->record.seed = seed;
   parts->record.specimen = of_rves;
 }
@@ -31,7 +33,7 @@ SampleTest::SampleTest(const TestCase& test, const SampleParameters& sample, con
                        const ContinuumParameters& continuum)
   : parts(std::make_unique<Parts>(test, sample, wanted))
 {
-  parts->take(make_continuous_body(sample, parts->set_up(), continuum), 0);
+  parts->take(make_continuous_body(sample, parts->set_up(), continuum), 0, 0);
 }
 SampleTest::~SampleTest() = default;
 SampleTest::SampleTest(SampleTest&&) noexcept = default;
