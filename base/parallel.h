@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <thread>
 
 namespace feldspar
@@ -39,5 +40,17 @@ void for_each_block(const std::size_t n, Work&& work)
       for (std::size_t block = range.begin(); block != range.end(); ++block)
         one(block);
     });
+}
+
+/// Thrown by work that was left because the run is to end.
+struct GivenUp
+{
+};
+
+/// Throws it where the run is to end. Asked by any thread; empty: never.
+inline void leave_if(const std::function<bool()>& gives_up)
+{
+  if (gives_up && gives_up())
+    throw GivenUp();
 }
 } // namespace feldspar

@@ -1,6 +1,6 @@
 #include "coupling/rve/path_run.h"
 
-#include "base/given_up.h"
+#include "base/parallel.h"
 #include "coupling/rve/path_checkpoint.h"
 #include "coupling/rve/state_archive.h"
 

@@ -1,6 +1,6 @@
 #include "coupling/rve/relaxation.h"
 
-#include "base/given_up.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

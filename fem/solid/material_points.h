@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/given_up.h"
+#include "base/parallel.h"
 #include "fem/materials/material.h"
 
 #include <oneapi/tbb/blocked_range.h>

@@ -126,7 +126,7 @@ TEST(Documentation, EveryRoomStandsOnTheCodeMap)
 // `Suite.Test` in docs/reliability.md is a test, and `scripts/...` a script.
 TEST(Documentation, TestsThatPromisesStandOnExist)
 {
-  static const std::regex test(R"re(\b(?:TEST|TEST_F|TEST_P)\(\s*(\w+\s*,\s*\w+)\s*\))re");
+  static const std::regex test(R"re(\b(?:TEST|TEST_F|TEST_P|TYPED_TEST)\(\s*(\w+\s*,\s*\w+)\s*\))re");
   std::set<std::string> tests;
   for (const char* folder : {"tests/unit", "tests/app", "tests/verification", "tests/fuzz"})
     for (const auto& entry : fs::directory_iterator(root / folder))

@@ -1,7 +1,7 @@
 #include "tests/unit/small_rve.h"
 
-#include "base/given_up.h"
 #include "base/input_error.h"
+#include "base/parallel.h"
 #include "coupling/rve/path_run.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "base/given_up.h"
+#include "base/parallel.h"
 #include "coupling/sample/grain_material.h"
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
