@@ -48,6 +48,7 @@ OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packin
 
 
 PRESSURES_MPA = (5, 20, 60)
+OPENINGS_UM = (0, 1, 2, 5)  # over which bonds soften
 MESHES = ((2, 4), (3, 6), (4, 8))  # elements across and along
 SLOW = "Tests/Compression strain rate = 0.25 1/s"
 CONFINED = (
@@ -97,6 +98,10 @@ for across, along in MESHES[1:]:
             f"Sample/Elements across = {across}",
             f"Sample/Elements along = {along}",
         ),
+    )
+for opening in OPENINGS_UM:
+    EXPERIMENTS[f"softening-{opening}-um"] = Experiment(
+        "multiscale", "softening", ((f"Softening flat joint/Softening opening = {opening} um",),)
     )
 for way, sizes in (("tension", SIZES_MM), ("compression", SIZES_MM[:3])):
     for size in sizes:
@@ -201,6 +206,22 @@ def add_ends(out, summary):
         test["stress_at_end_Pa"] = abs(float(row["axial_stress_Pa"]))
 
 
+def add_largest_falls(out, summary):
+    """Adds to each test the step in which its stress fell most: the stress before and after, and the cracks in it."""
+    for test in summary["tests"]:
+        with open(os.path.join(out, "curves", test["name"] + ".csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        stress = [float(row["axial_stress_Pa"]) for row in rows]
+        cracks = [int(row["n_tension_cracks"]) + int(row["n_shear_cracks"]) for row in rows]
+        k = max(range(1, len(rows)), key=lambda row: stress[row - 1] - stress[row])
+        test["largest_fall"] = {
+            "stress_before_Pa": stress[k - 1],
+            "stress_after_Pa": stress[k],
+            "n_cracks_before": cracks[k - 1],
+            "n_cracks": cracks[k] - cracks[k - 1],
+        }
+
+
 def keep(name, outs):
     """The summaries of result folders as results/NAME.json: that of the first, with the tests or paths of all."""
     summaries = []
@@ -209,6 +230,8 @@ def keep(name, outs):
             summaries.append(json.load(file))
         if name in ("sample-confined", "sample-finite"):
             add_ends(out, summaries[-1])
+        if name.startswith("softening"):
+            add_largest_falls(out, summaries[-1])
     summary = summaries[0]
     command = EXPERIMENTS[name].command
     if command == "multiscale":
@@ -576,6 +599,32 @@ def print_boundaries():
     print()
 
 
+def print_softening():
+    """The sample of bonds that soften beside grains of examples/toughness, a row an opening."""
+    path = os.path.join(HERE, "../toughness/results/softening-strength.json")
+    with open(path, encoding="utf-8") as file:
+        of_grains = [test for test in json.load(file)["tests"] if test["kind"] == "direct_tension"]
+    print("| opening [µm] | σ_t of grains [MPa] | σ_t of the sample [MPa] | over | lost in one step [%] | its cracks, of all |")
+    print("|---|---|---|---|---|---|")
+    base = {}
+    for opening in OPENINGS_UM:
+        tests = tests_of(f"softening-{opening}-um", "direct_tension")
+        if not tests:
+            continue
+        grains = [
+            test["peak_stress_Pa"] / 1e6 for test in of_grains if test["variant"].endswith(f"= {opening} um")
+        ]
+        falls = [test["largest_fall"] for test in tests]
+        lost = [100.0 * (1.0 - fall["stress_after_Pa"] / fall["stress_before_Pa"]) for fall in falls]
+        cracks = [100.0 * fall["n_cracks"] / test["n_tension_cracks"] for fall, test in zip(falls, tests)]
+        strengths = {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests}
+        base = base or strengths
+        over = [strengths[seed] / base[seed] for seed in strengths]
+        cells = [str(opening), shown(grains, 1), shown(list(strengths.values()), 1), shown(over, 2), shown(lost, 0)]
+        print(f"| {' | '.join(cells)} | {shown(cracks, 0)} |")
+    print()
+
+
 def draw():
     """UCS of the bodies; strength and work of a cell over its angle."""
     script = [
@@ -653,6 +702,7 @@ def main():
     print_dealings()
     print_confined()
     print_kinematics()
+    print_softening()
     print_meshes()
     print_same_cells()
     print_angles()

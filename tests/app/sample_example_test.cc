@@ -223,6 +223,50 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 }
 
+// The sample of bonds that soften beside grains of them, and what it loses in the step in which it loses most.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsBondsThatSoften)
+{
+  const std::string examples = std::string(FELDSPAR_SOURCE_DIR) + "/examples/";
+  const std::string readme = content(examples + "multiscale-and-grains/README.md");
+  const auto of_grains = results_of("toughness", "softening-strength");
+  std::map<int, double> without_opening; // by seed
+  for (const int opening : {0, 1, 2, 5})
+    {
+      std::vector<double> grains, sample, over, lost, cracks;
+      for (const auto& test : of_grains["tests"])
+        if (test["kind"] == "direct_tension" &&
+            test["variant"].get<std::string>().ends_with(fmt::format("= {} um", opening)))
+          grains.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
+      const auto results = results_of("multiscale-and-grains", fmt::format("softening-{}-um", opening));
+      for (const auto& test : results["tests"])
+        {
+          const double strength = test["peak_stress_Pa"].get<double>() / 1e6;
+          sample.push_back(strength);
+          over.push_back(strength / without_opening.try_emplace(test["seed"].get<int>(), strength).first->second);
+          const auto& fall = test["largest_fall"];
+          lost.push_back(100.0 *
+                         (1.0 - fall["stress_after_Pa"].get<double>() / fall["stress_before_Pa"].get<double>()));
+          cracks.push_back(100.0 * fall["n_cracks"].get<double>() / test["n_tension_cracks"].get<double>());
+          EXPECT_LT(test["energy_imbalance"].get<double>(), 1e-4) << opening; // as the page says
+          EXPECT_EQ(test["n_shear_cracks"], 0) << opening;
+        }
+      ASSERT_EQ(grains.size(), 3u);
+      ASSERT_EQ(sample.size(), 3u);
+      if (opening == 0)
+        for (const auto& flat : results_of("multiscale-and-grains", "sample")["tests"])
+          if (const auto same = without_opening.find(flat["seed"].get<int>());
+              flat["kind"] == "direct_tension" && same != without_opening.end())
+            {
+              const double strength = flat["peak_stress_Pa"].get<double>() / 1e6;
+              EXPECT_NEAR(same->second, strength, 1e-4 * strength);
+            }
+      const std::string row = fmt::format("\n| {} | {} | {} | {} | {} | {} |", opening, mean_and_deviation(grains, 1),
+                                          mean_and_deviation(sample, 1), mean_and_deviation(over, 2),
+                                          mean_and_deviation(lost, 0), mean_and_deviation(cracks, 0));
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 TEST(Example, TheReadmeOfSampleAndGrainsShowsItsMeshes)
 {
   const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
