@@ -22,9 +22,10 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
     entry::choice("Break rule", &P::break_rule,
                   {{"near worst", BreakRule::near_worst}, {"only worst", BreakRule::only_worst}},
                   "whether segments with 0.98 of the worst overload break together with it", varies),
-    entry::integer("Softening steps", &P::softening_steps, {'[', 1.0, 1000.0, ']'},
-                   "in which a bond of a softening flat joint softens, about, from one equilibrium to the next",
-                   varies),
+    entry::integer(
+      "Softening steps", &P::softening_steps, {'[', 1.0, 1000.0, ']'},
+      "number of steps, about, in which a bond of a softening flat joint softens from one equilibrium to the next",
+      varies),
     entry::choice(
       "Kinematics", &P::kinematics, {{"small strains", Kinematics::small_strains}, {"finite", Kinematics::finite}},
       "small strains: the contacts of an RVE keep the directions that they have at rest; finite: they turn with their "

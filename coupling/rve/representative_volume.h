@@ -25,7 +25,7 @@ struct Trial
   NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
   std::vector<BreakEvent<dim>> breaks;
   std::size_t n_loosened = 0;          ///< bonds that broke or softened, one as often as it did
-  bool would_break = false;            ///< it stands overloaded; with Bonds::until_break
+  bool would_break = false;            ///< or soften: it stands overloaded; with Bonds::until_break
   double share_until_break = 1.0;      ///< of the way from the state before, about; 1: nothing broke
   std::optional<Tangent<dim>> tangent; ///< on request
   double unbalanced_ratio = 0.0;       ///< largest unbalanced over mean contact force

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace feldspar
 {
@@ -25,22 +26,29 @@ bool fits(const NetworkState<dim>& state, const Network<dim>& network)
   for (const Link<dim>& link : network.links())
     n_segments = std::max(n_segments, std::size_t(link.first_segment) + link.n_segments);
   const auto by_segment = [](const auto& a, const auto& b) { return a.segment < b.segment; };
+  const auto not_ascending = [](const auto& a, const auto& b) { return a.segment >= b.segment; };
   const auto is_finite = [](const auto& values) {
     return std::all_of(values.begin(), values.end(), [](const double value) { return std::isfinite(value); });
   };
   const auto is_of_network = [&](const UnbondedSegment<dim>& unbonded) {
     return unbonded.segment < n_segments && is_finite(unbonded.shear_stress);
   };
+  const auto is_unbonded = [&](const std::uint32_t segment) {
+    return std::any_of(state.unbonded.begin(), state.unbonded.end(),
+                       [&](const auto& unbonded) { return unbonded.segment == segment; });
+  };
   const auto is_softened = [&](const SoftenedSegment<dim>& softened) {
-    return softened.segment < network.n_segments() && is_finite(softened.shear_stress) && is_finite(softened.more) &&
-           softened.more.front() > 0.0 && softened.more.front() < 1.0;
+    const auto& [damage, by_shear, dissipated] = softened.more;
+    return std::holds_alternative<SofteningFlatJoint<dim>>(network.law()) && softened.segment < network.n_segments() &&
+           is_finite(softened.shear_stress) && is_finite(softened.more) && damage > 0.0 && damage < 1.0 &&
+           by_shear >= 0.0 && by_shear <= 1.0 && dissipated >= 0.0 && !is_unbonded(softened.segment);
   };
   return (state.motions.empty() || state.motions.size() == n_motions<dim> * network.n_grains()) &&
          (state.intact || !state.motions.empty()) && state.stress.allFinite() && state.strain.allFinite() &&
          state.strain.cwiseAbs().maxCoeff() <= largest_strain &&
          std::all_of(state.unbonded.begin(), state.unbonded.end(), is_of_network) &&
          std::all_of(state.softened.begin(), state.softened.end(), is_softened) &&
-         std::is_sorted(state.softened.begin(), state.softened.end(), by_segment) &&
+         std::adjacent_find(state.softened.begin(), state.softened.end(), not_ascending) == state.softened.end() &&
          (state.contact_shear.empty() || state.contact_shear.size() == network.n_segments()) &&
          std::all_of(state.contact_shear.begin(), state.contact_shear.end(), is_finite) &&
          std::is_sorted(state.unbonded.begin(), state.unbonded.end(), by_segment);

@@ -85,8 +85,10 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
           entry::number("Compression step", &P::compression_step, {'(', 0.0, 0.01, ']'},
                         "axial strain between two rows of the curve"),
           entry::number("Tension step", &P::tension_step, {'(', 0.0, 0.01, ']'}, "the same in direct tension"),
-          entry::number("Most broken share", &P::most_broken_share, {'(', 0.0, 1.0, ']'},
-                        "of all segments in one step; a step that breaks more is cut"),
+          entry::number(
+            "Most broken share", &P::most_broken_share, {'(', 0.0, 1.0, ']'},
+            "of all segments in one step; a step that breaks more is cut. Of bonds that soften: of all the events that "
+            "their segments can have"),
           entry::number("Smallest step share", &P::smallest_step_share, {'(', 0.0, 1.0, ']'},
                         "of a step, below which there is said to be no equilibrium"),
           entry::number("Newton tolerance", &P::newton_tolerance, {'[', 1e-12, 0.1, ']'},

@@ -52,7 +52,7 @@ public:
   /// Seats the sample at the first call, then loads it to the next row of the curve. False once the stop rule has ended
   /// the test, or no equilibrium could be found: then the record tells. `watch` is called after every iteration
   /// and may throw, on all ranks, to leave the test as it was at the last of its steps, of which a row may have many;
-  /// `step_done` after each of these, at a moment for write_state(). `gives_up` is asked before each point, by any thread;
+  /// `step_done` after each of these, at a moment for write_state(). `gives_up` is asked before each point and in its searches, by any thread;
   /// where it says so on any rank, `watch` is called, which is to throw.
   bool advance(const std::function<void(const SampleStanding&)>& watch, const std::function<void()>& step_done,
                const std::function<bool()>& gives_up = {});

@@ -615,7 +615,10 @@ def print_softening():
             test["peak_stress_Pa"] / 1e6 for test in of_grains if test["variant"].endswith(f"= {opening} um")
         ]
         falls = [test["largest_fall"] for test in tests]
-        lost = [100.0 * (1.0 - fall["stress_after_Pa"] / fall["stress_before_Pa"]) for fall in falls]
+        lost = [
+            100.0 * (fall["stress_before_Pa"] - fall["stress_after_Pa"]) / test["peak_stress_Pa"]
+            for fall, test in zip(falls, tests)
+        ]
         cracks = [100.0 * fall["n_cracks"] / test["n_tension_cracks"] for fall, test in zip(falls, tests)]
         strengths = {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests}
         base = base or strengths

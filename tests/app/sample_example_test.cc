@@ -244,8 +244,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsBondsThatSoften)
           sample.push_back(strength);
           over.push_back(strength / without_opening.try_emplace(test["seed"].get<int>(), strength).first->second);
           const auto& fall = test["largest_fall"];
-          lost.push_back(100.0 *
-                         (1.0 - fall["stress_after_Pa"].get<double>() / fall["stress_before_Pa"].get<double>()));
+          lost.push_back(100.0 * (fall["stress_before_Pa"].get<double>() - fall["stress_after_Pa"].get<double>()) *
+                         1e-6 / strength);
           cracks.push_back(100.0 * fall["n_cracks"].get<double>() / test["n_tension_cracks"].get<double>());
           EXPECT_LT(test["energy_imbalance"].get<double>(), 1e-4) << opening; // as the page says
           EXPECT_EQ(test["n_shear_cracks"], 0) << opening;
