@@ -5,9 +5,9 @@
 #include "coupling/rve/equilibrium.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/path_run.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/parallel_bonds.h"
 #include "tests/unit/small_rve.h"
+#include "tests/unit/taken_up.h"
 
 #include <gtest/gtest.h>
 
@@ -185,22 +185,7 @@ TEST(ParallelBondRve, TakenUpGivesTheBitsOfTheUnbrokenRun)
     return PathRun<2>(std::make_shared<const Network<2>>(bonded_cell<2>()), shortening<2>(3e-3),
                       {.largest_step = 1e-4});
   };
-  auto whole = begin();
-  const tests::TemporaryFolder folder;
-  auto broken = begin();
-  for (unsigned int k = 0; !broken.has_ended(); ++k)
-    {
-      whole.advance();
-      broken.advance();
-      if (k % 4 == 3)
-        {
-          broken.write_checkpoint(folder.path() / "checkpoint.h5", "the same");
-          auto next = begin();
-          next.read_checkpoint(folder.path() / "checkpoint.h5", "the same");
-          broken = next;
-        }
-    }
-  ASSERT_TRUE(whole.has_ended());
+  const auto [whole, broken] = tests::whole_and_taken_up(begin);
   EXPECT_GT(whole.record().cracks.size(), 0u);
   EXPECT_EQ(broken.rve().state().motions, whole.rve().state().motions);
   EXPECT_EQ(broken.rve().state().contact_shear, whole.rve().state().contact_shear);

@@ -5,8 +5,8 @@
 #include "coupling/rve/equilibrium.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/path_run.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
+#include "tests/unit/taken_up.h"
 
 #include <gtest/gtest.h>
 
@@ -279,22 +279,7 @@ TYPED_TEST(SofteningRves, TakenUpGivesTheBitsOfTheUnbrokenRun)
 {
   constexpr int dim = TypeParam::value;
   const auto begin = [] { return pulled<dim>(2.5e-4); };
-  auto whole = begin();
-  const tests::TemporaryFolder folder;
-  auto broken = begin();
-  for (unsigned int k = 0; !broken.has_ended(); ++k)
-    {
-      whole.advance();
-      broken.advance();
-      if (k % 4 == 3)
-        {
-          broken.write_checkpoint(folder.path() / "checkpoint.h5", "the same");
-          auto next = begin();
-          next.read_checkpoint(folder.path() / "checkpoint.h5", "the same");
-          broken = next;
-        }
-    }
-  ASSERT_TRUE(whole.has_ended());
+  const auto [whole, broken] = tests::whole_and_taken_up(begin);
   ASSERT_FALSE(whole.state().softened.empty());
   ASSERT_EQ(broken.state().softened.size(), whole.state().softened.size());
   for (std::size_t k = 0; k < whole.state().softened.size(); ++k)
