@@ -798,7 +798,9 @@ TEST(Lab, EndsCleanlyOnInterruptDuringGenesis)
 {
   const TemporaryFolder folder;
   // Genesis of a thousand grains takes seconds; the test is over at once.
-  folder.write("rock.prm", "subsection Specimen\n  set Width = 35 mm\n  set Height = 70 mm\nend\nsubsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");
+  folder.write(
+    "rock.prm",
+    "subsection Specimen\n  set Width = 35 mm\n  set Height = 70 mm\nend\nsubsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");
   folder.write("interrupt", "\"$@\" &\n"
                             "until [ -e out/run.json ]; do sleep 0.02; done\n"
                             "sleep 0.1\nkill -INT $!\nwait $!\n");
