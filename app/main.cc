@@ -30,6 +30,14 @@ namespace
 {
 using namespace feldspar;
 
+std::vector<std::string> names_of_commands_with_input()
+{
+  std::vector<std::string> names;
+  for (const CommandWithInput& command : commands_with_input)
+    names.emplace_back(command.name);
+  return names;
+}
+
 /// The command line that `feldspar` understands, and what it was told.
 class CommandLine
 {
@@ -157,7 +165,7 @@ private:
     check->type_name("INPUT");
     command.add_option("--for", parameters.check_for, "whether this command takes it (default: say which do)")
       ->type_name("COMMAND")
-      ->check(CLI::IsMember(commands_with_input()).description(""))
+      ->check(CLI::IsMember(names_of_commands_with_input()).description(""))
       ->needs(check);
     add_settings(command, parameters.settings)->needs(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");

@@ -4,10 +4,11 @@
 #include "app/commands/commands.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
+#include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
 #include "app/programme/test_effort.h"
 #include "app/programme/usual_ranges.h"
-#include "app/run/launched.h"
+#include "app/run/finite_elements.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "coupling/rve/rve_file.h"
@@ -53,10 +54,11 @@ Remarks check_multiscale(const Input& input, const std::filesystem::path& file)
 {
   check_sample_entries(input, file);
   Remarks remarks;
-  with_mpi([&] { // takes a second to come up
+  const auto with_mesh = [&] {
     remarks = check_sample_input(input, file);
     return 0;
-  });
+  };
+  with_mpi(with_mesh, mpi_and_finite_elements); // takes a second to come up
   if (input.sample.has_grains())
     with_specimen_of_file(input, [&]<int dim>(const Specimen<dim>& specimen) {
       with_name_of(file, [&] {
@@ -100,19 +102,12 @@ Remarks check_contact(const Input& input, const std::filesystem::path& file)
   return {};
 }
 
-struct CommandCheck
-{
-  std::string_view command;
-  bool tests_rock;
-  Remarks (*check)(const Input& input, const std::filesystem::path& file); ///< throws InputError
-};
+/// Throws InputError.
+using Check = Remarks (*)(const Input& input, const std::filesystem::path& file);
 
-constexpr std::array checks{CommandCheck{"lab", true, check_lab},
-                            CommandCheck{"rve", true, check_rve},
-                            CommandCheck{"multiscale", true, check_multiscale},
-                            CommandCheck{"calibrate", true, check_calibrate},
-                            CommandCheck{"specimen", false, check_specimen},
-                            CommandCheck{"contact", true, check_contact}};
+/// Of commands_with_input, in the same order.
+constexpr std::array<Check, commands_with_input.size()> checks{check_lab,       check_rve,      check_multiscale,
+                                                               check_calibrate, check_specimen, check_contact};
 
 /// Of every command, on one input.
 void check_for_all(const Input& input, const std::filesystem::path& file)
@@ -121,21 +116,22 @@ void check_for_all(const Input& input, const std::filesystem::path& file)
   std::vector<std::string_view> takers;
   std::string lines;
   bool any_tests_rock = false;
-  for (const CommandCheck& one : checks)
-    if (one.command == "contact" && input.contact.path_file.empty())
+  for (std::size_t k = 0; k < checks.size(); ++k)
+    if (const CommandWithInput& command = commands_with_input[k];
+        command.name == "contact" && input.contact.path_file.empty())
       continue; // nobody means it so
     else
       try
         {
-          for (const std::string& remark : one.check(input, file))
-            lines += fmt::format("  for feldspar {}: {}\n", one.command, remark);
-          takers.push_back(one.command);
-          any_tests_rock |= one.tests_rock;
+          for (const std::string& remark : checks[k](input, file))
+            lines += fmt::format("  for feldspar {}: {}\n", command.name, remark);
+          takers.push_back(command.name);
+          any_tests_rock |= command.tests_rock;
         }
       catch (const InputError& error)
         {
           const std::string_view why = error.what();
-          lines += fmt::format("  not for feldspar {}: {}\n", one.command,
+          lines += fmt::format("  not for feldspar {}: {}\n", command.name,
                                why.starts_with(beginning) ? why.substr(beginning.size()) : why);
         }
   if (takers.empty())
@@ -146,14 +142,6 @@ void check_for_all(const Input& input, const std::filesystem::path& file)
     throw InputError(fmt::format("{}: no command that tests rock takes it; the reasons stand above", file.string()));
 }
 } // namespace
-
-std::vector<std::string> commands_with_input()
-{
-  std::vector<std::string> names;
-  for (const CommandCheck& one : checks)
-    names.emplace_back(one.command);
-  return names;
-}
 
 void check_input(const std::filesystem::path& file, const std::vector<std::string>& settings,
                  const std::string& command)
@@ -172,9 +160,9 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
       print_remarks(unusual);
       return;
     }
-  const auto wanted =
-    std::find_if(checks.begin(), checks.end(), [&](const CommandCheck& one) { return one.command == command; });
-  const Remarks remarks = wanted->check(input, file);
+  const auto wanted = std::find_if(commands_with_input.begin(), commands_with_input.end(),
+                                   [&](const CommandWithInput& one) { return one.name == command; });
+  const Remarks remarks = checks[std::size_t(wanted - commands_with_input.begin())](input, file);
   print_result("{}: OK for feldspar {}\n", file.string(), command);
   print_remarks(remarks);
   print_remarks(unusual);

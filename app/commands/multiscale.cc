@@ -1,13 +1,13 @@
 #include "app/commands/commands.h"
 #include "app/commands/rve_extract.h"
 #include "app/input/input.h"
-#include "app/programme/checks.h"
 #include "app/programme/multiscale_run.h"
 #include "app/programme/reference_body.h"
 #include "app/programme/run_report.h"
+#include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
+#include "app/run/finite_elements.h"
 #include "app/run/interrupt.h"
-#include "app/run/launched.h"
 #include "app/run/provenance.h"
 #include "app/screen/test_board.h"
 #include "base/append.h"
@@ -144,6 +144,6 @@ int run_on_all_ranks(const CommonOptions& options)
 
 int run_multiscale(const CommonOptions& options)
 {
-  return with_mpi([&] { return run_on_all_ranks(options); });
+  return with_mpi([&] { return run_on_all_ranks(options); }, mpi_and_finite_elements);
 }
 } // namespace feldspar

@@ -2,7 +2,6 @@
 
 #include "app/input/input.h"
 #include "app/input/parameter_table.h"
-#include "coupling/network/network.h"
 #include "dem/specimen/specimen.h"
 
 #include <filesystem>
@@ -18,6 +17,19 @@ namespace feldspar
 /// Runs a check, and puts the name of the input in front of what it refuses.
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check);
 
+/// A reference file that does not serve is told by its own name.
+void check_reference(const Input& input);
+
+/// Of representative volumes: clumps and mineral grains, which a cell does not have; to be told before its shape, which is
+/// another for them.
+void check_no_groups(const Input& input);
+
+/// Representative volumes find equilibria event by event, which not every joint law allows.
+void check_equilibria(const SpecimenParameters& specimen, std::string_view remedy);
+
+/// Of representative volumes.
+void check_boundary(const Input& input);
+
 /// Refuses tests that are not made on specimens of this shape, and entries that have no use there.
 void check_on_body(const Input& input, Body body);
 
@@ -32,10 +44,6 @@ void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen);
 template <int dim>
 void check_cell(const Specimen<dim>& specimen, std::string_view needed_by);
 
-/// Refuses, for a sample, an RVE that stands where it stood in another: a sample begins with intact ones.
-template <int dim>
-void check_intact(const Input& input, const Network<dim>& network);
-
 /// Refuses what an RVE cannot take that stands where it stood in its sample.
 void check_rve_out_of_sample(const Input& input);
 
@@ -44,10 +52,4 @@ void check_laboratory_input(const Input& input, const std::filesystem::path& inp
 
 /// For `feldspar rve`.
 void check_rve_input(const Input& input, const std::filesystem::path& input_file);
-
-/// For `feldspar multiscale`, as far as no mesh is needed.
-void check_sample_entries(const Input& input, const std::filesystem::path& input_file);
-
-/// For `feldspar multiscale`, all of it. MPI is up. Collective; returns remarks that a user should know.
-std::vector<std::string> check_sample_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar

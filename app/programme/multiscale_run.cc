@@ -2,6 +2,7 @@
 
 #include "app/programme/checks.h"
 #include "app/programme/point_rves.h"
+#include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/checkpoints.h"
 #include "app/run/interrupt.h"

@@ -3,7 +3,7 @@
 #include "app/run/interrupt.h"
 #include "coupling/sample/ranks.h"
 
-#include <deal.II/base/mpi.h>
+#include <mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -38,11 +38,15 @@ bool is_launched()
   return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-int with_mpi(const std::function<int()>& program)
+MpiSession mpi_alone()
 {
-  // No limit of threads here, as deal.II's tutorials have it: it would leave the RVEs one worker.
-  int n_arguments = 0;
-  char** no_arguments = nullptr;
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+  return {nullptr, [](void*) { MPI_Finalize(); }};
+}
+
+int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)())
+{
   setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
   setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
   // File pointers that processes share, which HDF5 has no use for. By default Open MPI keeps them in its folder for temporary
@@ -52,7 +56,7 @@ int with_mpi(const std::function<int()>& program)
   int exit_code = 0;
   std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
   {
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, no_arguments);
+    const MpiSession mpi = bring_up();
     std::signal(SIGPIPE, SIG_IGN); // as in main(): deal.II takes back PETSc's signal handlers, and that one with them
     try
       {

@@ -4,6 +4,7 @@
 #include "app/screen/progress.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace feldspar
@@ -12,9 +13,14 @@ namespace feldspar
 /// where it can: it is up at once.
 bool is_launched();
 
+/// Keeps MPI up while it lives.
+using MpiSession = std::shared_ptr<void>;
+
+MpiSession mpi_alone();
+
 /// Runs a program with MPI up, on all processes that were started together. Returns the exit code; throws what the program
 /// throws, once MPI is down.
-int with_mpi(const std::function<int()>& program);
+int with_mpi(const std::function<int()>& program, MpiSession (*bring_up)() = mpi_alone);
 
 /// Work of each process by itself, of all of them; an interruption of one is one of all: Interrupted is thrown on all.
 /// Else as ranks::together().

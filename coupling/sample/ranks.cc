@@ -3,8 +3,6 @@
 #include "base/input_error.h"
 #include "base/whole_file.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -19,8 +17,6 @@
 
 namespace feldspar::ranks
 {
-namespace mpi = dealii::Utilities::MPI;
-
 namespace
 {
 bool mpi_is_up()
@@ -29,18 +25,45 @@ bool mpi_is_up()
   MPI_Initialized(&is_up);
   return is_up != 0;
 }
+
+int all(const int here, const MPI_Op operation)
+{
+  int result = here;
+  MPI_Allreduce(&here, &result, 1, MPI_INT, operation, MPI_COMM_WORLD);
+  return result;
+}
 } // namespace
 
-unsigned int number() { return mpi_is_up() ? mpi::n_mpi_processes(MPI_COMM_WORLD) : 1; }
-unsigned int mine() { return mpi_is_up() ? mpi::this_mpi_process(MPI_COMM_WORLD) : 0; }
-bool any(const bool here) { return mpi_is_up() ? mpi::max(int(here), MPI_COMM_WORLD) != 0 : here; }
-std::uint64_t sum(const std::uint64_t here) { return mpi::sum(here, MPI_COMM_WORLD); }
+unsigned int number()
+{
+  int n = 1;
+  if (mpi_is_up())
+    MPI_Comm_size(MPI_COMM_WORLD, &n);
+  return unsigned(n);
+}
+
+unsigned int mine()
+{
+  int rank = 0;
+  if (mpi_is_up())
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return unsigned(rank);
+}
+
+bool any(const bool here) { return mpi_is_up() ? all(here, MPI_MAX) != 0 : here; }
+
+std::uint64_t sum(const std::uint64_t here)
+{
+  std::uint64_t result = here;
+  MPI_Allreduce(&here, &result, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return result;
+}
 
 std::vector<double> sums(const std::vector<double>& here)
 {
-  std::vector<double> all(here.size());
-  mpi::sum(here, MPI_COMM_WORLD, all);
-  return all;
+  std::vector<double> result(here.size());
+  MPI_Allreduce(here.data(), result.data(), int(here.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return result;
 }
 
 namespace
@@ -49,8 +72,11 @@ constexpr std::size_t most_at_once = std::size_t(1) << 30; // MPI counts with in
 
 std::string of_rank(const unsigned int rank, std::string text)
 {
-  text.resize(mpi::broadcast(MPI_COMM_WORLD, std::uint64_t(text.size()), rank));
-  mpi::broadcast(text.data(), text.size(), rank, MPI_COMM_WORLD);
+  std::uint64_t size = text.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, int(rank), MPI_COMM_WORLD);
+  text.resize(size);
+  for (std::size_t begin = 0; begin < size; begin += most_at_once)
+    MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, int(rank), MPI_COMM_WORLD);
   return text;
 }
 } // namespace
@@ -128,10 +154,11 @@ void together(const std::function<void()>& work)
         std::rethrow_exception(alone);
       return;
     }
-  const unsigned int first_that_failed = mpi::min(outcome == done ? number() : mine(), MPI_COMM_WORLD);
+  const unsigned int first_that_failed = unsigned(all(int(outcome == done ? number() : mine()), MPI_MIN));
   if (first_that_failed == number())
     return;
-  const int its_outcome = mpi::broadcast(MPI_COMM_WORLD, int(outcome), first_that_failed);
+  int its_outcome = outcome;
+  MPI_Bcast(&its_outcome, 1, MPI_INT, int(first_that_failed), MPI_COMM_WORLD);
   what = of_rank(first_that_failed, what);
   if (its_outcome == input_error)
     throw InputError(what);

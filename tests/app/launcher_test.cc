@@ -1,4 +1,4 @@
-// The program of a package for several processors runs the one that fits.
+// The program of a package for several processors runs the one that fits; and what each program loads.
 
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
@@ -32,6 +32,26 @@ bool processor_has(const std::string& flags)
     if (!known.contains(flag))
       return false;
   return true;
+}
+
+TEST(Programs, LoadFiniteElementsAndStatisticsWhereTheyAreUsedOnly)
+{
+  // What the loader of the system would load.
+  const TemporaryFolder folder;
+  const auto libraries = [&](const std::string& program) {
+    const fs::path place = fs::path(FELDSPAR_COMMAND).replace_filename(program);
+    return run_command(folder.path(), fmt::format("LD_TRACE_LOADED_OBJECTS=1 '{}'", place.string())).output;
+  };
+  const auto loads = [&](const std::string& program, const std::string& library) {
+    return libraries(program).find(library) != std::string::npos;
+  };
+  EXPECT_TRUE(loads("feldspar-multiscale", "libdeal.ii"));
+  EXPECT_TRUE(loads("feldspar-calibrate", "libOT.so"));
+  EXPECT_FALSE(loads("feldspar-calibrate", "libdeal.ii"));
+  EXPECT_FALSE(loads("feldspar-multiscale", "libOT.so"));
+  EXPECT_TRUE(loads("feldspar", "libhdf5"));
+  for (const char* const library : {"libdeal.ii", "libpetsc", "libOT.so"})
+    EXPECT_FALSE(loads("feldspar", library)) << library;
 }
 
 class Package
