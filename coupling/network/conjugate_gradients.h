@@ -2,12 +2,13 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 namespace feldspar
 {
 /// Solves `apply(x) = right` by preconditioned conjugate gradients until the residual's norm, in the preconditioner's
-/// measure, has fallen by `tolerance`. `apply` may be singular where `right` lies in its range: nothing is asked of the
+/// measure √(r·P r), has fallen by `tolerance` or to `least`. `apply` may be singular where `right` lies in its range: nothing is asked of the
 /// rest. (Hestenes and Stiefel 1952.)
 struct LinearSolution
 {
@@ -17,14 +18,14 @@ struct LinearSolution
 
 template <typename Apply, typename Precondition>
 LinearSolution conjugate_gradients(const Apply& apply, const Precondition& precondition, const Eigen::VectorXd& right,
-                                   const double tolerance, const unsigned int most_iterations)
+                                   const double tolerance, const unsigned int most_iterations, const double least = 0.0)
 {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
   Eigen::VectorXd residual = right;
   Eigen::VectorXd z = precondition(residual);
   Eigen::VectorXd direction = z;
   double measure = residual.dot(z);
-  const double goal = tolerance * tolerance * measure;
+  const double goal = std::max(tolerance * tolerance * measure, least * least);
   for (unsigned int k = 0; measure > goal; ++k)
     {
       if (k == most_iterations)

@@ -268,11 +268,9 @@ void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonde
 
 /// Of a flat joint, whose bonds may soften, or of a pair without a face.
 template <typename Law, int dim>
-LinkResponse<dim> flat_joint_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                                      const Motion<dim>& motion)
+void flat_joint_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                         const Motion<dim>& motion, LinkResponse<dim>& result)
 {
-  LinkResponse<dim> result;
-  result.segments.resize(active.segments.size());
   for (std::uint32_t i = 0; i < active.segments.size(); ++i)
     {
       const auto moving = moving_segment(network, active, motion, i);
@@ -290,34 +288,32 @@ LinkResponse<dim> flat_joint_response(const Law& law, const Network<dim>& networ
       else
         add_bonded(moving, stiffness, motion, result, segment);
     }
-  return result;
 }
 
 template <int dim>
-LinkResponse<dim> face_response(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
-                                const Motion<dim>& motion)
+void face_response(const FlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                   const Motion<dim>& motion, LinkResponse<dim>& result)
 {
-  return flat_joint_response(law, network, active, motion);
+  flat_joint_response(law, network, active, motion, result);
 }
 
 template <int dim>
-LinkResponse<dim> face_response(const SofteningFlatJoint<dim>& law, const Network<dim>& network,
-                                const ActiveLink<dim>& active, const Motion<dim>& motion)
+void face_response(const SofteningFlatJoint<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                   const Motion<dim>& motion, LinkResponse<dim>& result)
 {
-  return flat_joint_response(law, network, active, motion);
+  flat_joint_response(law, network, active, motion, result);
 }
 
 /// Of a parallel bond: beside it the linear contact, by one return map from the last event.
 template <int dim>
-LinkResponse<dim> face_response(const ParallelBond<dim>& law, const Network<dim>& network,
-                                const ActiveLink<dim>& active, const Motion<dim>& motion)
+void face_response(const ParallelBond<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
+                   const Motion<dim>& motion, LinkResponse<dim>& result)
 {
   using Shear = Eigen::Matrix<double, dim - 1, 1>;
   const Link<dim>& link = network.links()[active.link];
   const Face<double> face = link.face(network.thickness());
   const SegmentHistory<dim>& old = active.segments.front();
-  LinkResponse<dim> result;
-  SegmentResponse<dim>& segment = result.segments.emplace_back();
+  SegmentResponse<dim>& segment = result.segments.front();
   if (old.bonded)
     {
       const JointStiffness<dim> stiffness = law.bond_stiffness(face);
@@ -345,7 +341,7 @@ LinkResponse<dim> face_response(const ParallelBond<dim>& law, const Network<dim>
   result.forces.template segment<dim - 1>(1) -= force;
   result.stored_energy += 0.5 * pressure * pressure / contact.normal + 0.5 * force.squaredNorm() / contact.shear;
   if (pressure == 0.0)
-    return result;
+    return;
 
   result.tangent(0, 0) += contact.normal;
   result.derivative(0, 0) += contact.normal;
@@ -355,26 +351,34 @@ LinkResponse<dim> face_response(const ParallelBond<dim>& law, const Network<dim>
     {
       result.tangent.template block<dim - 1, dim - 1>(1, 1) += sticking;
       result.derivative.template block<dim - 1, dim - 1>(1, 1) += sticking;
-      return result;
+      return;
     }
   // The force is μ times the pressure along the trial force, which the slip across it turns.
   const Shear along = trial / size;
   result.derivative.template block<dim - 1, 1>(1, 0) += link.friction * contact.normal * along;
   result.derivative.template block<dim - 1, dim - 1>(1, 1) +=
     limit / size * (sticking - contact.shear * along * along.transpose());
-  return result;
 }
 } // namespace
 
 template <int dim>
-LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
+void respond(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
+             LinkResponse<dim>& result)
 {
+  result.forces.setZero();
+  result.tangent.setZero();
+  result.derivative.setZero();
+  result.segments.assign(active.segments.size(), {});
+  result.stored_energy = 0.0;
   if (!network.links()[active.link].has_face)
-    return face_response(FlatJoint<dim>(), network, active, motion);
-  return std::visit(
-    [&]<typename Law>(const Law& law) -> LinkResponse<dim> {
+    {
+      face_response(FlatJoint<dim>(), network, active, motion, result);
+      return;
+    }
+  std::visit(
+    [&]<typename Law>(const Law& law) {
       if constexpr (Law::has_equilibria)
-        return face_response(law, network, active, motion);
+        face_response(law, network, active, motion, result);
       else
         throw std::logic_error(fmt::format("the {} has no equilibria event by event", Law::name));
     },
@@ -455,6 +459,6 @@ template SofteningDemand softening_demand(const Network<3>&, const Link<3>&, std
                                           double, const std::array<double, 2>&, double);
 template BondEvent loosen(const Network<2>&, ActiveLink<2>&, std::uint32_t, bool, double);
 template BondEvent loosen(const Network<3>&, ActiveLink<3>&, std::uint32_t, bool, double);
-template LinkResponse<2> response<2>(const Network<2>&, const ActiveLink<2>&, const Motion<2>&);
-template LinkResponse<3> response<3>(const Network<3>&, const ActiveLink<3>&, const Motion<3>&);
+template void respond(const Network<2>&, const ActiveLink<2>&, const Motion<2>&, LinkResponse<2>&);
+template void respond(const Network<3>&, const ActiveLink<3>&, const Motion<3>&, LinkResponse<3>&);
 } // namespace feldspar

@@ -33,9 +33,9 @@ struct ActiveLink
 template <int dim>
 struct SegmentResponse
 {
-  std::array<double, dim - 1> shear_stress; ///< as in the history
-  BondStress bond_stress{};                 ///< of a bonded one that has not softened
-  std::array<double, dim - 1> slip{};       ///< shear since the last event that τ did not follow, along τ [m]
+  std::array<double, dim - 1> shear_stress{}; ///< as in the history
+  BondStress bond_stress{};                   ///< of a bonded one that has not softened
+  std::array<double, dim - 1> slip{};         ///< shear since the last event that τ did not follow, along τ [m]
 };
 
 template <int dim>
@@ -49,9 +49,18 @@ struct LinkResponse
   double stored_energy = 0.0; ///< [J]
 };
 
-/// `motion` of the link now.
+/// `motion` of the link now. Into a result whose memory serves again.
 template <int dim>
-LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion);
+void respond(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
+             LinkResponse<dim>& result);
+
+template <int dim>
+LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
+{
+  LinkResponse<dim> result;
+  respond(network, active, motion, result);
+  return result;
+}
 
 /// How much farther a bond that has softened is asked to soften.
 struct SofteningDemand

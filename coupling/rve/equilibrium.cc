@@ -1,6 +1,7 @@
 #include "coupling/rve/equilibrium.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -8,7 +9,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
+constexpr unsigned int least_work_intervals = 2; // trapezoids for the way between two events
 constexpr unsigned int most_work_intervals = 512;
 constexpr double work_tolerance = 1e-3;        // imbalance over what was moved between two events
 constexpr double least_work = 1e-8;            // below this share of what is stored nothing is refined
@@ -49,7 +50,7 @@ template <int dim>
 void Equilibrium<dim>::stand_at(Unknowns position)
 {
   present.position = std::move(position);
-  present.balance = history.balance(present.position);
+  history.balance(present.position, present.balance);
 }
 
 /// At the last event.
@@ -145,15 +146,20 @@ NetworkWork Equilibrium<dim>::work_since_event(const unsigned int n_intervals) c
     work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
     work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
   };
-  Balance<dim> before = at_event;
+  std::array<Balance<dim>, 2> on_the_way;
+  const Balance<dim>* before = &at_event;
   for (unsigned int k = 1; k <= n_intervals; ++k)
     {
-      Balance<dim> after =
-        k == n_intervals ? present.balance : history.balance(history.position() + double(k) / n_intervals * way);
-      add(before, 0.5 / n_intervals);
-      add(after, 0.5 / n_intervals);
-      work.slip += slip_energy(before, after);
-      before = std::move(after);
+      const Balance<dim>* after = &present.balance;
+      if (k < n_intervals)
+        {
+          history.balance(history.position() + double(k) / n_intervals * way, on_the_way[k % 2]);
+          after = &on_the_way[k % 2];
+        }
+      add(*before, 0.5 / n_intervals);
+      add(*after, 0.5 / n_intervals);
+      work.slip += slip_energy(*before, *after);
+      before = after;
     }
   return work;
 }

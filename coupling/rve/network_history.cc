@@ -133,14 +133,14 @@ void NetworkHistory<dim>::keep(const Configuration<dim>& present)
 }
 
 template <int dim>
-Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
+void NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim>& result) const
 {
   const auto& links = of.links();
-  Balance<dim> result;
-  result.forces = Unknowns::Zero(of.n_unknowns());
+  result.forces.setZero(of.n_unknowns());
+  result.carried_stress = result.stored_energy = 0.0;
   result.active.resize(active_links.size());
-  if (finite)
-    result.turns.resize(links.size());
+  result.touches.clear();
+  result.turns.resize(finite ? links.size() : 0);
   double carried = 0.0;
   std::size_t n_carrying = 0;
   std::optional<TurnedLink<dim>> turned;
@@ -170,7 +170,7 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
       if (number[k] != none)
         {
           auto& of_link = result.active[number[k]];
-          of_link = response(of, active_links[number[k]], motion);
+          respond(of, active_links[number[k]], motion, of_link);
           add_response(k, of_link);
         }
       else if (links[k].has_face)
@@ -203,7 +203,6 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at) const
     std::max(result.carried_stress, least * double(of.n_joints()) * of.mean_branch() / of.volume());
   // Forces on grains act against the links' own.
   result.forces.head(of.n_unknowns() - n_voigt<dim>) *= -1.0;
-  return result;
 }
 
 template class NetworkHistory<2>;

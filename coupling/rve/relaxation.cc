@@ -87,7 +87,7 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
       velocity += time_step * acceleration;
       momentum += time_step * force;
       position += time_step * velocity;
-      present = history.balance(position);
+      history.balance(position, present);
     }
   const bool balanced = measure(present, control) <= tolerance;
   return {std::move(from), balanced, k};
@@ -112,6 +112,8 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
   // work on all of that way.
   constexpr unsigned int most_refinements = 10;
   unsigned int n_refinements = 0;
+  Unknowns trial;
+  Balance<dim> trial_balance;
   for (unsigned int k = 0; !(error <= 0.01 * tolerance); ++k)
     {
       if (error <= tolerance && n_refinements++ == most_refinements)
@@ -156,13 +158,11 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
 
       // Contacts that open, close or slide on the way change the balance: go no farther than it gets better.
       double share = 1.0;
-      Unknowns trial;
-      Balance<dim> trial_balance;
       double trial_error = 0.0;
       for (; share > 0.05; share *= 0.5)
         {
           trial = position + share * step;
-          trial_balance = history.balance(trial);
+          history.balance(trial, trial_balance);
           trial_error = measure(trial_balance, control);
           if (trial_error < error)
             break;
@@ -170,8 +170,8 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       if (error <= tolerance && !(trial_error < error))
         return ended(true);
       step_share = trial_error < error ? 1.0 : step_share > 0.1 ? 0.05 : 1.0;
-      position = trial;
-      present = std::move(trial_balance);
+      position.swap(trial);
+      std::swap(present, trial_balance);
       error = trial_error;
     }
   return ended(true);

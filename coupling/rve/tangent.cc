@@ -81,12 +81,12 @@ template <int dim>
 Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
                                    const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
                                    const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                                   const double tolerance)
+                                   const double tolerance, const double least)
 {
   const Network<dim>& network = history.network();
   const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
     const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
-    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
+    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations, least)
                      : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
   };
   if (const auto& nearby = factorised ? *factorised : network.factorised_intact();
@@ -125,24 +125,15 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
   for (int k = 0; k < n_voigt<dim>; ++k)
     {
       // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
-      // against what the affine motion would leave.
+      // against the energy of the intact network under this strain.
       Unknowns& unit = responses[k];
       unit = network.intact_unknowns(Voigt<dim>::Unit(k));
       history.conditions()->project(unit);
-      const auto left_by = [&](const Unknowns& motions) {
-        Unknowns right = -apply_tangent(history, at, motions);
-        right.template tail<n_voigt<dim>>().setZero();
-        return right;
-      };
-      const auto size = [&](const Unknowns& forces) {
-        return std::sqrt(forces.dot(network.factorised_intact().solve(forces, {})));
-      };
-      const Unknowns right = left_by(unit);
-      const Unknowns affine = left_by(Unknowns::Unit(network.n_unknowns(), n_own + k));
+      Unknowns right = -apply_tangent(history, at, unit);
+      right.template tail<n_voigt<dim>>().setZero();
       constexpr double error_of_motions = 1e-5; // of energies, that is squared
-      const double tolerance = error_of_motions * size(affine) / std::max(size(right), 1e-300);
-      if (tolerance < 1.0)
-        unit.head(n_own) += solve(history, at, apply, true, right, {}, tolerance).head(n_own);
+      const double least = error_of_motions * std::sqrt(network.volume() * network.intact_stiffness()(k, k));
+      unit.head(n_own) += solve(history, at, apply, true, right, {}, 0.0, least).head(n_own);
       const Unknowns forces = apply_tangent(history, at, unit);
       for (int j = 0; j <= k; ++j)
         result(j, k) = result(k, j) = responses[j].dot(forces) / network.volume();

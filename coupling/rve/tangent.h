@@ -40,10 +40,11 @@ public:
   void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { factorised = std::move(nearby); }
   const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
 
-  /// The solution with `apply`, which is near the tangent at the balance.
+  /// The solution with `apply`, which is near the tangent at the balance; to a tolerance or, of one that is symmetric, until
+  /// the error's energy is at most `least` squared [√J].
   Unknowns solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
                  const std::function<Unknowns(const Unknowns&)>& apply, bool symmetric, const Unknowns& right,
-                 const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);
+                 const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance, double least = 0.0);
 
   /// Stress under unit strains [Pa].
   Stiffness<dim> tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
