@@ -110,6 +110,23 @@ Voigt<dim> random_direction(Random& random)
   return direction.normalized();
 }
 
+/// The derivative of the forces of a link, by differences about a motion.
+template <int dim>
+JointStiffness<dim> derivative_by_differences(const Network<dim>& network, const ActiveLink<dim>& active,
+                                              const Motion<dim>& motion)
+{
+  JointStiffness<dim> derivative;
+  for (int c = 0; c < n_motions<dim>; ++c)
+    {
+      const double by = c < dim ? 1e-12 : 1e-9;
+      const Motion<dim> way = by * Motion<dim>::Unit(c);
+      derivative.col(c) = (response(network, active, Motion<dim>(motion + way)).forces -
+                           response(network, active, Motion<dim>(motion - way)).forces) /
+                          (2.0 * by);
+    }
+  return derivative;
+}
+
 /// |found - expected| / |expected|.
 template <typename Found, typename Expected>
 double relative(const Eigen::MatrixBase<Found>& found, const Eigen::MatrixBase<Expected>& expected)

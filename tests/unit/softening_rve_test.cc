@@ -124,16 +124,11 @@ TYPED_TEST(SofteningRves, ASoftenedFaceRespondsAsTheLawOfTheSweep)
         EXPECT_LE((found.forces - forces).norm(), 1e-11 * forces.norm());
         EXPECT_NEAR(found.stored_energy, stored, 1e-11 * stored);
 
+        const JointStiffness<dim> slopes = derivative_by_differences(network, active, motion);
         for (int c = 0; c < n_motions<dim>; ++c)
-          {
-            const double by = c < dim ? 1e-12 : 1e-9;
-            const Motion<dim> way = by * Motion<dim>::Unit(c);
-            const Motion<dim> slope =
-              (response(network, active, motion + way).forces - response(network, active, motion - way).forces) /
-              (2.0 * by);
-            EXPECT_LT((found.derivative.col(c) - slope).norm(), 1e-4 * found.derivative.col(c).norm() + 10.0) << c;
-            EXPECT_EQ(found.derivative.col(c), found.tangent.col(c));
-          }
+          EXPECT_LT((found.derivative.col(c) - slopes.col(c)).norm(), 1e-4 * found.derivative.col(c).norm() + 10.0)
+            << c;
+        EXPECT_EQ(found.derivative, found.tangent);
       }
 }
 
