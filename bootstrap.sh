@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to results.
 #
-#   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains and as finite elements with grains
-#                            inside, both in one report; ends with its path
+#   ./bootstrap.sh demo      packages, build, Beishan granite as a specimen of grains, which is there half way, and as finite
+#                            elements with grains inside, both in one report; ends with its path
 #   ./bootstrap.sh test      packages, build by clang under the sanitizers, its unit tests and a minute of fuzzing, release
 #                            build by gcc, all tests
 #   ./bootstrap.sh build     packages and release build
@@ -74,8 +74,8 @@ need_packages()
 # off in build/release (CONTRIBUTING.md).
 joined_units=-DCMAKE_UNITY_BUILD=ON
 
-# build PRESET [CMake option...]; all of it, or $target where that is set
-build()
+# configure PRESET [CMake option...]
+configure()
 {
   local preset=$1
   shift
@@ -83,7 +83,13 @@ build()
   [[ -z "${CI:-}" ]] || warnings_as_errors=ON
   say "building $preset"
   cmake --preset "$preset" -DFELDSPAR_WARNINGS_AS_ERRORS="$warnings_as_errors" "$@"
-  cmake --build --preset "$preset" --parallel "$(nproc)" ${target:+--target "$target"}
+}
+
+# build PRESET [CMake option...]
+build()
+{
+  configure "$@"
+  cmake --build --preset "$1" --parallel "$(nproc)"
 }
 
 run_tests()
@@ -118,10 +124,9 @@ check_other_compiler()
 
 demo()
 {
-  say "packages, the laboratory, its tests, the finite elements, a sample of them: some fifteen minutes on two cores"
+  say "packages and build, a specimen of grains broken, the rest of the build, a sample: some fifteen minutes on two cores"
   need_packages "${build_packages[@]}"
-  # Grains need no finite elements, whose headers are half of a build.
-  target=feldspar build_release
+  build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar
   say "breaking Beishan granite, a specimen of grains"
   "$feldspar" lab examples/beishan-granite/beishan.prm --output demo/direct --force
@@ -133,7 +138,12 @@ demo()
   "$feldspar" report demo/direct demo/multiscale --output demo/report --force
 }
 
-build_release() { build release "$joined_units" -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF; }
+# build_release [TARGET]
+build_release()
+{
+  configure release "$joined_units" -DBUILD_TESTING=OFF -DFELDSPAR_BENCHMARKS=OFF
+  cmake --build --preset release --parallel "$(nproc)" ${1:+--target "$1"}
+}
 
 # install_feldspar [DIR]
 install_feldspar()

@@ -3,6 +3,7 @@
 #include "app/commands/manual.h"
 #include "app/input/nearest_name.h"
 #include "app/run/interrupt.h"
+#include "app/run/other_program.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
@@ -329,6 +330,7 @@ int main(const int argc, const char* const* argv)
   std::signal(SIGPIPE, SIG_IGN);
   try
     {
+      check_version_of_caller();
       return after_output(CommandLine().run(argc, argv));
     }
   catch (const Interrupted&)

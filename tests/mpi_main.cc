@@ -1,5 +1,5 @@
-// main of the tests that need MPI. As a program of ours it sets no limit of threads: the tutorials' 1 would leave oneTBB
-// a single worker.
+// main of the tests that need MPI. As a program of ours it does not set the limit of one thread of the tutorials, which
+// would leave oneTBB a single worker.
 
 #include <deal.II/base/mpi.h>
 

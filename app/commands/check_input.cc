@@ -103,11 +103,23 @@ Remarks check_contact(const Input& input, const std::filesystem::path& file)
 }
 
 /// Throws InputError.
-using Check = Remarks (*)(const Input& input, const std::filesystem::path& file);
+struct Check
+{
+  std::string_view command;
+  Remarks (*of)(const Input& input, const std::filesystem::path& file);
+};
 
 /// Of commands_with_input, in the same order.
-constexpr std::array<Check, commands_with_input.size()> checks{check_lab,       check_rve,      check_multiscale,
-                                                               check_calibrate, check_specimen, check_contact};
+constexpr std::array checks{Check{"lab", check_lab},
+                            Check{"rve", check_rve},
+                            Check{"multiscale", check_multiscale},
+                            Check{"calibrate", check_calibrate},
+                            Check{"specimen", check_specimen},
+                            Check{"contact", check_contact}};
+static_assert(std::equal(checks.begin(), checks.end(), commands_with_input.begin(), commands_with_input.end(),
+                         [](const Check& check, const CommandWithInput& command) {
+                           return check.command == command.name;
+                         }));
 
 /// Of every command, on one input.
 void check_for_all(const Input& input, const std::filesystem::path& file)
@@ -123,7 +135,7 @@ void check_for_all(const Input& input, const std::filesystem::path& file)
     else
       try
         {
-          for (const std::string& remark : checks[k](input, file))
+          for (const std::string& remark : checks[k].of(input, file))
             lines += fmt::format("  for feldspar {}: {}\n", command.name, remark);
           takers.push_back(command.name);
           any_tests_rock |= command.tests_rock;
@@ -162,7 +174,7 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
     }
   const auto wanted = std::find_if(commands_with_input.begin(), commands_with_input.end(),
                                    [&](const CommandWithInput& one) { return one.name == command; });
-  const Remarks remarks = checks[std::size_t(wanted - commands_with_input.begin())](input, file);
+  const Remarks remarks = checks[std::size_t(wanted - commands_with_input.begin())].of(input, file);
   print_result("{}: OK for feldspar {}\n", file.string(), command);
   print_remarks(remarks);
   print_remarks(unusual);

@@ -2,15 +2,18 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <memory>
 
 namespace feldspar
 {
 MpiSession mpi_and_finite_elements()
 {
-  static int n_arguments = 0;
-  static char** no_arguments = nullptr;
-  // No limit of threads here, as deal.II's tutorials have it: it would leave the RVEs one worker.
-  return std::make_shared<dealii::Utilities::MPI::MPI_InitFinalize>(n_arguments, no_arguments);
+  int n_arguments = 0;
+  char** no_arguments = nullptr;
+  // Without the limit of one thread that deal.II's tutorials set, the processes of a machine share its cores.
+  auto session = std::make_shared<dealii::Utilities::MPI::MPI_InitFinalize>(n_arguments, no_arguments);
+  std::signal(SIGPIPE, SIG_IGN); // as in main(): deal.II takes back PETSc's signal handlers, and that one with them
+  return session;
 }
 } // namespace feldspar

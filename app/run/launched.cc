@@ -4,12 +4,16 @@
 #include "coupling/sample/ranks.h"
 
 #include <mpi.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <memory>
+#include <optional>
 
 namespace feldspar
 {
@@ -38,12 +42,33 @@ bool is_launched()
   return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-MpiSession mpi_alone()
+namespace
 {
-  int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-  return {nullptr, [](void*) { MPI_Finalize(); }};
-}
+class MpiAlone
+{
+public:
+  MpiAlone()
+  {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm of_machine;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
+    int n = 1;
+    MPI_Comm_size(of_machine, &n);
+    MPI_Comm_free(&of_machine);
+    share_of_cores.emplace(tbb::global_control::max_allowed_parallelism,
+                           std::size_t(std::max(1, tbb::info::default_concurrency() / n)));
+  }
+  MpiAlone(const MpiAlone&) = delete;
+  MpiAlone& operator=(const MpiAlone&) = delete;
+  ~MpiAlone() { MPI_Finalize(); }
+
+private:
+  std::optional<tbb::global_control> share_of_cores;
+};
+} // namespace
+
+MpiSession mpi_alone() { return std::make_shared<MpiAlone>(); }
 
 int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)())
 {
@@ -57,7 +82,6 @@ int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)()
   std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
   {
     const MpiSession mpi = bring_up();
-    std::signal(SIGPIPE, SIG_IGN); // as in main(): deal.II takes back PETSc's signal handlers, and that one with them
     try
       {
         exit_code = ranks::guarded(program);

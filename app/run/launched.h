@@ -13,9 +13,10 @@ namespace feldspar
 /// where it can: it is up at once.
 bool is_launched();
 
-/// Keeps MPI up while it lives.
+/// Keeps MPI up while it lives, with what else needs to be up: of any type.
 using MpiSession = std::shared_ptr<void>;
 
+/// The processes of one machine share its cores, as with deal.II.
 MpiSession mpi_alone();
 
 /// Runs a program with MPI up, on all processes that were started together. Returns the exit code; throws what the program

@@ -1,11 +1,13 @@
 #include "app/run/other_program.h"
 
 #include "base/input_error.h"
+#include "feldspar_version.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +15,23 @@
 
 namespace feldspar
 {
+namespace
+{
+constexpr const char* version_of_caller = "FELDSPAR_VERSION_OF_CALLER";
+} // namespace
+
+void check_version_of_caller()
+{
+  const char* const wanted = std::getenv(version_of_caller);
+  if (!wanted)
+    return;
+  const std::string of_caller = wanted;
+  unsetenv(version_of_caller);
+  if (of_caller != version)
+    throw InputError(fmt::format("{} is of version {}, and feldspar of {}; build or install both anew",
+                                 std::filesystem::read_symlink("/proc/self/exe").string(), version, of_caller));
+}
+
 void go_on_as(const std::string& program)
 {
   const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe").replace_filename(program);
@@ -24,6 +43,7 @@ void go_on_as(const std::string& program)
   for (std::string& word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  setenv(version_of_caller, std::string(version).c_str(), 1);
   execv(file.c_str(), arguments.data());
   throw InputError(fmt::format("{}: cannot be run ({}); it is built and installed beside feldspar", file.string(),
                                std::strerror(errno)));

@@ -8,7 +8,14 @@ namespace
 {
 double sum_of(const simd::Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-double sum_of(const simd::Eight& v) { return sum_of(simd::low_half(v) + simd::high_half(v)); }
+double sum_of(const ColumnOfSix& column)
+{
+#ifdef __AVX512F__
+  return sum_of(simd::low_half(column) + simd::high_half(column));
+#else
+  return sum_of(column.halves[0] + column.halves[1]);
+#endif
+}
 
 /// Adds a block of a matrix, or its transpose, to columns.
 template <typename Column, typename Block>

@@ -3,11 +3,55 @@
 #include "base/simd_transpose.h"
 #include "coupling/network/stiffness_pattern.h"
 
+#include <array>
 #include <type_traits>
 #include <vector>
 
 namespace feldspar
 {
+#ifdef __AVX512F__
+using ColumnOfSix = simd::Eight;
+#else
+/// Six numbers and two zeros, on a processor whose vectors have four: GCC moves its vectors of eight there in pieces of eight
+/// and sixteen bytes, by which a solution took twice as long.
+struct ColumnOfSix
+{
+  std::array<simd::Four, 2> halves{};
+
+  double& operator[](const int k) { return reinterpret_cast<double*>(halves.data())[k]; }
+  double operator[](const int k) const { return reinterpret_cast<const double*>(halves.data())[k]; }
+
+  ColumnOfSix& operator+=(const ColumnOfSix& other)
+  {
+    halves[0] += other.halves[0];
+    halves[1] += other.halves[1];
+    return *this;
+  }
+  ColumnOfSix& operator-=(const ColumnOfSix& other)
+  {
+    halves[0] -= other.halves[0];
+    halves[1] -= other.halves[1];
+    return *this;
+  }
+  ColumnOfSix& operator*=(const ColumnOfSix& other)
+  {
+    halves[0] *= other.halves[0];
+    halves[1] *= other.halves[1];
+    return *this;
+  }
+  ColumnOfSix& operator*=(const double factor)
+  {
+    halves[0] *= factor;
+    halves[1] *= factor;
+    return *this;
+  }
+
+  friend ColumnOfSix operator+(ColumnOfSix one, const ColumnOfSix& other) { return one += other; }
+  friend ColumnOfSix operator*(ColumnOfSix one, const ColumnOfSix& other) { return one *= other; }
+  friend ColumnOfSix operator*(ColumnOfSix one, const double factor) { return one *= factor; }
+};
+#endif
+
 /// A symmetric, positive definite matrix of a network's grains, then its factor L D Lᵀ, in blocks of the motions of two grains. A column of a
 /// block is one vector of the processor, with zeros below the motions of a grain: most of the time of a damaged
 /// representative volume goes into solving with this factor. Eigen's factor, number by number, takes two to four times as
@@ -17,7 +61,7 @@ template <int dim>
 class BlockFactor
 {
 public:
-  using Column = std::conditional_t<dim == 2, simd::Four, simd::Eight>;
+  using Column = std::conditional_t<dim == 2, simd::Four, ColumnOfSix>;
 
   /// All zero.
   explicit BlockFactor(const StiffnessPattern& pattern);

@@ -362,8 +362,8 @@ void face_response(const ParallelBond<dim>& law, const Network<dim>& network, co
 } // namespace
 
 template <int dim>
-void respond(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
-             LinkResponse<dim>& result)
+LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
+                           LinkResponse<dim> result)
 {
   result.forces.setZero();
   result.tangent.setZero();
@@ -373,7 +373,7 @@ void respond(const Network<dim>& network, const ActiveLink<dim>& active, const M
   if (!network.links()[active.link].has_face)
     {
       face_response(FlatJoint<dim>(), network, active, motion, result);
-      return;
+      return result;
     }
   std::visit(
     [&]<typename Law>(const Law& law) {
@@ -383,6 +383,7 @@ void respond(const Network<dim>& network, const ActiveLink<dim>& active, const M
         throw std::logic_error(fmt::format("the {} has no equilibria event by event", Law::name));
     },
     network.law());
+  return result;
 }
 
 namespace
@@ -459,6 +460,6 @@ template SofteningDemand softening_demand(const Network<3>&, const Link<3>&, std
                                           double, const std::array<double, 2>&, double);
 template BondEvent loosen(const Network<2>&, ActiveLink<2>&, std::uint32_t, bool, double);
 template BondEvent loosen(const Network<3>&, ActiveLink<3>&, std::uint32_t, bool, double);
-template void respond(const Network<2>&, const ActiveLink<2>&, const Motion<2>&, LinkResponse<2>&);
-template void respond(const Network<3>&, const ActiveLink<3>&, const Motion<3>&, LinkResponse<3>&);
+template LinkResponse<2> response(const Network<2>&, const ActiveLink<2>&, const Motion<2>&, LinkResponse<2>);
+template LinkResponse<3> response(const Network<3>&, const ActiveLink<3>&, const Motion<3>&, LinkResponse<3>);
 } // namespace feldspar

@@ -49,18 +49,10 @@ struct LinkResponse
   double stored_energy = 0.0; ///< [J]
 };
 
-/// `motion` of the link now. Into a result whose memory serves again.
+/// `motion` of the link now. The memory of an earlier response can serve again.
 template <int dim>
-void respond(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
-             LinkResponse<dim>& result);
-
-template <int dim>
-LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion)
-{
-  LinkResponse<dim> result;
-  respond(network, active, motion, result);
-  return result;
-}
+LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
+                           LinkResponse<dim> memory = {});
 
 /// How much farther a bond that has softened is asked to soften.
 struct SofteningDemand

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace feldspar
 {
@@ -133,7 +134,7 @@ void NetworkHistory<dim>::keep(const Configuration<dim>& present)
 }
 
 template <int dim>
-void NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim>& result) const
+Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim> result) const
 {
   const auto& links = of.links();
   result.forces.setZero(of.n_unknowns());
@@ -170,7 +171,7 @@ void NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim>& result) cons
       if (number[k] != none)
         {
           auto& of_link = result.active[number[k]];
-          respond(of, active_links[number[k]], motion, of_link);
+          of_link = response(of, active_links[number[k]], motion, std::move(of_link));
           add_response(k, of_link);
         }
       else if (links[k].has_face)
@@ -203,6 +204,7 @@ void NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim>& result) cons
     std::max(result.carried_stress, least * double(of.n_joints()) * of.mean_branch() / of.volume());
   // Forces on grains act against the links' own.
   result.forces.head(of.n_unknowns() - n_voigt<dim>) *= -1.0;
+  return result;
 }
 
 template class NetworkHistory<2>;

@@ -59,8 +59,9 @@ public:
   /// The network's factor with every pair touching, under these conditions.
   const FactorisedNetwork<dim>& factorised_stiffest() const;
 
-  /// Forces with the grains at a position, by the straight way from the last event. Into a result whose memory serves again.
-  void balance(const Unknowns& at, Balance<dim>& result) const;
+  /// Forces with the grains at a position, by the straight way from the last event. The memory of an earlier balance can
+  /// serve again.
+  Balance<dim> balance(const Unknowns& at, Balance<dim> memory = {}) const;
 
   /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace feldspar
 {
@@ -87,7 +88,7 @@ Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<d
       velocity += time_step * acceleration;
       momentum += time_step * force;
       position += time_step * velocity;
-      history.balance(position, present);
+      present = history.balance(position, std::move(present));
     }
   const bool balanced = measure(present, control) <= tolerance;
   return {std::move(from), balanced, k};
@@ -162,7 +163,7 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
       for (; share > 0.05; share *= 0.5)
         {
           trial = position + share * step;
-          history.balance(trial, trial_balance);
+          trial_balance = history.balance(trial, std::move(trial_balance));
           trial_error = measure(trial_balance, control);
           if (trial_error < error)
             break;

@@ -41,7 +41,7 @@ public:
   const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
 
   /// The solution with `apply`, which is near the tangent at the balance; to a tolerance or, of one that is symmetric, until
-  /// the error's energy is at most `least` squared [√J].
+  /// the energy of the error, as the preconditioner measures it, is at most `least` squared [√J].
   Unknowns solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
                  const std::function<Unknowns(const Unknowns&)>& apply, bool symmetric, const Unknowns& right,
                  const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance, double least = 0.0);

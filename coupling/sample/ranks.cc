@@ -21,9 +21,10 @@ namespace
 {
 bool mpi_is_up()
 {
-  int is_up = 0;
-  MPI_Initialized(&is_up);
-  return is_up != 0;
+  int has_come = 0, has_gone = 0;
+  MPI_Initialized(&has_come);
+  MPI_Finalized(&has_gone);
+  return has_come != 0 && has_gone == 0;
 }
 
 int all(const int here, const MPI_Op operation)
@@ -89,7 +90,7 @@ std::string gathered(const std::string& text)
   std::vector<std::uint64_t> sizes(n);
   const std::uint64_t size = text.size();
   MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-  // One message a rank, of those that have anything to say. deal.II's gather() counts all bytes with int.
+  // One message a rank, of those that have anything to say: MPI_Gatherv would count all bytes with int.
   constexpr int tag = 1;
   if (!is_first())
     {

@@ -54,6 +54,38 @@ TEST(Programs, LoadFiniteElementsAndStatisticsWhereTheyAreUsedOnly)
     EXPECT_FALSE(loads("feldspar", library)) << library;
 }
 
+TEST(Programs, GoOnAsAnotherOfTheSameVersionOrSayWhatIsMissing)
+{
+  const TemporaryFolder folder;
+  const fs::path programs = fs::path(FELDSPAR_COMMAND).parent_path();
+  fs::copy_file(FELDSPAR_COMMAND, folder.path() / "feldspar");
+  std::ofstream(folder.path() / "rock.prm") << "subsection Specimen\n  set Width = 20 mm\nend\n";
+  for (const auto& [words, program] : {std::pair("multiscale rock.prm", "feldspar-multiscale"),
+                                       {"parameters --check rock.prm", "feldspar-multiscale"},
+                                       {"calibrate rock.prm", "feldspar-calibrate"}})
+    {
+      const auto alone = run_command(folder.path(), fmt::format("./feldspar {}", words));
+      EXPECT_EQ(alone.exit_code, 2);
+      EXPECT_NE(alone.error.find(fmt::format("{}: cannot be run", program)), std::string::npos) << alone.error;
+    }
+
+  // As an installed package has them: the launcher, and the programs of a level.
+  const fs::path level = folder.path() / "libexec/feldspar/x86-64-v3";
+  fs::create_directories(level);
+  fs::create_directory(folder.path() / "bin");
+  fs::copy_file(FELDSPAR_LAUNCHER, folder.path() / "bin/feldspar");
+  for (const char* const program : {"feldspar", "feldspar-multiscale"})
+    fs::copy_file(programs / program, level / program);
+  const std::string check = "bin/feldspar parameters --check rock.prm --for lab";
+  const auto installed = run_command(folder.path(), check);
+  EXPECT_EQ(installed.exit_code, 0) << installed.error;
+
+  const auto of_another = run_command(folder.path(), "FELDSPAR_VERSION_OF_CALLER=0.0.1 " + check);
+  EXPECT_EQ(of_another.exit_code, 2);
+  EXPECT_NE(of_another.error.find("and feldspar of 0.0.1; build or install both anew"), std::string::npos)
+    << of_another.error;
+}
+
 class Package
 {
 public:

@@ -82,7 +82,7 @@ const std::vector<std::string> rooms_of_the_command = {"app/input",     "app/scr
 const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
 
 /// What only these rooms may see of deal.II.
-const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app", "tests", "benchmarks"};
+const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/run", "tests", "benchmarks"};
 
 /// Headers of ours that belong to no folder: written by the build.
 const std::vector<std::string> generated = {"feldspar_version.h"};

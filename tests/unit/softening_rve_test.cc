@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace feldspar
 {
@@ -133,6 +134,24 @@ TYPED_TEST(SofteningRves, ASoftenedFaceRespondsAsTheLawOfTheSweep)
       }
 }
 
+/// The first segment of a link moves to a motion, and its bond softens or breaks there if it is asked to.
+std::optional<BondEvent> lead_to(const Network<2>& network, ActiveLink<2>& active, const Motion<2>& motion,
+                                 const bool in_tension, const unsigned int n_steps)
+{
+  const Link<2>& link = network.links()[active.link];
+  SegmentHistory<2>& segment = active.segments[0];
+  const double least_step = 1.0 / n_steps;
+  const auto now = response(network, active, motion);
+  active.motion = motion;
+  if (segment.has_softened())
+    segment.shear_stress = now.segments[0].shear_stress;
+  const bool overloaded =
+    segment.has_softened()
+      ? softening_demand(network, link, 0, segment, motion[0], segment.shear_stress, least_step).exceeded
+      : is_overloaded(network.bond(link.first_segment), now.segments[0].bond_stress);
+  return overloaded ? std::optional(loosen(network, active, 0, in_tension, least_step)) : std::nullopt;
+}
+
 /// One segment led by its opening, or by its shear under a constant opening, until its bond is gone.
 struct Led
 {
@@ -146,7 +165,6 @@ Led lead(const unsigned int n_steps, const bool in_shear)
   const Network<2> network(softening_cell<2>(over_opening));
   const Link<2>& link = network.links()[0];
   const Bond<double>& bond = network.bond(link.first_segment);
-  const double least_step = 1.0 / n_steps;
   // What holds: under pressure in shear, so that friction is beside.
   const double pressed = in_shear ? -20e6 / link.normal_stiffness : 0.0;
   const double strength = in_shear ? shear_strength(bond, link.normal_stiffness * pressed) : bond.tensile_strength;
@@ -163,25 +181,18 @@ Led lead(const unsigned int n_steps, const bool in_shear)
       Motion<2> motion = Motion<2>::Zero();
       motion[0] = in_shear ? pressed : way;
       motion[1] = in_shear ? -way : 0.0;
-      const auto now = response(network, active, motion);
-      const auto& tau = now.segments[0].shear_stress;
-      active.motion = motion;
-      if (active.segments[0].has_softened())
-        active.segments[0].shear_stress = tau;
-      const bool overloaded =
-        active.segments[0].has_softened()
-          ? softening_demand(network, link, 0, active.segments[0], motion[0], tau, least_step).exceeded
-          : is_overloaded(bond, now.segments[0].bond_stress);
-      if (!overloaded)
+      ActiveLink<2> unmoved = active;
+      const auto event = lead_to(network, active, motion, !in_shear, n_steps);
+      if (!event)
         continue;
-      const double before = response(network, active, motion).stored_energy;
-      const BondEvent event = loosen(network, active, 0, !in_shear, least_step);
+      // What it would store there without the event.
+      const double before = response(network, unmoved, motion).stored_energy;
       ++led.n_events;
-      EXPECT_EQ(event.broke && event.in_tension, event.broke && !in_shear);
-      led.given_up += before - response(network, active, motion).stored_energy - event.slip_energy;
-      if (event.broke)
+      EXPECT_EQ(event->broke && event->in_tension, event->broke && !in_shear);
+      led.given_up += before - response(network, active, motion).stored_energy - event->slip_energy;
+      if (event->broke)
         {
-          EXPECT_NEAR(event.released_energy, led.given_up, 1e-9 * led.given_up);
+          EXPECT_NEAR(event->released_energy, led.given_up, 1e-9 * led.given_up);
         }
     }
   EXPECT_FALSE(active.segments[0].bonded);
@@ -215,19 +226,19 @@ using MixedWay = std::array<double, 2> (*)(double);
 constexpr double mixed_over_opening = 5e-6;
 constexpr int n_mixed_ways = 64000;
 
-std::array<double, 2> at_once(const double s) { return {s * 4e-6, s * 8e-6}; }
+std::array<double, 2> at_once(const double s) { return {s * 5e-6, s * 24e-6}; }
 std::array<double, 2> sheared_then_opened(const double s)
 {
-  return s < 0.5 ? std::array{0.0, s * 16e-6} : std::array{(s - 0.5) * 10e-6, 8e-6};
+  return s < 0.5 ? std::array{0.0, s * 26e-6} : std::array{(s - 0.5) * 13e-6, 13e-6};
 }
 std::array<double, 2> opened_then_sheared(const double s)
 {
-  return s < 0.5 ? std::array{s * 5e-6, 0.0} : std::array{2.5e-6, (s - 0.5) * 24e-6};
+  return s < 0.5 ? std::array{s * 5e-6, 0.0} : std::array{2.5e-6, (s - 0.5) * 40e-6};
 }
 std::array<double, 2> by_turns(const double s)
 {
   const double wave = std::sin(8.0 * std::numbers::pi * s) / (8.0 * std::numbers::pi);
-  return {5e-6 * (s + wave), 10e-6 * (s - wave)};
+  return {6e-6 * (s + wave), 24e-6 * (s - wave)};
 }
 
 /// What a bond has given up at the end of a way, by the law of the sweep in small steps [J].
@@ -250,40 +261,28 @@ double given_by_the_law(const Network<2>& network, const MixedWay way)
       state = update.state;
       before = now;
     }
-  return state.more[2];
+  ADD_FAILURE() << "the bond holds";
+  return 0.0;
 }
 
 /// The same by events.
 double given_by_events(const Network<2>& network, const MixedWay way, const unsigned int n_steps)
 {
-  const Link<2>& link = network.links()[0];
-  const double least_step = 1.0 / n_steps;
-  ActiveLink<2> active{0, Motion<2>::Zero(), std::vector<SegmentHistory<2>>(link.n_segments)};
-  SegmentHistory<2>& segment = active.segments[0];
+  ActiveLink<2> active{0, Motion<2>::Zero(), std::vector<SegmentHistory<2>>(network.links()[0].n_segments)};
   for (int k = 1; k <= n_mixed_ways; ++k)
     {
       const auto [opening, slip] = way(double(k) / n_mixed_ways);
-      const Motion<2> motion(opening, slip, 0.0);
-      const auto now = response(network, active, motion);
-      active.motion = motion;
-      if (segment.has_softened())
-        segment.shear_stress = now.segments[0].shear_stress;
-      const bool overloaded =
-        segment.has_softened()
-          ? softening_demand(network, link, 0, segment, opening, segment.shear_stress, least_step).exceeded
-          : is_overloaded(network.bond(link.first_segment), now.segments[0].bond_stress);
-      if (!overloaded)
-        continue;
-      const BondEvent event = loosen(network, active, 0, true, least_step);
-      if (event.broke)
-        return event.released_energy;
+      const auto event = lead_to(network, active, Motion<2>(opening, slip, 0.0), true, n_steps);
+      if (event && event->broke)
+        return event->released_energy;
     }
-  return segment.more[2];
+  ADD_FAILURE() << "the bond holds";
+  return 0.0;
 }
 
 TEST(SofteningRve, ABondLedByOpeningAndShearGivesWhatTheLawOfTheSweepTakes)
 {
-  // An event may come a step of d earlier or later than the law would take it, by which the energy differs at most.
+  // An event may come a step of d earlier or later than the law would take it. The largest difference found is 0.93 / n.
   const Network<2> network(softening_cell<2>(mixed_over_opening));
   for (const auto& [name, way] : {std::pair("at once", &at_once),
                                   {"sheared, then opened", &sheared_then_opened},
