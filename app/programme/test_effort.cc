@@ -24,7 +24,7 @@ namespace
 // runs of one and of four tests, on one and on two threads (benchmarks/load.py has them larger).
 constexpr double bytes_of_running_joint = 1300.0;
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
-constexpr double bytes_of_program = 1.8e8;
+constexpr double bytes_of_program = 4e7;
 /// Of a step: with the cracks of a test past its peak (benchmarks/README.md).
 constexpr double seconds_of_joint_and_step(const int dimension) { return dimension == 2 ? 2e-8 : 5e-8; }
 
