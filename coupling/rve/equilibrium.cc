@@ -10,11 +10,12 @@ namespace feldspar
 {
 namespace
 {
-constexpr unsigned int most_work_intervals = 512; // trapezoids for the way between two events
-constexpr double work_tolerance = 1e-3;           // of what was moved between two events
-constexpr double least_work = 1e-8;               // below this share of what is stored nothing is refined
-constexpr unsigned int most_rounds = 24;          // of damped motion and Newton's method after it
-constexpr unsigned int rounds_before_slip = 2;    // is made history
+constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
+constexpr unsigned int most_work_intervals = 512;
+constexpr double work_tolerance = 1e-3;        // of what was moved between two events
+constexpr double least_work = 1e-8;            // below this share of what is stored nothing is refined
+constexpr unsigned int most_rounds = 24;       // of damped motion and Newton's method after it
+constexpr unsigned int rounds_before_slip = 2; // is made history
 } // namespace
 
 template <int dim>
@@ -169,23 +170,17 @@ NetworkWork Equilibrium<dim>::work_since_event(const unsigned int n_intervals) c
 template <int dim>
 void Equilibrium<dim>::commit()
 {
-  // On a long way contacts open, close and slide: as many intervals as the balance of what was summed apart asks for, and what
-  // more of them change. The balance does not see friction: each interval gives slip what it keeps from the stored energy.
-  const auto is_fine_enough = [&](const NetworkWork& work, const NetworkWork& coarser) {
+  // On a long way contacts open, close and slide: as many intervals as the balance of what was summed apart asks for.
+  const auto is_fine_enough = [&](const NetworkWork& work) {
     const double stored = present.balance.stored_energy - at_event.stored_energy;
     const double moved = std::abs(work.boundary) + std::abs(work.settled) + std::abs(work.slip) + std::abs(stored);
-    const double worst = std::max({std::abs(work.boundary - work.settled - work.slip - stored),
-                                   std::abs(work.boundary - coarser.boundary), std::abs(work.slip - coarser.slip)});
-    return worst <= std::max(work_tolerance * moved, least_work * present.balance.stored_energy);
+    return std::abs(work.boundary - work.settled - work.slip - stored) <=
+           std::max(work_tolerance * moved, least_work * present.balance.stored_energy);
   };
-  NetworkWork work = work_since_event(1);
-  if (!history.active().empty())
-    for (unsigned int n_intervals = 2; n_intervals <= most_work_intervals; n_intervals *= 4)
-      {
-        const NetworkWork coarser = std::exchange(work, work_since_event(n_intervals));
-        if (is_fine_enough(work, coarser))
-          break;
-      }
+  unsigned int n_intervals = history.active().empty() ? 1 : least_work_intervals;
+  NetworkWork work = work_since_event(n_intervals);
+  while (!history.active().empty() && n_intervals < most_work_intervals && !is_fine_enough(work))
+    work = work_since_event(n_intervals *= 4);
   last.work.boundary += work.boundary;
   last.work.settled += work.settled;
   last.work.slip += work.slip;
