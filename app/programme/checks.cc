@@ -24,7 +24,6 @@ Body body_of(const SpecimenParameters& specimen)
     return Body::plane_box;
   return specimen.shape == "cylinder" ? Body::cylinder : Body::box;
 }
-
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)

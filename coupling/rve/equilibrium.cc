@@ -12,7 +12,7 @@ namespace
 {
 constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
 constexpr unsigned int most_work_intervals = 512;
-constexpr double work_tolerance = 1e-3;        // of what was moved between two events
+constexpr double work_tolerance = 1e-3;        // imbalance over what was moved between two events
 constexpr double least_work = 1e-8;            // below this share of what is stored nothing is refined
 constexpr unsigned int most_rounds = 24;       // of damped motion and Newton's method after it
 constexpr unsigned int rounds_before_slip = 2; // is made history
