@@ -126,6 +126,7 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
                         const ZeroForce zero_force, EnergyLedger& ledger)
 {
   const auto& radius = body.grains.radius;
+  const bool placing = zero_force == ZeroForce::as_placed;
   for (std::size_t w = 0; w < walls.size(); ++w)
     {
       const auto& before = touches[w]; // ascending, as `near` will be
@@ -134,19 +135,22 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
       for (std::uint32_t i = 0; i < n_own; ++i)
         {
           const double distance = distance_from(body, walls[w], i);
-          if (distance > radius[i] + skin || !is_above(body, walls[w], i))
-            continue;
           for (; known != before.end() && known->grain < i; ++known)
             ledger.slip_of_lost_contacts += known->slip_energy;
           const bool is_known = known != before.end() && known->grain == i;
+          const bool is_bedded = is_known ? known->zero_distance > radius[i]
+                                          : placing && distance > radius[i] && distance <= radius[i] + walls[w].bed;
+          if ((distance > radius[i] + skin && !is_bedded) || !is_above(body, walls[w], i))
+            continue;
           if (!is_known && is_past(body, walls[w], i))
             continue;
           if (is_known)
             near.push_back(*known++);
+          else if (is_bedded)
+            near.push_back({i, distance});
           else
             // A grain that came from beside a plate may lie deeper than its face: it is not thrown out.
-            near.push_back(
-              {i, zero_force == ZeroForce::as_placed || walls[w].ends() ? std::min(radius[i], distance) : radius[i]});
+            near.push_back({i, placing || walls[w].ends() ? std::min(radius[i], distance) : radius[i]});
         }
       for (; known != before.end(); ++known)
         ledger.slip_of_lost_contacts += known->slip_energy;

@@ -25,6 +25,7 @@ struct Wall
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
+  double bed = 0.0;            ///< thickness of the plaster that fills the gaps below grains at the start [m]
   /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
@@ -58,7 +59,7 @@ template <int dim>
 struct WallTouch
 {
   std::uint32_t grain;
-  double zero_distance; ///< distance from the wall below which it presses [m]
+  double zero_distance; ///< distance from the wall below which it presses [m]; beyond its radius on a bed
   double overlap = 0.0; ///< [m]
   std::array<double, dim - 1> shear_force{};
   double slip_energy = 0.0;

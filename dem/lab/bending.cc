@@ -14,13 +14,19 @@ namespace feldspar
 {
 namespace
 {
-/// A smooth plate about a place along the first axis, where grains of the body lie against it.
+/// A smooth plate about a place along the first axis, where grains of the body lie against it. In the plane it is wide
+/// enough to meet a grain and bears the one that stands out most. In space it is a line of grains that crosses the
+/// thickness, bedded: on the one that stands out most the body would tilt until others bear.
 template <int dim>
 Wall roller(const Specimen<dim>& body, const double place, const double side)
 {
   constexpr int axis = dim - 1;
-  const double half_width = 2.0 * body.report.mean_radius;
-  Wall plate{.axis = axis, .side = side, .position = side * std::numeric_limits<double>::infinity()};
+  const double mean_radius = body.report.mean_radius;
+  const double half_width = dim == 2 ? 2.0 * mean_radius : mean_radius;
+  Wall plate{.axis = axis,
+             .side = side,
+             .position = side * std::numeric_limits<double>::infinity(),
+             .bed = dim == 2 ? 0.0 : mean_radius};
   plate.extent = {place - half_width, place + half_width};
   for (std::size_t i = 0; i < body.grains.size(); ++i)
     if (const double x = body.grains.position[0][i]; x >= plate.extent[0] && x <= plate.extent[1])

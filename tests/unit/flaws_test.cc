@@ -323,6 +323,28 @@ TEST(Plates, ThrowOutNoGrainThatComesFromBeside)
     }
 }
 
+TEST(Plates, OnABedBearEveryGrainAsItLies)
+{
+  // One grain touches the plate, one lies within the bed, one above it; all with the same stiffness. The plate sinks by
+  // more than contacts are looked for, comes back, and rises by less than the third grain's gap.
+  Specimen<2> specimen = placed_specimen({0.1, 0.1, 0.1}, {{{0.2, 0.5, 0.8}, {0.1, 0.14, 0.17}}});
+  Dynamics<2> dynamics(specimen, {}, ZeroForce::as_placed);
+  const std::size_t wall = dynamics.add_wall({.axis = 1, .side = 1.0, .velocity = -10.0, .bed = 0.05});
+  while (dynamics.wall(wall).position > -0.2)
+    {
+      dynamics.step();
+      ASSERT_EQ(dynamics.wall_force(wall), 0.0);
+    }
+  dynamics.wall(wall).velocity = 10.0;
+  while (dynamics.wall_force(wall) == 0.0)
+    dynamics.step();
+  const auto& force = dynamics.specimen().grains.force[1];
+  EXPECT_NEAR(dynamics.wall(wall).position, 0.0, 1.01 * 10.0 * dynamics.time_step());
+  EXPECT_GT(force[0], 0.0);
+  EXPECT_NEAR(force[1], force[0], 1e-9 * force[0]); // the same way after the same rounding of positions
+  EXPECT_EQ(force[2], 0.0);
+}
+
 TEST(GrainStress, HasTheMeanStressOfTheBodyAsItsMean)
 {
   // Each contact's f ⊗ l is shared out between its two grains, so that both sums are the same but for round-off.

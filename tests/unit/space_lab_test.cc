@@ -221,6 +221,32 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
   EXPECT_NEAR(beam[2], 12e-3 / 4.4, 1e-15);
 }
 
+// A roller that bore one sphere would let the half disc tilt about it.
+TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
+{
+  SpecimenParameters parameters;
+  parameters.dimension = 3;
+  parameters.width = 0.012;
+  parameters.height = 0.012;
+  parameters.porosity = 0.40;
+  FlatJointParameters flat_joint;
+  flat_joint.installation_gap_ratio = 0.05;
+  const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
+  auto test = (*semicircular_bending.set_up<3>())(specimen, 0.0, quick_in_space(), {});
+  auto& dynamics = test.dynamics;
+  const Wall& upper = dynamics.walls().back();
+  const double start = upper.position;
+  while (start - upper.position < 2e-6)
+    dynamics.step();
+  ASSERT_EQ(dynamics.walls().size(), 3u);
+  for (std::size_t wall = 0; wall < 3; ++wall)
+    {
+      const double of_one = Walls<3>::stiffness(dynamics.specimen(), specimen.report.mean_radius);
+      EXPECT_GT(dynamics.wall_stiffness_in_touch(wall), 4.0 * of_one);
+    }
+  EXPECT_NEAR(dynamics.wall_force(0), dynamics.wall_force(1), 0.2 * dynamics.wall_force(0));
+}
+
 TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
 {
   const auto specimen = small_cylinder();
