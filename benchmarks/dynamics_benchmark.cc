@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <utility>
 
 namespace feldspar
 {
@@ -21,10 +22,10 @@ namespace
 {
 /// A specimen whose making takes no time: a hexagonal lattice of uneven grains, jointed to a coordination number of 4.2,
 /// sheared, so that the joints carry load and some of them break.
-const Specimen<2>& lattice(const std::size_t n_grains)
+const Specimen<2>& lattice(const std::size_t n_grains, const double bond_strength_factor = 1.0)
 {
-  static std::map<std::size_t, Specimen<2>> made;
-  if (const auto found = made.find(n_grains); found != made.end())
+  static std::map<std::pair<std::size_t, double>, Specimen<2>> made;
+  if (const auto found = made.find({n_grains, bond_strength_factor}); found != made.end())
     return found->second;
 
   Random random(1, RandomStream::radii);
@@ -45,10 +46,13 @@ const Specimen<2>& lattice(const std::size_t n_grains)
   specimen.grains.set_density(3200.0, specimen.thickness);
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
+  for (double* const strength : {&flat_joint.bond_tensile_strength, &flat_joint.bond_tensile_strength_deviation,
+                                 &flat_joint.bond_cohesion, &flat_joint.bond_cohesion_deviation})
+    *strength *= bond_strength_factor;
   install_joints(specimen, flat_joint);
   for (std::size_t i = 0; i < n_grains; ++i)
     specimen.grains.velocity[1][i] = -1.0 * specimen.grains.position[1][i];
-  return made.emplace(n_grains, std::move(specimen)).first->second;
+  return made.emplace(std::pair(n_grains, bond_strength_factor), std::move(specimen)).first->second;
 }
 
 void report(benchmark::State& state, const std::size_t n_joints)
@@ -61,6 +65,17 @@ void report(benchmark::State& state, const std::size_t n_joints)
 void engine_step(benchmark::State& state)
 {
   Dynamics<2> dynamics(lattice(std::size_t(state.range(0))), {}, ZeroForce::as_placed);
+  for (auto _ : state)
+    dynamics.step();
+  report(state, dynamics.specimen().joints.size());
+}
+
+/// The same lattice without bonds: every segment is broken in the first steps, and those in touch slide.
+void engine_step_broken(benchmark::State& state)
+{
+  Dynamics<2> dynamics(lattice(std::size_t(state.range(0)), 0.0), {}, ZeroForce::as_placed);
+  for (int k = 0; k < 200; ++k)
+    dynamics.step();
   for (auto _ : state)
     dynamics.step();
   report(state, dynamics.specimen().joints.size());
@@ -98,6 +113,7 @@ BENCHMARK(plain_sweep)->Arg(2000)->Arg(20000)->Arg(200000)->UseRealTime();
 BENCHMARK(engine_sweep)->Arg(2000)->Arg(20000)->Arg(200000)->UseRealTime();
 BENCHMARK(plain_step)->Arg(2000)->Arg(20000)->Arg(200000)->UseRealTime();
 BENCHMARK(engine_step)->Arg(2000)->Arg(20000)->Arg(200000)->UseRealTime();
+BENCHMARK(engine_step_broken)->Arg(2000)->Arg(200000)->UseRealTime();
 } // namespace
 } // namespace feldspar
 

@@ -4,8 +4,8 @@
     benchmarks/record.py BUILD PROGRAM ...
 
 BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. PROGRAM: dynamics_benchmark, space_benchmark,
-representative_volume_benchmark, factor_benchmark, explicit_volume_benchmark or contact_models_benchmark. Each gets results/PROGRAM.json
-beside this file (with - for _): version, compiler flags and processor, and of each benchmark the least processor time of
+representative_volume_benchmark, factor_benchmark, explicit_volume_benchmark or contact_models_benchmark. Each gets
+results/PROGRAM-INSTRUCTIONS.json beside this file (with - for _; avx2 or avx512, as the processor has): version, compiler flags and processor, and of each benchmark the least processor time of
 three runs with its counters. On a machine that does nothing else.
 """
 
@@ -52,7 +52,8 @@ def main():
                 for name, run in least.items()
             },
         }
-        file = os.path.join(HERE, "results", program.replace("_", "-") + ".json")
+        name = f"{program.replace('_', '-')}-{compare.vector_instructions()}.json"
+        file = os.path.join(HERE, "results", name)
         with open(file, "w", encoding="utf-8") as out:
             json.dump(result, out, indent=2)
             out.write("\n")

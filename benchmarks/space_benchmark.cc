@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <utility>
 
 namespace feldspar
 {
@@ -21,10 +22,10 @@ namespace
 {
 /// A specimen whose making takes no time: a face-centred lattice of uneven grains, jointed to a coordination number near
 /// that of a packing, with waves running through it, so that the joints carry load.
-const Specimen<3>& lattice(const std::size_t n_grains)
+const Specimen<3>& lattice(const std::size_t n_grains, const double bond_strength_factor = 1.0)
 {
-  static std::map<std::size_t, Specimen<3>> made;
-  if (const auto found = made.find(n_grains); found != made.end())
+  static std::map<std::pair<std::size_t, double>, Specimen<3>> made;
+  if (const auto found = made.find({n_grains, bond_strength_factor}); found != made.end())
     return found->second;
 
   Random random(1, RandomStream::radii);
@@ -59,10 +60,13 @@ const Specimen<3>& lattice(const std::size_t n_grains)
   specimen.grains.set_density(3200.0, specimen.thickness);
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 7.4;
+  for (double* const strength : {&flat_joint.bond_tensile_strength, &flat_joint.bond_tensile_strength_deviation,
+                                 &flat_joint.bond_cohesion, &flat_joint.bond_cohesion_deviation})
+    *strength *= bond_strength_factor;
   install_joints(specimen, flat_joint);
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     specimen.grains.velocity[2][i] = -1.0 * specimen.grains.position[2][i];
-  return made.emplace(n_grains, std::move(specimen)).first->second;
+  return made.emplace(std::pair(n_grains, bond_strength_factor), std::move(specimen)).first->second;
 }
 
 /// Bytes a sweep reads and writes for one joint, each array once; gathers of grains come on top.
@@ -100,6 +104,17 @@ void space_step(benchmark::State& state)
 {
   Dynamics<3> dynamics(lattice(std::size_t(state.range(0))), {}, ZeroForce::as_placed);
   dynamics.step();
+  for (auto _ : state)
+    dynamics.step();
+  report(state, dynamics.specimen().joints);
+}
+
+/// The same lattice without bonds: every element is broken in the first steps, and those in touch slide.
+void space_step_broken(benchmark::State& state)
+{
+  Dynamics<3> dynamics(lattice(std::size_t(state.range(0)), 0.0), {}, ZeroForce::as_placed);
+  for (int k = 0; k < 50; ++k)
+    dynamics.step();
   for (auto _ : state)
     dynamics.step();
   report(state, dynamics.specimen().joints);
@@ -148,6 +163,7 @@ int main(int argc, char** argv)
   timed(benchmark::RegisterBenchmark("triad", triad));
   timed(benchmark::RegisterBenchmark("space_sweep", space_sweep))->Arg(5000)->Arg(50000)->Arg(400000);
   timed(benchmark::RegisterBenchmark("space_step", space_step))->Arg(5000)->Arg(50000)->Arg(400000);
+  timed(benchmark::RegisterBenchmark("space_step_broken", space_step_broken))->Arg(5000)->Arg(50000);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

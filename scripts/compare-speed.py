@@ -47,6 +47,13 @@ def processor():
         return re.search(r"model name\s*: (.*)", info.read()).group(1)
 
 
+def vector_instructions():
+    """What our packs use of a processor, as names of files of its figures have it: avx512, avx2 or base."""
+    with open("/proc/cpuinfo") as info:
+        has = set(re.search(r"flags\s*: (.*)", info.read()).group(1).split())
+    return "avx512" if "avx512f" in has else "avx2" if "avx2" in has else "base"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old")
@@ -75,7 +82,13 @@ def main():
     worst = max(ratios.values(), default=0.0)
     print(f"the slowest: {worst:.3f}")
     if wanted.json:
-        made = {"processor": processor(), "flags": flags(wanted.new), "old": version(wanted.old), "new": version(wanted.new)}
+        made = {
+            "processor": processor(),
+            "vector_instructions": vector_instructions(),
+            "flags": flags(wanted.new),
+            "old": version(wanted.old),
+            "new": version(wanted.new),
+        }
         with open(wanted.json, "w") as out:
             json.dump({**made, "new_over_old": ratios}, out, indent=2)
             out.write("\n")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """A step on the same grains and joined pairs by Feldspar and by the peers that Debian has, in one run.
 
-    python3 benchmarks/peers/peers.py BUILD          writes benchmarks/results/peers.json and its table in the README
-    python3 benchmarks/peers/peers.py --table        prints the table of the committed figures
+    python3 benchmarks/peers/peers.py BUILD                  runs them, and writes the table in the README
+    python3 benchmarks/peers/peers.py --table INSTRUCTIONS   prints the table of the committed figures
 
-BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. The peers come from the packages yade and esys-particle; one
+INSTRUCTIONS: avx2 or avx512, of the processor; the figures are in benchmarks/results/peers-INSTRUCTIONS.json. BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. The peers come from the packages yade and esys-particle; one
 that is missing is refused. Programs run in turns, least time of three; on a machine that does nothing else, some half an
 hour.
 """
@@ -19,7 +19,6 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
-RESULTS = os.path.join(ROOT, "benchmarks", "results", "peers.json")
 README = os.path.join(ROOT, "benchmarks", "README.md")
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 compare = __import__("compare-speed")
@@ -121,19 +120,22 @@ def table(result):
 
 
 def main():
-    if len(sys.argv) != 2:
+    is_shown = sys.argv[1:2] == ["--table"]
+    if len(sys.argv) != (3 if is_shown else 2):
         sys.exit(__doc__)
-    if sys.argv[1] != "--table":
+    instructions = sys.argv[2] if is_shown else compare.vector_instructions()
+    results = os.path.join(ROOT, "benchmarks", "results", f"peers-{instructions}.json")
+    if not is_shown:
         result = measured(sys.argv[1])
-        with open(RESULTS, "w", encoding="utf-8") as out:
+        with open(results, "w", encoding="utf-8") as out:
             json.dump(result, out, indent=1)
             out.write("\n")
         with open(README, encoding="utf-8") as file:
             text = file.read()
-        marked = re.compile(r"(<!-- peers -->\n).*?(<!-- /peers -->)", re.DOTALL)
+        marked = re.compile(rf"(<!-- peers {instructions} -->\n).*?(<!-- /peers {instructions} -->)", re.DOTALL)
         with open(README, "w", encoding="utf-8") as file:
             file.write(marked.sub(lambda found: found[1] + table(result) + found[2], text))
-    with open(RESULTS, encoding="utf-8") as file:
+    with open(results, encoding="utf-8") as file:
         print(table(json.load(file)), end="")
 
 

@@ -76,8 +76,8 @@ TEST(ContactModels, StandInOneTable)
   row("R² of Hoek and Brown's curve, s = 1 and a = 0.5",
       [](const json& of) { return number(hoek_brown(of)["r_squared"], 1.0, 4); });
 
-  const auto times = json::parse(
-    content(std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/results/contact-models-benchmark.json"))["benchmarks"];
+  const auto times = json::parse(content(std::string(FELDSPAR_SOURCE_DIR) +
+                                         "/benchmarks/results/contact-models-benchmark-avx512.json"))["benchmarks"];
   std::string relative = "| time of an intact step, over that of the flat joint |";
   for (const char* const model : {"parallel_bond", "clumps", "grain_based", "flat_joint"})
     relative += fmt::format(" {:.1f} |", times[std::string("step/") + model]["processor_time_ns"].get<double>() /

@@ -335,7 +335,7 @@ TEST(Example, BenchmarksShowTheCommittedFactors)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
   const std::string page = content(folder + "README.md");
-  const auto times = nlohmann::json::parse(content(folder + "results/factor-benchmark.json"))["benchmarks"];
+  const auto times = nlohmann::json::parse(content(folder + "results/factor-benchmark-avx512.json"))["benchmarks"];
   const auto shown = [&](const std::string& body, const int dim, const int width) {
     const auto time = [&](const std::string& name) {
       return times[fmt::format("{}>/{}", name, width)]["processor_time_ns"].get<double>();
@@ -599,6 +599,17 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
     }
   for (std::size_t k = 0; k < bodies.size(); ++k)
     shown(over_root[k] + longer[k]);
+
+  // The same bodies of spheres and of discs.
+  for (const auto& [grains, name] : {std::pair("spheres", "in-space"), {"discs", "in-plane"}})
+    {
+      const auto study = results_of("toughness", name);
+      for (const auto& [radius, number] : {std::pair("0.88", 1), {"1.24", 2}})
+        shown(
+          fmt::format("| {} | {} | {} |{}", grains, radius,
+                      mean_and_deviation(study, group_of(study, "direct_tension", number), "peak_stress_Pa", 1e6, 1),
+                      cells_of_toughness(study, number, {bodies[0].kind, bodies[1].kind, bodies[2].kind})));
+    }
 
   const auto bent = results_of("toughness", "softening");
   const auto pressed = results_of("toughness", "softening-strength");
