@@ -675,13 +675,22 @@ std::string output_of_python(const std::string& script, const std::string& argum
 }
 
 // Other programs are in no package that the tests ask for: the tables of the committed figures are all that can be held.
-class Peers : public ::testing::TestWithParam<const char*>
+struct BesidePeers
 {
-protected:
-  const std::string instructions = GetParam();
+  const char* instructions;
+  double times_as_fast_in_plane, times_as_fast_in_space; ///< as the fastest other program, in the words of the page
 };
 
-INSTANTIATE_TEST_SUITE_P(Processors, Peers, ::testing::Values("avx512"));
+void PrintTo(const BesidePeers& of, std::ostream* out) { *out << of.instructions; }
+
+class Peers : public ::testing::TestWithParam<BesidePeers>
+{
+protected:
+  const std::string instructions = GetParam().instructions;
+};
+
+INSTANTIATE_TEST_SUITE_P(Processors, Peers,
+                         ::testing::Values(BesidePeers{"avx512", 24.0, 10.0}, BesidePeers{"avx2", 19.0, 6.0}));
 
 TEST_P(Peers, StandInTheReadmeWithTheCommittedFigures)
 {
@@ -690,6 +699,17 @@ TEST_P(Peers, StandInTheReadmeWithTheCommittedFigures)
   const std::string mark = "peers " + instructions + " -->\n";
   EXPECT_NE(text_of(root / "benchmarks/README.md").find("<!-- " + mark + table + "<!-- /" + mark), std::string::npos)
     << table;
+  const auto bodies =
+    nlohmann::json::parse(text_of(root / ("benchmarks/results/peers-" + instructions + ".json")))["bodies"];
+  for (const auto& [body, times_as_fast] :
+       {std::pair("plane", GetParam().times_as_fast_in_plane), {"space", GetParam().times_as_fast_in_space}})
+    {
+      const auto taken = bodies[body]["nanoseconds_a_bond_and_step"];
+      double fastest = std::numeric_limits<double>::infinity();
+      for (const char* const other : {"cohesive", "jcfpm", "esys"})
+        fastest = std::min(fastest, taken[other]["1"].get<double>());
+      EXPECT_NEAR(fastest / taken["flat-joint"]["1"].get<double>(), times_as_fast, 0.5) << body;
+    }
 }
 
 /// How many rows of tables the study of an example prints, each of which must stand in its README.
