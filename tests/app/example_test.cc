@@ -632,10 +632,18 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
     {
       const auto study = results_of("toughness", name);
       for (const auto& [radius, number] : {std::pair("0.88", 1), {"1.24", 2}})
-        shown(
-          fmt::format("| {} | {} | {} |{}", grains, radius,
-                      mean_and_deviation(study, group_of(study, "direct_tension", number), "peak_stress_Pa", 1e6, 1),
-                      cells_of_toughness(study, number, {bodies[0].kind, bodies[1].kind, bodies[2].kind})));
+        {
+          const std::string pulled = group_of(study, "direct_tension", number);
+          constexpr double width = 0.050; // of the specimens
+          const double mean_radius = 0.5 * width / mean_of(study, pulled, "resolution");
+          const double estimate = mean_of(study, pulled, "peak_stress_Pa") * std::sqrt(std::numbers::pi * mean_radius);
+          std::string row = fmt::format("| {} | {} | {} | {:.2f} |", grains, radius,
+                                        mean_and_deviation(study, pulled, "peak_stress_Pa", 1e6, 1), estimate / 1e6);
+          for (std::size_t k = 0; k < 3; ++k)
+            row += fmt::format(" {} |", mean_and_deviation(study, group_of(study, bodies[k].kind, number),
+                                                           "fracture_toughness_Pa_sqrt_m", 1e6, 2));
+          shown(row);
+        }
     }
 
   const auto bent = results_of("toughness", "softening");
