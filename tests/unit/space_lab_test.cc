@@ -141,17 +141,23 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   EXPECT_NEAR(stress(2, 2), -10e6, 0.03 * 30e6);
 }
 
-TEST(SpaceLab, SplitsADiscAlongTheLoad)
+/// Table 1 in a small body of this size [m].
+Specimen<3> granite_in_space(const std::string& shape, const double width, const double height)
 {
-  SpecimenParameters parameters;
-  parameters.dimension = 3;
-  parameters.shape = "cylinder";
-  parameters.width = 0.010;
-  parameters.height = 0.008;
-  parameters.porosity = 0.40;
+  SpecimenParameters wanted;
+  wanted.dimension = 3;
+  wanted.shape = shape;
+  wanted.width = width;
+  wanted.height = height;
+  wanted.porosity = 0.40;
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
-  const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<3>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+}
+
+TEST(SpaceLab, SplitsADiscAlongTheLoad)
+{
+  const auto specimen = granite_in_space("cylinder", 0.010, 0.008);
   LabTest<3> test({brazilian}, specimen, quick_in_space(), {});
   const auto outcome = run(test);
   const auto& record = outcome.record;
@@ -224,14 +230,7 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
 // A roller that bore one sphere would let the half disc tilt about it.
 TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
 {
-  SpecimenParameters parameters;
-  parameters.dimension = 3;
-  parameters.width = 0.012;
-  parameters.height = 0.012;
-  parameters.porosity = 0.40;
-  FlatJointParameters flat_joint;
-  flat_joint.installation_gap_ratio = 0.05;
-  const auto specimen = make_specimen<3>(parameters, flat_joint, {}, 1, [](std::string_view, double) {});
+  const auto specimen = granite_in_space("box", 0.012, 0.012);
   auto test = (*semicircular_bending.set_up<3>())(specimen, 0.0, quick_in_space(), {});
   auto& dynamics = test.dynamics;
   const Wall& upper = dynamics.walls().back();
