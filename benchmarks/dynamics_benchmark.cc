@@ -71,7 +71,7 @@ void engine_step(benchmark::State& state)
   report(state, dynamics.specimen().joints.size());
 }
 
-/// The same lattice without bonds: every segment is broken in the first steps, and those in touch slide.
+/// The same lattice, its bonds without tensile strength and cohesion: they break as soon as they are pulled or slide.
 void engine_step_broken(benchmark::State& state)
 {
   Dynamics<2> dynamics(lattice(std::size_t(state.range(0)), 0.0), {}, ZeroForce::as_placed);

@@ -26,6 +26,7 @@ def runs(build, program):
 
 
 def main():
+    os.environ.setdefault("FELDSPAR_THREADS", "1")  # as the programs have it
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     build, programs = sys.argv[1], sys.argv[2:]
@@ -43,7 +44,7 @@ def main():
             "feldspar_version": made_by,
             "flags": compare.flags(build),
             "processor": compare.processor(),
-            "threads": os.environ.get("FELDSPAR_THREADS", "all"),
+            "threads": os.environ["FELDSPAR_THREADS"],
             "benchmarks": {
                 name: {
                     f"processor_time_{run['time_unit']}": run["cpu_time"],
@@ -52,7 +53,7 @@ def main():
                 for name, run in least.items()
             },
         }
-        name = f"{program.replace('_', '-')}-{compare.vector_instructions()}.json"
+        name = f"{program.replace('_', '-')}-{compare.vector_instructions(build)}.json"
         file = os.path.join(HERE, "results", name)
         with open(file, "w", encoding="utf-8") as out:
             json.dump(result, out, indent=2)

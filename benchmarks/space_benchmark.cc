@@ -109,7 +109,7 @@ void space_step(benchmark::State& state)
   report(state, dynamics.specimen().joints);
 }
 
-/// The same lattice without bonds: every element is broken in the first steps, and those in touch slide.
+/// The same lattice, its bonds without tensile strength and cohesion: they break as soon as they are pulled or slide.
 void space_step_broken(benchmark::State& state)
 {
   Dynamics<3> dynamics(lattice(std::size_t(state.range(0)), 0.0), {}, ZeroForce::as_placed);

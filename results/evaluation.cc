@@ -276,9 +276,12 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
       results.fracture_toughness = results.fracture_energy = unknown("the test has no notch");
       return;
     }
-  results.fracture_toughness = record.notch->is_valid
-                                 ? known(record.notch->intensity_over_stress * branch.stress(branch.rows.back()))
-                                 : unknown("the notch lies outside of the range of the formula");
+  results.fracture_toughness =
+    record.notch->is_valid
+      ? known(record.notch->intensity_over_stress * branch.stress(branch.rows.back()))
+      : unknown(
+          "the body lies outside of the range of the formula: a half disc has a toughness with Tests/Notch ratio from "
+          "0.4 to 0.6, a plate that is 1.2 times as long between its grips as it is wide");
   constexpr double small_rest = 0.1; // of the peak: what is left of the work then is less than a hundredth
   double work = 0.0;
   const auto& curve = record.curve;

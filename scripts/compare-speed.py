@@ -38,8 +38,8 @@ def version(build):
 def flags(build):
     with open(os.path.join(build, "CMakeCache.txt")) as cache:
         entries = dict(re.findall(r"^(\w+):\w+=(.*)$", cache.read(), re.MULTILINE))
-    native = "-march=native" if entries.get("FELDSPAR_NATIVE") == "ON" else ""
-    return " ".join(f"{entries.get('CMAKE_CXX_FLAGS', '')} {native}".split())
+    level = entries.get("FELDSPAR_LEVEL") or ("native" if entries.get("FELDSPAR_NATIVE") == "ON" else "")
+    return " ".join(f"{entries.get('CMAKE_CXX_FLAGS', '')} {level and '-march=' + level}".split())
 
 
 def processor():
@@ -47,8 +47,12 @@ def processor():
         return re.search(r"model name\s*: (.*)", info.read()).group(1)
 
 
-def vector_instructions():
-    """What our packs use of a processor, as names of files of its figures have it: avx512, avx2 or base."""
+def vector_instructions(build):
+    """Those that the packs of a build use, as names of files of figures have it: avx512, avx2 or base."""
+    chosen = re.search(r"-march=(\S+)", flags(build))
+    levels = {"x86-64-v3": "avx2", "x86-64-v4": "avx512"}
+    if not chosen or chosen.group(1) != "native":
+        return levels.get(chosen.group(1) if chosen else "", "base")
     with open("/proc/cpuinfo") as info:
         has = set(re.search(r"flags\s*: (.*)", info.read()).group(1).split())
     return "avx512" if "avx512f" in has else "avx2" if "avx2" in has else "base"
@@ -84,7 +88,7 @@ def main():
     if wanted.json:
         made = {
             "processor": processor(),
-            "vector_instructions": vector_instructions(),
+            "vector_instructions": vector_instructions(wanted.new),
             "flags": flags(wanted.new),
             "old": version(wanted.old),
             "new": version(wanted.new),

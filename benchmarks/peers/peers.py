@@ -102,6 +102,10 @@ def measured(build):
     return result
 
 
+def three_digits(value):
+    return f"{float(f'{value:.3g}'):g}"
+
+
 def table(result):
     lines = [
         "| body | program and bond | segments of a bond | one core [ns a bond] | two cores [ns a bond] | bonds a second and core | over Feldspar's flat joint |",
@@ -113,8 +117,8 @@ def table(result):
             segments = figures["segments_of_a_joint"].get(program, 1)
             one = taken[program]["1"]
             lines.append(
-                f"| {figures['grains']} {BODIES[body]}, {figures['joints']} bonds | {name} | {segments} | {one:.3g} | "
-                f"{taken[program]['2']:.3g} | {1e3 / one:.3g} million | {one / taken['flat-joint']['1']:.2g} |"
+                f"| {figures['grains']} {BODIES[body]}, {figures['joints']} bonds | {name} | {segments} | {three_digits(one)} | "
+                f"{three_digits(taken[program]['2'])} | {1e3 / one:.3g} million | {one / taken['flat-joint']['1']:.2g} |"
             )
     return "\n".join(lines) + "\n"
 
@@ -123,7 +127,7 @@ def main():
     is_shown = sys.argv[1:2] == ["--table"]
     if len(sys.argv) != (3 if is_shown else 2):
         sys.exit(__doc__)
-    instructions = sys.argv[2] if is_shown else compare.vector_instructions()
+    instructions = sys.argv[2] if is_shown else compare.vector_instructions(sys.argv[1])
     results = os.path.join(ROOT, "benchmarks", "results", f"peers-{instructions}.json")
     if not is_shown:
         result = measured(sys.argv[1])
@@ -133,6 +137,8 @@ def main():
         with open(README, encoding="utf-8") as file:
             text = file.read()
         marked = re.compile(rf"(<!-- peers {instructions} -->\n).*?(<!-- /peers {instructions} -->)", re.DOTALL)
+        if not marked.search(text):
+            sys.exit(f"{README} has no place for the table of {instructions}; the figures are in {results}")
         with open(README, "w", encoding="utf-8") as file:
             file.write(marked.sub(lambda found: found[1] + table(result) + found[2], text))
     with open(results, encoding="utf-8") as file:

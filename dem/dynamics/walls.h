@@ -25,7 +25,7 @@ struct Wall
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
-  double bed = 0.0;            ///< thickness of the plaster that fills the gaps below grains at the start [m]
+  double bed = 0.0;            ///< plaster: fills gaps of up to this to grains that are placed, at the first search [m]
   /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
@@ -92,7 +92,8 @@ public:
         visit(walls[w], touch);
   }
 
-  /// Notes the grains within `skin` [m] of each wall; images, which stand behind the body's own, are none of them.
+  /// Notes the grains within `skin` [m] of each wall, and on a bed those that were placed there; images, which stand behind
+  /// the body's own, are none of them.
   void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
   /// Forgets them.
   void clear();

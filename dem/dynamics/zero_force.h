@@ -6,6 +6,6 @@ namespace feldspar
 enum class ZeroForce
 {
   at_touch, ///< where the surfaces touch
-  as_placed ///< overlaps that are there at the start count as zero force
+  as_placed ///< overlaps that are there at the start count as zero force, and gaps that a bed fills
 };
 } // namespace feldspar

@@ -46,10 +46,11 @@ inline std::vector<Entry<TestParameters>> test_entries()
                     "of the deflection over the depth of the bent body; magnitude", of_grains),
     entry::number("Bending sampling strain", &P::bending_sampling_strain, sampling,
                   "deflection over depth between two rows of the curve", of_grains),
-    entry::number("Notch ratio", &P::notch_ratio, {'[', 0.05, 0.8, ']'},
-                  "depth of the notch of a bent body over that of the body (over the radius of a half disc); of a "
-                  "centre-cracked plate the whole length of its crack over its width",
-                  of_grains),
+    entry::number(
+      "Notch ratio", &P::notch_ratio, {'[', 0.05, 0.8, ']'},
+      "depth of the notch of a bent body over that of the body (over the radius of a half disc, "
+      "which has a toughness from 0.4 to 0.6 only); of a centre-cracked plate the whole length of its crack over its width",
+      of_grains),
     entry::quantity("Shear strain rate", &P::shear_strain_rate, Measure::rate, "1/s", ranges::above_zero,
                     "of the shear displacement over the length of the plane; magnitude", of_grains),
     entry::number("Shear sampling strain", &P::shear_sampling_strain, sampling,
@@ -82,8 +83,9 @@ inline std::vector<Entry<TestParameters>> test_entries()
       "on the second pair of sides of a box in three dimensions (true triaxial compression); none: "
       "the confinement",
       of_box),
-    entry::number("Brazilian length ratio", &P::brazilian_length_ratio, ranges::above_zero,
-                  "length of the disc over its diameter, in three dimensions", in_space),
+    entry::number(
+      "Brazilian length ratio", &P::brazilian_length_ratio, ranges::above_zero,
+      "length of the disc, or half disc, that is cut from a cylinder over its diameter, in three dimensions", in_space),
     entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen",
                   of_grains),
     entry::number("Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},

@@ -2,6 +2,19 @@
 
 namespace feldspar
 {
+namespace
+{
+// Of a notched body, over its depth or length. Rock breaks before a hundredth, and a body that rocks at first soon after it.
+constexpr double farthest_without_crack = 0.05;
+
+bool is_whole(const CurveSample& row) { return row.n_tension_cracks + row.n_shear_cracks == 0; }
+} // namespace
+
+bool StopRule::bears_nothing(const CurveSample& row, const TestParameters& wanted) const
+{
+  return needs_crack && is_whole(row) && !wanted.stop_strain && kind.strain(row) >= farthest_without_crack;
+}
+
 bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure, const TestParameters& wanted)
 {
   const double strain = kind.strain(row);
@@ -12,11 +25,10 @@ bool StopRule::is_met_by(const CurveSample& row, const double confining_pressure
   constexpr double but_for_round_off = 1.0 - 1e-9;
   if (strain >= but_for_round_off * wanted.stop_strain.value_or(largest_axial_strain))
     return true;
-  const bool is_whole = row.n_tension_cracks + row.n_shear_cracks == 0;
-  if (needs_crack && is_whole && !wanted.stop_strain)
-    return false;
+  if (needs_crack && is_whole(row) && !wanted.stop_strain)
+    return bears_nothing(row, wanted);
   // Waves ripple the first rows; a peak without a crack, of a specimen that still carries most of it, is not the rock's.
-  if (is_whole && deviator > 0.9 * peak.highest)
+  if (is_whole(row) && deviator > 0.9 * peak.highest)
     return false;
   const bool is_far_beyond_peak = strain >= wanted.stop_strain_over_peak_strain * strain_at_peak;
   if (wanted.stop_stress_over_peak)

@@ -18,6 +18,9 @@ struct StopRule
   /// For a body that swings at first: its test does not end before a bond has broken, except at a wanted strain.
   bool needs_crack = false;
 
+  /// Whether such a body, loaded without a wanted strain, was moved so far without a crack that it bears nothing.
+  bool bears_nothing(const CurveSample& row, const TestParameters& wanted) const;
+
   /// Whether this row is the last. confining_pressure in Pa, compression positive.
   bool is_met_by(const CurveSample& row, double confining_pressure, const TestParameters& wanted);
 

@@ -5,6 +5,8 @@
 #include "dem/specimen/rigid_groups.h"
 #include "dem/storage/segment_place.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -129,6 +131,11 @@ bool LabTest<dim>::advance(const std::function<void()>& check)
       load_to_next_row(check);
       ended = set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment())
                                          : stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
+      if (stop_rule.bears_nothing(record.curve.back(), wanted))
+        record.failure = fmt::format(
+          "no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is a "
+          "few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum radius)",
+          100.0 * std::abs(record.curve.back().axial_strain));
     }
   catch (const Runaway& error)
     {

@@ -28,9 +28,11 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
                   "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
                   "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
                   of_body),
-    entry::quantity("Width", &P::width, Measure::length, "mm", ranges::above_zero,
-                    "of the box or cell, across the axis of the tests; at least four radii of the largest grain",
-                    of_rock),
+    entry::quantity(
+      "Width", &P::width, Measure::length, "mm", ranges::above_zero,
+      "of the box or cell, across the axis of the tests, and in space its depth too; at least four radii of the "
+      "largest grain",
+      of_rock),
     entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,
                     "of the box or cell, along the axis of the tests; at least four radii of the largest grain",
                     of_rock),

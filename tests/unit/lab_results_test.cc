@@ -445,6 +445,29 @@ TEST(StopRules, EndADiscThatBearsMoreAfterItsFirstFall)
   EXPECT_EQ(end(uniaxial_compression), 0); // where the highest stress is the strength, the share of it decides
 }
 
+TEST(StopRules, EndABodyThatBearsNothing)
+{
+  const auto end = [](const std::optional<double> stop_strain) {
+    StopRule rule(semicircular_bending.kind);
+    rule.needs_crack = true;
+    TestParameters wanted;
+    wanted.stop_strain = stop_strain;
+    CurveSample row;
+    for (int k = 1; k <= 80; ++k)
+      {
+        row.axial_strain = rule.kind.sign * 1e-3 * k;
+        if (rule.is_met_by(row, 0.0, wanted))
+          {
+            EXPECT_EQ(rule.bears_nothing(row, wanted), !stop_strain);
+            return k;
+          }
+      }
+    return 0;
+  };
+  EXPECT_EQ(end({}), 50);
+  EXPECT_EQ(end(0.07), 70); // who asks for a strain gets it
+}
+
 TEST(Energies, ImbalanceSeesADoubledTerm)
 {
   Energies energies{10.0, 1.0, 4.0, 2.0, 1.0, 2.0};
