@@ -91,7 +91,7 @@ def main():
             "vector_instructions": vector_instructions(wanted.new),
             "flags": flags(wanted.new),
             "old": version(wanted.old),
-            "new": version(wanted.new),
+            "feldspar_version": version(wanted.new),
         }
         with open(wanted.json, "w") as out:
             json.dump({**made, "new_over_old": ratios}, out, indent=2)
