@@ -4,7 +4,8 @@
     python3 benchmarks/peers/peers.py BUILD                  runs them, and writes the table in the README
     python3 benchmarks/peers/peers.py --table INSTRUCTIONS   prints the table of the committed figures
 
-INSTRUCTIONS: avx2 or avx512, of the processor; the figures are in benchmarks/results/peers-INSTRUCTIONS.json. BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. The peers come from the packages yade and esys-particle; one
+INSTRUCTIONS: avx2 or avx512, of the processor; the figures are in benchmarks/results/peers-INSTRUCTIONS.json.
+BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. The peers come from the packages yade and esys-particle; one
 that is missing is refused. Programs run in turns, least time of three; on a machine that does nothing else, some half an
 hour.
 """
