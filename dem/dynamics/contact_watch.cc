@@ -39,7 +39,7 @@ bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::
   // that pushes grains before it finds none: the grains' own way has brought on a search before.
   const double reach = wall_reach_over_skin * widest_gap;
   for (std::size_t w = 0; w < walls.size(); ++w)
-    if (const Wall& wall = walls[w]; wall.velocity != 0.0)
+    if (const Wall& wall = walls[w]; wall.velocity != 0.0 || wall.pivots)
       {
         steps_allowed = std::min(steps_allowed, reach / (way_of_a_step + 2.0 * dt * std::abs(wall.velocity)));
         if (walls.way_since_search(w) > 0.5 * widest_gap - reach)

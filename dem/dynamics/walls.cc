@@ -1,5 +1,6 @@
 #include "dem/dynamics/walls.h"
 
+#include "dem/dynamics/pivot.h"
 #include "dem/laws/linear_contact_law.h"
 
 #include <algorithm>
@@ -53,11 +54,24 @@ void add_wall_shear(Grains<3>& grains, const Wall& wall, const std::uint32_t gra
   grains.couple[two][grain] -= arm * shear_force[0];
 }
 
+/// Of a grain from the middle of a plate that pivots [m]; 0 for other walls.
+template <int dim>
+double lever_of(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  return wall.pivots ? body.grains.position[extent_axis<dim>(wall)][grain] - wall.middle() : 0.0;
+}
+
 /// Of a grain from a wall, along `side` [m].
+template <int dim>
+double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain, const double lever)
+{
+  return (wall_coordinate(body, wall, grain) - wall.position) * wall.side + wall.tilt * lever;
+}
+
 template <int dim>
 double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
 {
-  return (wall_coordinate(body, wall, grain) - wall.position) * wall.side;
+  return distance_from(body, wall, grain, lever_of(body, wall, grain));
 }
 
 /// Whether it stands above the plate, which may end.
@@ -101,6 +115,7 @@ std::size_t Walls<dim>::add(const Wall& wall)
   touches.emplace_back();
   forces.push_back(0.0);
   position_at_search.push_back(wall.position);
+  tilt_at_search.push_back(wall.tilt);
   return walls.size() - 1;
 }
 
@@ -132,30 +147,37 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
       const auto& before = touches[w]; // ascending, as `near` will be
       auto known = before.begin();
       std::vector<WallTouch<dim>> near;
+      // What a grain still pressed with where it crosses the end of a plate becomes vibration, soon damped.
+      const auto lose = [&](const WallTouch<dim>& touch) {
+        ledger.slip_of_lost_contacts += touch.slip_energy + stored_energy(body, touch);
+      };
       for (std::uint32_t i = 0; i < n_own; ++i)
         {
-          const double distance = distance_from(body, walls[w], i);
           for (; known != before.end() && known->grain < i; ++known)
-            ledger.slip_of_lost_contacts += known->slip_energy;
+            lose(*known);
           const bool is_known = known != before.end() && known->grain == i;
+          const double lever = is_known ? known->lever : lever_of(body, walls[w], i);
+          const double distance = distance_from(body, walls[w], i, lever);
           const bool is_bedded = is_known ? known->zero_distance > radius[i]
                                           : placing && distance > radius[i] && distance <= radius[i] + walls[w].bed;
-          if ((distance > radius[i] + skin && !is_bedded) || !is_above(body, walls[w], i))
+          const bool is_held = is_known && walls[w].pivots;
+          if ((distance > radius[i] + skin && !is_bedded) || (!is_held && !is_above(body, walls[w], i)))
             continue;
           if (!is_known && is_past(body, walls[w], i))
             continue;
           if (is_known)
             near.push_back(*known++);
           else if (is_bedded)
-            near.push_back({i, distance});
+            near.push_back({i, distance, lever});
           else
             // A grain that came from beside a plate may lie deeper than its face: it is not thrown out.
-            near.push_back({i, placing || walls[w].ends() ? std::min(radius[i], distance) : radius[i]});
+            near.push_back({i, placing || walls[w].ends() ? std::min(radius[i], distance) : radius[i], lever});
         }
       for (; known != before.end(); ++known)
-        ledger.slip_of_lost_contacts += known->slip_energy;
+        lose(*known);
       touches[w] = std::move(near);
       position_at_search[w] = walls[w].position;
+      tilt_at_search[w] = walls[w].tilt;
     }
 }
 
@@ -169,7 +191,9 @@ void Walls<dim>::clear()
 template <int dim>
 double Walls<dim>::way_since_search(const std::size_t wall) const
 {
-  return std::abs(walls[wall].position - position_at_search[wall]);
+  const Wall& plate = walls[wall];
+  const double way = std::abs(plate.position - position_at_search[wall]);
+  return plate.pivots ? way + std::abs(plate.tilt - tilt_at_search[wall]) * (plate.extent[1] - plate.middle()) : way;
 }
 
 template <int dim>
@@ -187,18 +211,44 @@ double Walls<dim>::smallest_gap_not_listed(const Specimen<dim>& body, const std:
 }
 
 template <int dim>
+double Walls<dim>::stored_energy(const Specimen<dim>& body, const WallTouch<dim>& touch) const
+{
+  const double k_n = stiffness(body, body.grains.radius[touch.grain]);
+  double sum = 0.5 * k_n * touch.overlap * touch.overlap;
+  for (const double shear : touch.shear_force)
+    sum += 0.5 * shear * shear / (k_n / body.particle_contact.stiffness_ratio);
+  return sum;
+}
+
+template <int dim>
+void Walls<dim>::balance(const Specimen<dim>& body, const std::size_t wall)
+{
+  Wall& plate = walls[wall];
+  Wall level = plate;
+  level.tilt = 0.0;
+  std::vector<SpringOnPlate> springs;
+  springs.reserve(touches[wall].size());
+  for (const auto& touch : touches[wall])
+    springs.push_back({stiffness(body, body.grains.radius[touch.grain]), touch.lever,
+                       touch.zero_distance - distance_from(body, level, touch.grain, touch.lever)});
+  plate.tilt = balanced_tilt(springs, plate.tilt);
+}
+
+template <int dim>
 bool Walls<dim>::press(const double dt, Specimen<dim>& body)
 {
   auto& grains = body.grains;
   bool contact_made = false;
   for (std::size_t w = 0; w < walls.size(); ++w)
     {
+      if (walls[w].pivots)
+        balance(body, w);
       const Wall& wall = walls[w];
       double sum = 0.0;
       for (auto& touch : touches[w])
         {
           const std::uint32_t i = touch.grain;
-          const double distance = distance_from(body, wall, i);
+          const double distance = distance_from(body, wall, i, touch.lever);
           const double k_n = stiffness(body, grains.radius[i]);
           const double overlap = touch.zero_distance - distance;
           if (touch.overlap == 0.0 && overlap > 0.0)
@@ -230,11 +280,8 @@ template <int dim>
 Energies Walls<dim>::added_to(Energies sum, const Specimen<dim>& body) const
 {
   for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
-    const double k_n = stiffness(body, body.grains.radius[touch.grain]);
     sum.slip += touch.slip_energy;
-    sum.strain += 0.5 * k_n * touch.overlap * touch.overlap;
-    for (const double shear : touch.shear_force)
-      sum.strain += 0.5 * shear * shear / (k_n / body.particle_contact.stiffness_ratio);
+    sum.strain += stored_energy(body, touch);
   });
   return sum;
 }

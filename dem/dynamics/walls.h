@@ -26,11 +26,15 @@ struct Wall
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
   double bed = 0.0;            ///< plaster: fills gaps of up to this to grains that are placed, at the first search [m]
+  bool pivots = false;         ///< a smooth plate that turns freely about its middle, so that its force acts there
+  double tilt = 0.0;           ///< of a plate that pivots: of its far end, away from the grains [rad]
   /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
   /// Whether it is a plate. Which grains stand above it is looked up with each search for contacts.
   bool ends() const { return std::isfinite(extent[0]) || std::isfinite(extent[1]); }
+  /// About which a plate with two ends pivots, along extent_axis() [m].
+  double middle() const { return 0.5 * (extent[0] + extent[1]); }
 };
 
 /// Along which a plate may end: the last axis, or the first for one that lies across the last.
@@ -60,6 +64,7 @@ struct WallTouch
 {
   std::uint32_t grain;
   double zero_distance; ///< distance from the wall below which it presses [m]; beyond its radius on a bed
+  double lever = 0.0;   ///< from the middle of a plate that pivots, where it came to the plate [m]
   double overlap = 0.0; ///< [m]
   std::array<double, dim - 1> shear_force{};
   double slip_energy = 0.0;
@@ -93,11 +98,11 @@ public:
   }
 
   /// Notes the grains within `skin` [m] of each wall, and on a bed those that were placed there; images, which stand behind
-  /// the body's own, are none of them.
+  /// the body's own, are none of them. A plate that pivots keeps the grains that it has, also where they leave its extent.
   void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
   /// Forgets them.
   void clear();
-  /// How far a wall has gone since the last search [m].
+  /// How far a wall has gone since the last search, at the ends of a plate that has tilted [m].
   double way_since_search(std::size_t wall) const;
   /// The smallest gap between a wall and the grains that were not near it at the last search [m].
   double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t n_own, std::size_t wall) const;
@@ -119,14 +124,19 @@ public:
     archive.bytes("walls", walls);
     archive.array("wall_forces", forces);
     archive.array("wall_position_at_search", position_at_search);
+    archive.array("wall_tilt_at_search", tilt_at_search);
     for (std::size_t w = 0; w < walls.size(); ++w)
       archive.bytes("wall_touches_" + std::to_string(w), touches[w]);
   }
 
 private:
+  double stored_energy(const Specimen<dim>& body, const WallTouch<dim>& touch) const; ///< [J]
+  void balance(const Specimen<dim>& body, std::size_t wall);                          ///< Tilts a plate that pivots.
+
   std::vector<Wall> walls;
   std::vector<std::vector<WallTouch<dim>>> touches; ///< of each wall, by grain
   std::vector<double> forces;
   std::vector<double> position_at_search; ///< [m]
+  std::vector<double> tilt_at_search;     ///< [rad]
 };
 } // namespace feldspar

@@ -2,9 +2,11 @@
 
 #include "base/input_error.h"
 #include "dem/lab/notch.h"
+#include "dem/specimen/fragments.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -14,32 +16,41 @@ namespace feldspar
 {
 namespace
 {
-/// A smooth plate about a place along the first axis, where grains of the body lie against it. In the plane it is wide
-/// enough to meet a grain and bears the one that stands out most. In space it is a line of grains that crosses the
-/// thickness, bedded: on the one that stands out most the body would tilt until others bear.
+/// A smooth plate about a place along the first axis, where grains of the body lie against it, bedded, so that the body does
+/// not tilt on the grain that protrudes furthest until others bear. It pivots, so that its force acts at this place. In the
+/// plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the thickness. Loose
+/// grains, which would sink into the body, do not decide where it lies.
 template <int dim>
 Wall roller(const Specimen<dim>& body, const double place, const double side)
 {
   constexpr int axis = dim - 1;
   const double mean_radius = body.report.mean_radius;
-  const double half_width = dim == 2 ? 2.0 * mean_radius : mean_radius;
+  const double half_width = (dim == 2 ? 2.0 : 1.0) * mean_radius;
+  // The surfaces that protrude furthest before the middle and beyond it, along `side`.
+  std::array<double, 2> nearest;
+  nearest.fill(std::numeric_limits<double>::infinity());
+  const auto fragment = fragments(body);
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    if (const double lever = body.grains.position[0][i] - place; fragment[i] == 0 && std::abs(lever) <= half_width)
+      {
+        const double surface = side * body.grains.position[axis][i] - body.grains.radius[i];
+        double& nearest_there = nearest[lever < 0.0 ? 0 : 1];
+        nearest_there = std::min(nearest_there, surface);
+      }
+  const auto [closer, farther] = std::minmax(nearest[0], nearest[1]);
+  if (!std::isfinite(farther))
+    throw InputError(
+      fmt::format("Specimen/Width: the roller at {:.3g} mm has no grain on one side of its middle; make the specimen "
+                  "larger or the grains smaller (Specimen/Minimum radius)",
+                  1e3 * place));
+  // Deep enough for a grain on either side, on whose surface the bed does not end by rounding.
+  constexpr double clearance = 1.01;
   Wall plate{.axis = axis,
              .side = side,
-             .position = side * std::numeric_limits<double>::infinity(),
-             .bed = dim == 2 ? 0.0 : mean_radius};
+             .position = side * closer,
+             .bed = std::max(mean_radius, clearance * (farther - closer)),
+             .pivots = true};
   plate.extent = {place - half_width, place + half_width};
-  for (std::size_t i = 0; i < body.grains.size(); ++i)
-    if (const double x = body.grains.position[0][i]; x >= plate.extent[0] && x <= plate.extent[1])
-      {
-        const double surface = body.grains.position[axis][i] - side * body.grains.radius[i];
-        if (side * surface < side * plate.position)
-          plate.position = surface;
-      }
-  if (!std::isfinite(plate.position))
-    throw InputError(
-      fmt::format("Specimen/Width: no grain lies at the roller at {:.3g} mm; make the specimen larger or "
-                  "the grains smaller (Specimen/Minimum radius)",
-                  1e3 * place));
   return plate;
 }
 } // namespace

@@ -14,10 +14,10 @@ struct Bending
   NotchGeometry notch;
 };
 
-/// Stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth plates against the
-/// grains that stand out most there. In the plane a plate is one mean grain diameter wide to either side; in space it is half
-/// as wide and bedded, so that every grain within a mean radius of it bears as it lies. Throws InputError where there are
-/// none.
+/// Stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth plates, one mean grain
+/// diameter wide to either side in the plane and one mean radius in space. They are bedded, so that every grain within a mean
+/// radius of them, and at least one on either side of their middle, bears as it lies; and they pivot, so that their forces act
+/// at their middles. Throws InputError where there is no such grain.
 template <int dim>
 SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParameters& wanted,
                     const DynamicsParameters& dynamics);

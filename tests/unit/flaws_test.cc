@@ -1,6 +1,7 @@
 // Holes, slots, closed flaws and joint sets: what they take out of a specimen, what they leave, and what they are refused for.
 
 #include "base/input_error.h"
+#include "dem/dynamics/pivot.h"
 #include "dem/flaws/apply.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
@@ -345,6 +346,109 @@ TEST(Plates, OnABedBearEveryGrainAsItLies)
   EXPECT_EQ(force[2], 0.0);
 }
 
+TEST(Plates, LoseNoEnergyUnbookedWhereAGrainSlidesOffTheirEnd)
+{
+  // Two smooth plates squeeze a grain by 1e-4 of its radius; it slides past the end of the lower one, and the upper one
+  // throws it down. All that the lower one stored is gone then. In short steps, as a force that ends within one costs energy.
+  Specimen<2> specimen = placed_specimen({0.1}, {{{0.45}, {0.1}}});
+  Dynamics<2> dynamics(specimen, {.damping = 0.0, .time_step_safety = 0.02}, ZeroForce::as_placed);
+  Wall plate{.axis = 1, .side = 1.0, .position = 0.0, .velocity = 0.01};
+  plate.extent = {0.0, 0.5};
+  const std::size_t lower = dynamics.add_wall(plate);
+  const std::size_t upper = dynamics.add_wall({.axis = 1, .side = -1.0, .position = 0.2});
+  while (dynamics.wall(lower).position < 2e-5)
+    dynamics.step();
+  dynamics.wall(lower).velocity = 0.0;
+  const double squeezed = dynamics.energies().boundary_work;
+  ASSERT_GT(dynamics.wall_force(upper), 0.0);
+  dynamics.push(0, {10.0, 0.0});
+  while (dynamics.specimen().grains.position[0][0] < 0.6)
+    dynamics.step();
+  EXPECT_EQ(dynamics.wall_force(lower), 0.0);
+  const Energies end = dynamics.energies();
+  EXPECT_GT(end.slip, 0.4 * squeezed);
+  EXPECT_NEAR(end.unaccounted(), 0.0, 0.01 * squeezed);
+}
+
+TEST(Plates, ThatPivotTiltUntilTheirContactsHaveNoMoment)
+{
+  // Two contacts: (δ_1 - θ s_1) k_1 s_1 + (δ_2 - θ s_2) k_2 s_2 = 0.
+  const std::vector<SpringOnPlate> two{{2.0, -1.0, 0.5}, {1.0, 3.0, 0.4}};
+  EXPECT_NEAR(balanced_tilt(two, 0.0), (-2.0 * 0.5 + 3.0 * 0.4) / (2.0 + 9.0), 1e-14);
+  EXPECT_NEAR(balanced_tilt(two, -7.0), balanced_tilt(two, 7.0), 1e-14); // wherever it comes from
+  // A third one hangs free until the plate has tilted by 0.1; then it presses too.
+  EXPECT_NEAR(balanced_tilt(std::vector<SpringOnPlate>{{2.0, -1.0, 0.0}, {1.0, 1.0, 0.9}, {3.0, -1.0, -0.1}}, 0.0),
+              (0.9 + 3.0 * 0.1) / (2.0 + 1.0 + 3.0), 1e-14);
+  // On one side only a plate turns away as far as it must; over a gap it stays as it was.
+  const std::vector<SpringOnPlate> one{{2.0, 0.5, 0.1}};
+  EXPECT_DOUBLE_EQ(balanced_tilt(one, 0.0), 0.2);
+  EXPECT_DOUBLE_EQ(balanced_tilt(one, 0.3), 0.3);
+  const std::vector<SpringOnPlate> apart{{1.0, -1.0, -0.2}, {1.0, 1.0, -0.1}};
+  EXPECT_DOUBLE_EQ(balanced_tilt(apart, 0.05), 0.05);
+  EXPECT_DOUBLE_EQ(balanced_tilt(apart, -0.5), -0.1);
+  EXPECT_DOUBLE_EQ(balanced_tilt({}, 0.1), 0.1);
+}
+
+template <int dim>
+void expect_forces_of_a_lever()
+{
+  // Grains at 1 and 3 parts from the middle of a plate above them, bedded, with a gap over the nearer one, which gets three
+  // times the force of the other.
+  constexpr int axis = dim - 1;
+  std::array<std::vector<double>, dim> position;
+  position[0] = {0.4, 0.8};
+  position[axis] = {0.48, 0.5};
+  if constexpr (dim == 3)
+    position[1] = {0.5, 0.5};
+  Specimen<dim> specimen = placed_specimen<dim>({0.1, 0.1}, position);
+  // A quarter of the time after which the grains fly off.
+  Dynamics<dim> dynamics(specimen, {.damping = 0.0, .time_step_safety = 0.02}, ZeroForce::as_placed);
+  Wall plate{.axis = axis, .side = -1.0, .position = 0.6, .velocity = -1e-3, .bed = 0.03, .pivots = true};
+  plate.extent = {0.0, 1.0};
+  const std::size_t wall = dynamics.add_wall(plate);
+  // Of positions of order 1.
+  const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * Walls<dim>::stiffness(specimen, 0.1);
+  dynamics.step(); // sees the plate where it was
+  for (int k = 0; k < 40; ++k)
+    {
+      dynamics.step();
+      const auto& force = dynamics.specimen().grains.force[axis];
+      ASSERT_LT(force[1], 0.0);
+      ASSERT_NEAR(force[0], 3.0 * force[1], rounding);
+      ASSERT_NEAR(dynamics.wall_force(wall), -force[0] - force[1], 1e-12 * std::abs(force[0]));
+      ASSERT_EQ(dynamics.specimen().grains.force[0][0], 0.0);
+    }
+  EXPECT_NE(dynamics.wall(wall).tilt, 0.0);
+  // What the plate did is what its contacts store and the grains' motion; the pivot does no work.
+  EXPECT_LT(dynamics.energies().imbalance_over_work(), 0.01);
+}
+
+TEST(Plates, ThatPivotShareTheirForceAsALeverDoes)
+{
+  expect_forces_of_a_lever<2>();
+  expect_forces_of_a_lever<3>();
+}
+
+TEST(Plates, ThatPivotKeepAGrainThatLeavesTheirExtent)
+{
+  // Two grains under a plate that comes down slowly; one slides out from under it and is pressed on as before.
+  Specimen<2> specimen = placed_specimen({0.1, 0.1}, {{{0.2, 0.75}, {0.1, 0.1}}});
+  Dynamics<2> dynamics(specimen, {}, ZeroForce::as_placed);
+  dynamics.add_wall({.axis = 1, .side = 1.0});
+  Wall plate{.axis = 1, .side = -1.0, .position = 0.2, .velocity = -1e-3, .bed = 0.03, .pivots = true};
+  plate.extent = {0.0, 0.8};
+  const std::size_t wall = dynamics.add_wall(plate);
+  dynamics.push(1, {100.0, 0.0});
+  double before = 0.0;
+  while (dynamics.specimen().grains.position[0][1] < 0.9)
+    {
+      dynamics.step();
+      ASSERT_GE(dynamics.wall_force(wall), 0.9 * before);
+      before = dynamics.wall_force(wall);
+    }
+  EXPECT_GT(before, 0.0);
+}
+
 TEST(GrainStress, HasTheMeanStressOfTheBodyAsItsMean)
 {
   // Each contact's f ⊗ l is shared out between its two grains, so that both sums are the same but for round-off.
@@ -387,6 +491,43 @@ TEST(NotchedBodies, HaveTheShapeFactorsOfTheirSources)
   EXPECT_FALSE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
   wanted.notch_ratio = 0.5;
   EXPECT_TRUE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
+}
+
+/// The highest grain within two mean radii of the middle of a half disc that has bonds; where its surface is, its radius.
+std::pair<double, double> highest_bonded(const Specimen<2>& half_disc)
+{
+  const auto fragment = fragments(half_disc);
+  std::pair<double, double> highest{0.0, 0.0};
+  for (std::size_t i = 0; i < half_disc.grains.size(); ++i)
+    if (fragment[i] == 0 &&
+        std::abs(half_disc.grains.position[0][i] - 0.5 * half_disc.size[0]) <= 2.0 * half_disc.report.mean_radius)
+      highest = std::max(
+        highest, std::pair(half_disc.grains.position[1][i] + half_disc.grains.radius[i], half_disc.grains.radius[i]));
+  return highest;
+}
+
+TEST(NotchedBodies, LieWithBondedGrainsOnTheirRollers)
+{
+  // A grain without bonds would sink into the body and let it rock.
+  const auto set_up = [](const Specimen<2>& specimen) {
+    return (*semicircular_bending.set_up_2d)(specimen, 0.0, {}, {});
+  };
+  const auto whole = set_up(rock());
+  const auto [surface, radius] = highest_bonded(whole.dynamics.specimen());
+  EXPECT_NEAR(whole.dynamics.walls().back().position, surface, 1e-12);
+
+  Specimen<2> loosened = rock();
+  const auto& radii = loosened.grains.radius;
+  const auto grain = std::uint32_t(std::find(radii.begin(), radii.end(), radius) - radii.begin());
+  ASSERT_LT(grain, radii.size());
+  for (std::size_t j = 0; j < loosened.joints.size(); ++j)
+    if (loosened.joints.grain_1[j] == grain || loosened.joints.grain_2[j] == grain)
+      for (unsigned int segment = 0; segment < loosened.joints.n_segments; ++segment)
+        loosened.joints.bonded[loosened.joints.segment(segment, j)] = 0.0;
+  const auto without = set_up(loosened);
+  const double next_surface = highest_bonded(without.dynamics.specimen()).first;
+  EXPECT_LT(next_surface, surface);
+  EXPECT_NEAR(without.dynamics.walls().back().position, next_surface, 1e-12);
 }
 
 TEST(NotchedBodies, OfACentreCrackHaveTheIntensitiesOfIsida)

@@ -1,0 +1,51 @@
+#include "dem/dynamics/pivot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace feldspar
+{
+double balanced_tilt(const std::span<const SpringOnPlate> springs, const double before)
+{
+  // With more tilt contacts beyond the pivot let go, and those before it come to press: the moment falls, linearly from
+  // one such change to the next.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double all_beyond_off = -infinity;
+  double all_before_off = infinity;
+  for (const auto& spring : springs)
+    if (spring.lever > 0.0)
+      all_beyond_off = std::max(all_beyond_off, spring.overlap / spring.lever);
+    else if (spring.lever < 0.0)
+      all_before_off = std::min(all_before_off, spring.overlap / spring.lever);
+  if (all_beyond_off <= all_before_off)
+    return std::clamp(before, all_beyond_off, all_before_off);
+
+  // Newton's method, which ends with the right contacts; bisection where it would leave the bracket.
+  constexpr double rounding = 1e-14;
+  constexpr int most_trials = 100; // bisection alone comes to rounding in some 50
+  double least = all_before_off;
+  double most = all_beyond_off;
+  double tilt = std::clamp(before, least, most);
+  for (int trial = 0; trial < most_trials; ++trial)
+    {
+      double moment = 0.0;
+      double size = 0.0;
+      double resistance = 0.0;
+      for (const auto& spring : springs)
+        if (const double overlap = spring.overlap - tilt * spring.lever; overlap > 0.0)
+          {
+            const double share = spring.stiffness * overlap * spring.lever;
+            moment += share;
+            size += std::abs(share);
+            resistance += spring.stiffness * spring.lever * spring.lever;
+          }
+      if (std::abs(moment) <= rounding * size)
+        break;
+      (moment > 0.0 ? least : most) = tilt;
+      const double next = tilt + moment / resistance;
+      tilt = next > least && next < most ? next : 0.5 * (least + most);
+    }
+  return tilt;
+}
+} // namespace feldspar
