@@ -19,7 +19,7 @@ studies=("$@")
   contact-models/{flat-joint,parallel-bond,grain-based,clumped,clump-size}
   calibrate-{beishan,lac-du-bonnet,sandstone}/calibrate
   flawed-granite/{flaw,closed-flaw,flaw-length}
-  toughness/{toughness,softening,softening-strength}
+  toughness/{toughness,large-plate,softening,softening-strength,in-plane,in-space}
   direct-shear/{smooth-plane,intact,stiff-rock}
   rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,kinematics,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}

@@ -47,7 +47,8 @@ struct NotchGeometry
 {
   double intensity_over_stress; ///< K_I at the notch over the measured stress [√m]
   double work_over_stress;      ///< work of the load over ∫ stress d(strain) of the curve [m³]
-  double ligament_area;         ///< ahead of the notch [m²]
+  double ligament_area;         ///< ahead of the notch, or on both sides of a crack [m²]
+  double ligament_length;       ///< from the notch to the side of the body [m]
   bool is_valid;                ///< within the range in which the formula is that of its source
 };
 

@@ -21,7 +21,8 @@ double balanced_tilt(const std::span<const SpringOnPlate> springs, const double 
   if (all_beyond_off <= all_before_off)
     return std::clamp(before, all_beyond_off, all_before_off);
 
-  // Newton's method, which ends with the right contacts; bisection where it would leave the bracket.
+  // Newton's method, which ends with the right contacts; bisection where it would leave the bracket. It has come to an end
+  // where the moment is that of the rounding of its terms, which are larger than their difference, the overlap.
   constexpr double rounding = 1e-14;
   constexpr int most_trials = 100; // bisection alone comes to rounding in some 50
   double least = all_before_off;
@@ -35,10 +36,10 @@ double balanced_tilt(const std::span<const SpringOnPlate> springs, const double 
       for (const auto& spring : springs)
         if (const double overlap = spring.overlap - tilt * spring.lever; overlap > 0.0)
           {
-            const double share = spring.stiffness * overlap * spring.lever;
-            moment += share;
-            size += std::abs(share);
-            resistance += spring.stiffness * spring.lever * spring.lever;
+            const double stiffness = spring.stiffness * spring.lever;
+            moment += stiffness * overlap;
+            size += std::abs(stiffness) * (std::abs(spring.overlap) + std::abs(tilt * spring.lever));
+            resistance += stiffness * spring.lever;
           }
       if (std::abs(moment) <= rounding * size)
         break;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace feldspar
 {
@@ -82,6 +83,13 @@ bool is_above(const Specimen<dim>& body, const Wall& wall, const std::uint32_t g
   return wall.round || (place >= wall.extent[0] && place <= wall.extent[1]);
 }
 
+/// Whether it stands within half a width of a plate that pivots beyond its ends.
+template <int dim>
+bool is_beside(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
+{
+  return std::abs(lever_of(body, wall, grain)) <= wall.extent[1] - wall.extent[0];
+}
+
 /// Whether it has come round the end of a plate, so far that it is not pressed any more.
 template <int dim>
 bool is_past(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
@@ -111,6 +119,8 @@ double wall_coordinate(const Specimen<dim>& body, const Wall& wall, const std::u
 template <int dim>
 std::size_t Walls<dim>::add(const Wall& wall)
 {
+  if (wall.pivots && !std::isfinite(wall.middle()))
+    throw std::logic_error("a plate that pivots needs two ends");
   walls.push_back(wall);
   touches.emplace_back();
   forces.push_back(0.0);
@@ -160,7 +170,7 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
           const double distance = distance_from(body, walls[w], i, lever);
           const bool is_bedded = is_known ? known->zero_distance > radius[i]
                                           : placing && distance > radius[i] && distance <= radius[i] + walls[w].bed;
-          const bool is_held = is_known && walls[w].pivots;
+          const bool is_held = is_known && walls[w].pivots && (known->overlap > 0.0 || is_beside(body, walls[w], i));
           if ((distance > radius[i] + skin && !is_bedded) || (!is_held && !is_above(body, walls[w], i)))
             continue;
           if (!is_known && is_past(body, walls[w], i))

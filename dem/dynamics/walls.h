@@ -25,9 +25,9 @@ struct Wall
   double friction = 0.0;
   double servo_integral = 0.0; ///< inwards, of whoever holds its pressure [m/s]
   bool round = false;          ///< the cylinder
-  double bed = 0.0;            ///< plaster: fills gaps of up to this to grains that are placed, at the first search [m]
-  bool pivots = false;         ///< a smooth plate that turns freely about its middle, so that its force acts there
-  double tilt = 0.0;           ///< of a plate that pivots: of its far end, away from the grains [rad]
+  bool pivots = false; ///< a smooth plate with two ends that turns freely about its middle, where its force acts
+  double tilt = 0.0;   ///< of a plate that pivots: its end at the larger coordinate away from the grains [rad]
+  double bed = 0.0;    ///< plaster: fills gaps of up to this to grains that are placed, at the first search [m]
   /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
@@ -98,7 +98,8 @@ public:
   }
 
   /// Notes the grains within `skin` [m] of each wall, and on a bed those that were placed there; images, which stand behind
-  /// the body's own, are none of them. A plate that pivots keeps the grains that it has, also where they leave its extent.
+  /// the body's own, are none of them. A plate that pivots keeps the grains that press it, also where they leave its
+  /// extent, and the others that it has until they are half its width away from it.
   void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
   /// Forgets them.
   void clear();

@@ -11,17 +11,33 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace feldspar
 {
 namespace
 {
+/// Whether each grain belongs to none of the larger pieces of the body; [n_grains].
+template <int dim>
+std::vector<bool> loose_grains(const Specimen<dim>& body)
+{
+  constexpr std::uint32_t most_grains = 10; // of what is loose
+  const auto fragment = fragments(body);
+  std::vector<std::uint32_t> size(fragment.size(), 0);
+  for (const std::uint32_t number : fragment)
+    ++size[number];
+  std::vector<bool> is_loose;
+  for (const std::uint32_t number : fragment)
+    is_loose.push_back(number > 0 && size[number] <= most_grains);
+  return is_loose;
+}
+
 /// A smooth plate about a place along the first axis, where grains of the body lie against it, bedded, so that the body does
 /// not tilt on the grain that protrudes furthest until others bear. It pivots, so that its force acts at this place. In the
 /// plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the thickness. Loose
 /// grains, which would sink into the body, do not decide where it lies.
 template <int dim>
-Wall roller(const Specimen<dim>& body, const double place, const double side)
+Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const double place, const double side)
 {
   constexpr int axis = dim - 1;
   const double mean_radius = body.report.mean_radius;
@@ -29,9 +45,8 @@ Wall roller(const Specimen<dim>& body, const double place, const double side)
   // The surfaces that protrude furthest before the middle and beyond it, along `side`.
   std::array<double, 2> nearest;
   nearest.fill(std::numeric_limits<double>::infinity());
-  const auto fragment = fragments(body);
   for (std::size_t i = 0; i < body.grains.size(); ++i)
-    if (const double lever = body.grains.position[0][i] - place; fragment[i] == 0 && std::abs(lever) <= half_width)
+    if (const double lever = body.grains.position[0][i] - place; !is_loose[i] && std::abs(lever) <= half_width)
       {
         const double surface = side * body.grains.position[axis][i] - body.grains.radius[i];
         double& nearest_there = nearest[lever < 0.0 ? 0 : 1];
@@ -40,16 +55,16 @@ Wall roller(const Specimen<dim>& body, const double place, const double side)
   const auto [closer, farther] = std::minmax(nearest[0], nearest[1]);
   if (!std::isfinite(farther))
     throw InputError(
-      fmt::format("Specimen/Width: the roller at {:.3g} mm has no grain on one side of its middle; make the specimen "
-                  "larger or the grains smaller (Specimen/Minimum radius)",
+      fmt::format("Specimen/Width: the roller at {:.3g} mm has no bonded grain on one side of its middle; make the "
+                  "specimen larger or the grains smaller (Specimen/Minimum radius)",
                   1e3 * place));
   // Deep enough for a grain on either side, on whose surface the bed does not end by rounding.
   constexpr double clearance = 1.01;
   Wall plate{.axis = axis,
              .side = side,
              .position = side * closer,
-             .bed = std::max(mean_radius, clearance * (farther - closer)),
-             .pivots = true};
+             .pivots = true,
+             .bed = std::max(mean_radius, clearance * (farther - closer))};
   plate.extent = {place - half_width, place + half_width};
   return plate;
 }
@@ -79,10 +94,11 @@ SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParame
   const double middle = 0.5 * body.size[0];
   cut_notch(body, {middle, 0.0}, {middle, bending.notch_depth}, wanted);
 
-  Wall upper = roller(body, middle, -1.0);
+  const std::vector<bool> is_loose = loose_grains(body);
+  Wall upper = roller(body, is_loose, middle, -1.0);
   upper.velocity = -wanted.bending_strain_rate * bending.depth;
-  const std::array<Wall, 2> lower{roller(body, middle - 0.5 * bending.span, 1.0),
-                                  roller(body, middle + 0.5 * bending.span, 1.0)};
+  const std::array<Wall, 2> lower{roller(body, is_loose, middle - 0.5 * bending.span, 1.0),
+                                  roller(body, is_loose, middle + 0.5 * bending.span, 1.0)};
   SetUpTest<dim> test{Dynamics<dim>(std::move(body), dynamics, ZeroForce::as_placed), {}};
   start_bending(test.dynamics, bending.span, wanted.bending_strain_rate * bending.depth);
   const std::size_t left = test.dynamics.add_wall(lower[0]);

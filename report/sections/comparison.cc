@@ -103,24 +103,32 @@ void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
 {
   std::vector<TestKind> kinds;
   for (const auto& test : tests)
-    if (test.results.fracture_toughness.value && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
+    if (test.record.notch && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
       kinds.push_back(test.record.kind);
   for (const TestKind& kind : kinds)
     {
       std::map<std::uint64_t, double> toughness;
       std::map<std::uint64_t, double> energy;
+      std::string why_no_toughness;
+      std::string why_no_energy;
       for (const auto& test : tests)
         if (test.record.kind == kind)
           {
-            if (const auto& value = test.results.fracture_toughness.value)
-              toughness[test.record.seed] = *value;
-            if (const auto& value = test.results.fracture_energy.value)
-              energy[test.record.seed] = *value;
+            const auto take = [&](const Figure& figure, auto& values, std::string& why_missing) {
+              if (figure.value)
+                values[test.record.seed] = *figure.value;
+              else
+                why_missing = test.record.failure.empty() ? figure.reason : test.record.failure;
+            };
+            take(test.results.fracture_toughness, toughness, why_no_toughness);
+            take(test.results.fracture_energy, energy, why_no_energy);
           }
       std::string by(kind.name);
       std::replace(by.begin(), by.end(), '_', ' ');
-      add(fmt::format("fracture toughness, {}", by), "MPa √m", 3, 1e6, toughness, "fracture_toughness_MPa_sqrt_m");
-      add(fmt::format("work of fracture, {}", by), "J/m²", 1, 1.0, energy, "fracture_energy_J_per_m2");
+      add(fmt::format("fracture toughness, {}", by), "MPa √m", 3, 1e6, toughness, "fracture_toughness_MPa_sqrt_m", 1.0,
+          why_no_toughness);
+      add(fmt::format("work of fracture, {}", by), "J/m²", 1, 1.0, energy, "fracture_energy_J_per_m2", 1.0,
+          why_no_energy);
     }
 }
 
@@ -176,7 +184,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   std::vector<ComparisonRow> rows;
   const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
                        const std::map<std::uint64_t, double>& values, const std::string& key,
-                       const double reference_scale = 1.0) {
+                       const double reference_scale = 1.0, const std::string& why_missing = "") {
     std::vector<double> scaled;
     for (const auto& [seed, value] : values)
       scaled.push_back(value / scale);
@@ -186,6 +194,8 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
         row.model = reference->model.find(key, reference_scale);
         row.experiment = reference->experiment.find(key, reference_scale);
       }
+    if (!row.ours)
+      row.why_missing = why_missing;
     rows.push_back(row);
   };
 
@@ -298,25 +308,35 @@ std::vector<std::string> properties_without_a_test(const std::vector<ComparisonR
   if (reference)
     for (const auto& [key, value] : reference->experiment.values)
       if (key != "density_kg_per_m3" &&
-          std::none_of(rows.begin(), rows.end(),
-                       [&, wanted = key](const ComparisonRow& row) { return row.ours && row.key == wanted; }))
+          std::none_of(rows.begin(), rows.end(), [&, wanted = key](const ComparisonRow& row) {
+            return row.key == wanted && (row.ours || !row.why_missing.empty());
+          }))
         keys.push_back(key);
   return keys;
 }
 
-std::string sentence_on_untested(const std::vector<std::string>& keys)
-{
-  return fmt::format("Not tested here: the experiment's {}; Tests/List and Tests/Confinements add tests.",
-                     fmt::join(keys, ", "));
-}
-
-std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& rows,
+std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& rows,
                                               const std::optional<Reference>& reference)
 {
-  const std::vector<std::string> keys = properties_without_a_test(rows, reference);
+  std::vector<std::string> sentences;
+  for (const ComparisonRow& row : rows)
+    if (row.experiment && !row.why_missing.empty())
+      {
+        const std::string sentence = fmt::format("No figure of {}: {}.", row.property, row.why_missing);
+        if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) // as of another variant
+          sentences.push_back(sentence);
+      }
+  if (const auto keys = properties_without_a_test(rows, reference); !keys.empty())
+    sentences.push_back(fmt::format(
+      "Not tested here: the experiment's {}; Tests/List and Tests/Confinements add tests.", fmt::join(keys, ", ")));
+  return sentences;
+}
+
+std::string text_of_missing(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference)
+{
   std::string text;
-  if (!keys.empty())
-    for (const std::string& line : in_lines(sentence_on_untested(keys), page, "  "))
+  for (const std::string& sentence : sentences_on_missing(rows, reference))
+    for (const std::string& line : in_lines(sentence, page, "  "))
       text += line + '\n';
   return text;
 }
@@ -362,6 +382,6 @@ std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<
       for (std::size_t k = 1; k < heading.size(); ++k)
         text += heading[k] + '\n';
     }
-  return text + text_of_properties_without_a_test(rows, reference);
+  return text + text_of_missing(rows, reference);
 }
 } // namespace feldspar

@@ -20,7 +20,8 @@ struct ComparisonRow
   std::optional<Statistics> ours;      ///< over the seeds
   std::optional<ReferenceValue> model; ///< of the paper
   std::optional<ReferenceValue> experiment;
-  std::string key = {}; ///< of a reference file; empty where it has no such property
+  std::string key = {};         ///< of a reference file; empty where it has no such property
+  std::string why_missing = {}; ///< of ours, where its tests were made
 
   /// The deviation of our mean from that of the experiment, over the latter; none without either.
   std::optional<double> deviation() const;
@@ -39,18 +40,18 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
 /// of tests.
 std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value, const std::string& unit = "");
 
-/// What the experiment gives that no test of these rows has, by its names in the reference file; not the density, which is
-/// given to a model.
+/// What the experiment gives that no test of these rows was made for, by its names in the reference file; not the density,
+/// which is given to a model.
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
                                                    const std::optional<Reference>& reference);
 
-/// Names them and says how to test them.
-std::string sentence_on_untested(const std::vector<std::string>& keys);
+/// What the experiment gives and these rows do not: why tests gave no figure, and which properties were not tested.
+std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& rows,
+                                              const std::optional<Reference>& reference);
 
-/// For a terminal, with the properties that were not tested.
+/// For a terminal, with these sentences.
 std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference);
 
-/// Those in a paragraph for a terminal; empty where there are none.
-std::string text_of_properties_without_a_test(const std::vector<ComparisonRow>& rows,
-                                              const std::optional<Reference>& reference);
+/// These sentences for a terminal; empty where there are none.
+std::string text_of_missing(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference);
 } // namespace feldspar

@@ -121,8 +121,8 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
   std::vector<ComparisonRow> rows;
   for (const auto& of_variant : of_variants)
     append(rows, of_variant);
-  if (const std::string untested = text_of_properties_without_a_test(rows, reference); !untested.empty())
-    text += "\n" + untested;
+  if (const std::string missing = text_of_missing(rows, reference); !missing.empty())
+    text += "\n" + missing;
   return text + "\nAll results of each test stand in tests.csv, the fits of each variant in summary.json.\n";
 }
 } // namespace feldspar

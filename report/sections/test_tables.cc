@@ -19,6 +19,17 @@ namespace feldspar
 {
 using namespace text;
 
+namespace
+{
+bool has_toughness(const Findings& findings)
+{
+  return std::any_of(findings.all.begin(), findings.all.end(), [](const Series& series) {
+    return std::any_of(series.tests.begin(), series.tests.end(),
+                       [](const FinishedTest& test) { return test.results.fracture_toughness.value.has_value(); });
+  });
+}
+} // namespace
+
 Table strength_table(const Findings& findings)
 {
   Table table{"strengths",
@@ -26,6 +37,9 @@ Table strength_table(const Findings& findings)
               {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",
                "shear share of cracks at the peak [%]", "deviator at the end over peak"},
               {}};
+  const bool any_notch = has_toughness(findings);
+  if (any_notch)
+    append(table.header, {"fracture toughness [MPa √m]", "work of fracture [J/m²]"});
   for (const auto& series : findings.all)
     for (const auto& group : groups_of(series))
       {
@@ -40,23 +54,28 @@ Table strength_table(const Findings& findings)
                               strength ? interval(*strength, mega, decimals) : none,
                               over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),
                               over_seeds(&TestResults::residual_deviator_ratio, 1.0, 2)});
+        if (any_notch)
+          append(table.rows.back(), {over_seeds(&TestResults::fracture_toughness, mega, 3),
+                                     over_seeds(&TestResults::fracture_energy, 1.0, 1)});
       }
   return table;
 }
 
 Table test_table(const Findings& findings)
 {
-  static const std::set<std::string_view> wanted{"peak_stress_Pa",
-                                                 "strain_at_peak",
-                                                 "youngs_modulus_tangent_Pa",
-                                                 "youngs_modulus_initial_Pa",
-                                                 "poissons_ratio_initial",
-                                                 "crack_initiation_stress_Pa",
-                                                 "crack_damage_stress_Pa",
-                                                 "n_tension_cracks",
-                                                 "n_shear_cracks",
-                                                 "energy_imbalance_over_work",
-                                                 "wall_time_s"};
+  std::set<std::string_view> wanted{"peak_stress_Pa",
+                                    "strain_at_peak",
+                                    "youngs_modulus_tangent_Pa",
+                                    "youngs_modulus_initial_Pa",
+                                    "poissons_ratio_initial",
+                                    "crack_initiation_stress_Pa",
+                                    "crack_damage_stress_Pa",
+                                    "n_tension_cracks",
+                                    "n_shear_cracks",
+                                    "energy_imbalance_over_work",
+                                    "wall_time_s"};
+  if (has_toughness(findings))
+    wanted.insert("fracture_toughness_Pa_sqrt_m");
   Table table{"tests",
               "Every test, SI; the file has every figure of summary.json",
               {"test", "series", "seed"},
@@ -135,6 +154,13 @@ Table specimen_table(const Series& series)
       table.caption += ". Cored: packed without walls, joined, then cut free";
       append(table.header, {"joints cut", "grains removed"});
     }
+  const bool any_cut = std::any_of(made.begin(), made.end(), [](const auto& of_seed) {
+    const auto n_grains = [](const FinishedTest* test) { return test->record.specimen.n_grains; };
+    return std::any_of(of_seed.second.begin(), of_seed.second.end(),
+                       [&](const FinishedTest* test) { return n_grains(test) != n_grains(of_seed.second.front()); });
+  });
+  if (any_cut)
+    table.caption += ". Some tests cut a body from the specimen; the figures are those of the largest body tested";
   const auto bodies = whole_bodies(series.tests);
   for (const auto& [seed, tests] : made)
     {

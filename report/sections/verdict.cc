@@ -1,5 +1,6 @@
 #include "report/sections/verdict.h"
 
+#include "base/append.h"
 #include "report/sections/text.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,6 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
       }
 
   Verdict result;
-  const std::vector<std::string> untested = properties_without_a_test(rows, reference);
   if (in.empty() && out.empty() && open.empty())
     {
       result.headline =
@@ -91,8 +91,7 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
   add("✗ Out of range", out);
   add("✓ In range", in);
   add("No range given", open);
-  if (!untested.empty())
-    result.points.push_back(sentence_on_untested(untested));
+  append(result.points, sentences_on_missing(rows, reference));
   return result;
 }
 } // namespace feldspar

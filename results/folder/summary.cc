@@ -118,6 +118,7 @@ Json describe(const FinishedTest& test)
     json["notch"] = {{"intensity_over_stress_sqrt_m", notch->intensity_over_stress},
                      {"work_over_stress_m3", notch->work_over_stress},
                      {"ligament_area_m2", notch->ligament_area},
+                     {"ligament_length_m", notch->ligament_length},
                      {"is_valid", notch->is_valid}};
   for (const auto& flaw : test.appearance.flaws)
     json["flaws"].push_back({{"name", flaw.name}, {"open", flaw.open}, {"outline_m", flaw.outline}});

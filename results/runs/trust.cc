@@ -32,7 +32,7 @@ Value energy_imbalance(const FinishedTest& test)
 }
 
 /// The specimen tells of its width; a beam is longer than it is deep.
-Value resolution(const FinishedTest& test)
+Value least_width(const FinishedTest& test)
 {
   const auto& size = test.record.size;
   double least = size[0];
@@ -42,6 +42,15 @@ Value resolution(const FinishedTest& test)
   if (!(test.record.specimen.resolution > 0.0))
     return std::nullopt;
   return size[0] > 0.0 ? test.record.specimen.resolution * least / size[0] : test.record.specimen.resolution;
+}
+
+Value ligament(const FinishedTest& test)
+{
+  const TestRecord& record = test.record;
+  if (!record.notch || !(record.specimen.resolution > 0.0))
+    return std::nullopt;
+  const double mean_diameter = record.size[0] / record.specimen.resolution;
+  return record.notch->ligament_length / mean_diameter;
 }
 
 Value radius_change(const FinishedTest& test)
@@ -76,8 +85,10 @@ constexpr TrustMeasure measures[] = {
    BoundSide::at_most, 1 * percent, result<&TestResults::servo_error>},
   {"servo_error_largest", "servo error of the confinement, largest over the rows up to the peak", " %", percent, 1,
    BoundSide::at_most, 3 * percent, result<&TestResults::servo_error_largest>},
-  {"resolution", "least width of the specimen over mean grain diameter", "", 1.0, 1, BoundSide::at_least, 10,
-   resolution},
+  {"least_width_over_mean_diameter", "least width of the specimen over mean grain diameter", "", 1.0, 1,
+   BoundSide::at_least, 10, least_width},
+  {"ligament_over_mean_diameter", "ligament of a notched body over mean grain diameter", "", 1.0, 1,
+   BoundSide::at_least, 5, ligament},
   {"radius_change", "change of the grain radii by genesis, over those of the input", " %", percent, 2,
    BoundSide::at_most, 1 * percent, radius_change},
   {"porosity_change", "difference of the porosity from that of the input", "", 1.0, 3, BoundSide::at_most, 0.02,

@@ -627,6 +627,15 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
   for (std::size_t k = 0; k < bodies.size(); ++k)
     shown(over_root[k] + longer[k]);
 
+  // With the grains of the rock, in the first README.
+  std::vector<double> of_the_rock;
+  for (const char* kind : {"three_point_bending", "semicircular_bending", "centre_cracked_plate"})
+    of_the_rock.push_back(mean_of(of_radii, group_of(of_radii, kind, 1), "fracture_toughness_Pa_sqrt_m") / 1e6);
+  const auto [least, most] = std::minmax_element(of_the_rock.begin(), of_the_rock.end());
+  EXPECT_NE(content(std::string(FELDSPAR_SOURCE_DIR) + "/README.md")
+              .find(fmt::format("its fracture toughness, {:.1f} to {:.1f} MPa √m", *least, *most)),
+            std::string::npos);
+
   // The same bodies of spheres and of discs.
   for (const auto& [grains, name] : {std::pair("spheres", "in-space"), {"discs", "in-plane"}})
     {

@@ -1,5 +1,6 @@
 // The pages of the documentation point at files, sections and rooms that exist.
 
+#include "dem/lab/protocols/protocols.h"
 #include "tests/content.h"
 #include "tests/documentation_pages.h"
 
@@ -68,6 +69,24 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
   return found;
 }
 } // namespace
+
+TEST(Documentation, HasTheBodiesOfEveryLaboratoryTest)
+{
+  const std::string theory = content(root / "docs/theory.md");
+  const auto yes_or_no = [](const bool yes) { return yes ? "yes" : "–"; };
+  for (const auto* protocol : feldspar::laboratory_protocols())
+    {
+      EXPECT_TRUE(protocol->set_up_2d && protocol->set_up_3d)
+        << protocol->kind.name; // as the sentence above the table says
+      std::ostringstream row;
+      row << yes_or_no(protocol->takes_cylinders) << " | " << yes_or_no(protocol->takes_clumps) << " | "
+          << yes_or_no(protocol->kind.runs_on_finite_elements) << " |";
+      const std::size_t begin = theory.find("| `" + std::string(protocol->kind.name) + "` | 4.");
+      ASSERT_NE(begin, std::string::npos) << protocol->kind.name;
+      const std::string line = theory.substr(begin, theory.find('\n', begin) - begin);
+      EXPECT_TRUE(line.ends_with(row.str())) << line << " instead of " << row.str();
+    }
+}
 
 TEST(Documentation, LinksLeadSomewhere)
 {

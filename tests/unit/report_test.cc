@@ -20,6 +20,7 @@
 #include "report/sections/provenance.h"
 #include "report/sections/sections.h"
 #include "report/sections/study_text.h"
+#include "report/sections/test_tables.h"
 #include "report/sections/text.h"
 #include "report/sections/verdict.h"
 #include "results/fits/residual_strength.h"
@@ -971,6 +972,75 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
     "add tests.");
   EXPECT_NE(as_text(rows, reference).find("Not tested here: the experiment's strength_at_30_MPa"), std::string::npos);
   EXPECT_TRUE(properties_without_a_test(rows, std::nullopt).empty());
+}
+
+TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
+{
+  // A half disc with a notch for which its formula does not hold, pulled down to a twentieth of its peak.
+  Reference reference = granite(120.0, 130.0);
+  reference.experiment.values["fracture_toughness_MPa_sqrt_m"] = {1.3, std::nullopt, std::nullopt};
+  FinishedTest bent = compression(3);
+  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
+                                    .work_over_stress = 1e-3,
+                                    .ligament_area = 0.01,
+                                    .ligament_length = 0.01,
+                                    .is_valid = false};
+  bent.results = evaluate(bent.record);
+  ASSERT_FALSE(bent.results.fracture_toughness.value);
+  const auto rows = compare({bent}, reference);
+  const auto untested = properties_without_a_test(rows, reference);
+  EXPECT_EQ(std::find(untested.begin(), untested.end(), "fracture_toughness_MPa_sqrt_m"), untested.end());
+  const auto sentences = sentences_on_missing(rows, reference);
+  ASSERT_FALSE(sentences.empty());
+  EXPECT_EQ(sentences.front().rfind(
+              "No figure of fracture toughness, uniaxial compression: the body lies outside of the range", 0),
+            0u)
+    << sentences.front();
+  EXPECT_NE(as_text(rows, reference).find("No figure of fracture toughness"), std::string::npos);
+}
+
+TEST(StrengthTable, HasTheToughnessOfNotchedBodiesOnly)
+{
+  FinishedTest bent = compression(3);
+  bent.results.fracture_toughness = {1.234e6, ""};
+  bent.results.fracture_energy = {45.67, ""};
+  std::vector<Series> all(1);
+  all[0].tests = {compression(3)};
+  const std::optional<Reference> no_reference;
+  const std::string no_problem;
+  const Findings findings{all, all, no_reference, no_problem, true, {}, {}};
+  EXPECT_EQ(strength_table(findings).header.size(), 7u);
+  all.emplace_back().tests = {bent};
+  const Table table = strength_table(findings);
+  ASSERT_EQ(table.header.size(), 9u);
+  EXPECT_EQ(table.header[7], "fracture toughness [MPa √m]");
+  EXPECT_EQ(table.rows.at(0)[7], "–");
+  EXPECT_EQ(table.rows.at(1)[7], "1.234");
+  EXPECT_EQ(table.rows.at(1)[8], "45.7");
+}
+
+TEST(TrustChecks, MeasureTheLigamentInGrains)
+{
+  // 20 mm wide at 10 mean diameters: a ligament of 9 mm is four and a half of them.
+  FinishedTest bent = compression(3);
+  bent.record.size = {0.020, 0.010, 0.0};
+  bent.record.specimen.resolution = 10.0;
+  const auto ligament = [&] {
+    const auto checks = trust_checks({&bent}, SeriesKind::specimens);
+    const auto found = std::find_if(checks.begin(), checks.end(), [](const TrustCheck& check) {
+      return check.measure.name == "ligament_over_mean_diameter";
+    });
+    return found == checks.end() ? std::nullopt : std::optional(*found);
+  };
+  EXPECT_FALSE(ligament());
+  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
+                                    .work_over_stress = 1e-3,
+                                    .ligament_area = 0.01,
+                                    .ligament_length = 0.009,
+                                    .is_valid = true};
+  ASSERT_TRUE(ligament());
+  EXPECT_NEAR(ligament()->worst, 4.5, 1e-12);
+  EXPECT_EQ(ligament()->n_out, 1u);
 }
 
 TEST(Comparison, TakesTheModulusAndTheRatioThatTheReferenceHas)

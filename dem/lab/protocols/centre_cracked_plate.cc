@@ -41,6 +41,7 @@ SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double
                           shape_factor_of_plate(wanted.notch_ratio) * std::sqrt(std::numbers::pi * a),
                         .work_over_stress = area * length,
                         .ligament_area = area * (1.0 - wanted.notch_ratio),
+                        .ligament_length = 0.5 * width * (1.0 - wanted.notch_ratio),
                         .is_valid = length >= least_length_over_width * width};
   return test;
 }

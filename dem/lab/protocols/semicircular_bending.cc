@@ -72,6 +72,7 @@ SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double
                         .notch = {.intensity_over_stress = shape_factor(a) * std::sqrt(std::numbers::pi * a * radius),
                                   .work_over_stress = radius / stress_over_force,
                                   .ligament_area = breadth * radius * (1.0 - a),
+                                  .ligament_length = radius * (1.0 - a),
                                   .is_valid = a >= 0.4 && a <= 0.6}};
   return bend(std::move(half_disc), bending, wanted, dynamics);
 }

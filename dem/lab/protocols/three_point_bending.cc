@@ -59,6 +59,7 @@ SetUpTest<dim> set_up_three_point_bending(const Specimen<dim>& specimen, double 
                         .notch = {.intensity_over_stress = 2.0 / 3.0 * std::sqrt(depth) * intensity(a),
                                   .work_over_stress = depth / stress_over_force,
                                   .ligament_area = breadth * depth * (1.0 - a),
+                                  .ligament_length = depth * (1.0 - a),
                                   .is_valid = true}};
   return bend(std::move(beam), bending, wanted, dynamics);
 }
