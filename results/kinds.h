@@ -51,6 +51,7 @@ struct TestKind
   bool pressure_acts_across = false;    ///< the pressure is square to the measured stress and no part of it
   bool runs_on_finite_elements = false; ///< a sample that is pulled or pressed at its ends
   bool follows_stages = false;          ///< of a table, back and forth
+  bool has_notch = false;               ///< and so gives a fracture toughness
   int strength_decimals = 1;            ///< of the strength in MPa in tables
   int duration_rank = 0; ///< tests of the higher rank last longer; in one rank those of the higher pressure
 

@@ -97,13 +97,14 @@ std::string strength_key(const TestGroup& group)
     return fmt::format("strength_at_{}_MPa", megapascals(group.confining_pressure));
   return fmt::format("{}_strength_MPa", group.name());
 }
+
 /// Of the tests with a notch, kind by kind: each has its own geometry.
 template <typename Add>
 void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
 {
   std::vector<TestKind> kinds;
   for (const auto& test : tests)
-    if (test.record.notch && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
+    if (test.record.kind.has_notch && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
       kinds.push_back(test.record.kind);
   for (const TestKind& kind : kinds)
     {
@@ -117,7 +118,7 @@ void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
             const auto take = [&](const Figure& figure, auto& values, std::string& why_missing) {
               if (figure.value)
                 values[test.record.seed] = *figure.value;
-              else
+              else if (why_missing.empty())
                 why_missing = test.record.failure.empty() ? figure.reason : test.record.failure;
             };
             take(test.results.fracture_toughness, toughness, why_no_toughness);
@@ -322,8 +323,11 @@ std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& 
   for (const ComparisonRow& row : rows)
     if (row.experiment && !row.why_missing.empty())
       {
+        const bool another_has_it = std::any_of(rows.begin(), rows.end(), [&](const ComparisonRow& other) {
+          return other.property == row.property && other.ours; // another variant
+        });
         const std::string sentence = fmt::format("No figure of {}: {}.", row.property, row.why_missing);
-        if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) // as of another variant
+        if (!another_has_it && std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
           sentences.push_back(sentence);
       }
   if (const auto keys = properties_without_a_test(rows, reference); !keys.empty())

@@ -37,8 +37,8 @@ Table strength_table(const Findings& findings)
               {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",
                "shear share of cracks at the peak [%]", "deviator at the end over peak"},
               {}};
-  const bool any_notch = has_toughness(findings);
-  if (any_notch)
+  const bool with_toughness = has_toughness(findings);
+  if (with_toughness)
     append(table.header, {"fracture toughness [MPa √m]", "work of fracture [J/m²]"});
   for (const auto& series : findings.all)
     for (const auto& group : groups_of(series))
@@ -54,7 +54,7 @@ Table strength_table(const Findings& findings)
                               strength ? interval(*strength, mega, decimals) : none,
                               over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),
                               over_seeds(&TestResults::residual_deviator_ratio, 1.0, 2)});
-        if (any_notch)
+        if (with_toughness)
           append(table.rows.back(), {over_seeds(&TestResults::fracture_toughness, mega, 3),
                                      over_seeds(&TestResults::fracture_energy, 1.0, 1)});
       }

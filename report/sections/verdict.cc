@@ -64,9 +64,10 @@ Verdict verdict(const std::vector<ComparisonRow>& rows, const std::optional<Refe
     {
       result.headline =
         "Nothing to compare with: " +
-        (reason_for_no_reference.empty() ? std::string("no property was both tested here and given for the rock")
+        (reason_for_no_reference.empty() ? std::string("no property both has a figure here and is given for the rock")
                                          : reason_for_no_reference) +
         ".";
+      result.points = sentences_on_missing(rows, reference);
       return result;
     }
   const std::size_t n = in.size() + out.size();

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -84,6 +85,27 @@ std::vector<StageRecord> stages_of(const Json& json)
   return stages;
 }
 
+/// Of a test of a notched body; none where a member is missing. Layouts from before lengths were written have none of them.
+std::optional<NotchGeometry> notch_of(const Json& json)
+{
+  const auto notch = json.find("notch");
+  if (notch == json.end())
+    return std::nullopt;
+  try
+    {
+      return NotchGeometry{.intensity_over_stress = notch->at("intensity_over_stress_sqrt_m").get<double>(),
+                           .work_over_stress = notch->at("work_over_stress_m3").get<double>(),
+                           .ligament_area = notch->at("ligament_area_m2").get<double>(),
+                           .ligament_length =
+                             notch->value("ligament_length_m", std::numeric_limits<double>::quiet_NaN()),
+                           .is_valid = notch->at("is_valid").get<bool>()};
+    }
+  catch (const Json::exception&)
+    {
+      return std::nullopt;
+    }
+}
+
 FinishedTest test_of(const Json& json, const TestKind& kind)
 {
   FinishedTest test;
@@ -110,6 +132,7 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
     test.record.normal_stiffness = stiffness->get<double>();
   test.appearance.flaws = flaws_of(json);
   test.record.stages = stages_of(json);
+  test.record.notch = notch_of(json);
   for (const auto& entry : result_table())
     {
       const std::string key(entry.name);

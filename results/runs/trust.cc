@@ -47,7 +47,7 @@ Value least_width(const FinishedTest& test)
 Value ligament(const FinishedTest& test)
 {
   const TestRecord& record = test.record;
-  if (!record.notch || !(record.specimen.resolution > 0.0))
+  if (!record.notch || std::isnan(record.notch->ligament_length) || !(record.specimen.resolution > 0.0))
     return std::nullopt;
   const double mean_diameter = record.size[0] / record.specimen.resolution;
   return record.notch->ligament_length / mean_diameter;

@@ -225,6 +225,39 @@ TEST(ResultFolder, OfTheLayoutBeforeIsReadInFull)
   EXPECT_EQ(rves[0].n_segments, 7u);
 }
 
+TEST(ResultFolder, ToughnessAndNotchAreReadBackForThePage)
+{
+  const TemporaryFolder folder;
+  FinishedTest bent = compression(1);
+  bent.record.kind = three_point_bending.kind;
+  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
+                                    .work_over_stress = 1e-3,
+                                    .ligament_area = 0.01,
+                                    .ligament_length = 0.009,
+                                    .is_valid = true};
+  bent.results = evaluate(bent.record);
+  ASSERT_TRUE(bent.results.fracture_toughness.value);
+  write_result_folder({}, {bent}, {}, folder.path());
+  const auto tests = read_result_folder(folder.path(), test_kinds()).at(0).tests;
+  ASSERT_TRUE(tests.at(0).record.notch);
+  EXPECT_EQ(tests.at(0).record.notch->ligament_length, 0.009);
+  const auto rows = compare(tests, std::nullopt);
+  const auto toughness = std::find_if(rows.begin(), rows.end(), [](const ComparisonRow& row) {
+    return row.property == "fracture toughness, three point bending";
+  });
+  ASSERT_NE(toughness, rows.end());
+  ASSERT_TRUE(toughness->ours);
+  EXPECT_NEAR(toughness->ours->mean, *bent.results.fracture_toughness.value / 1e6, 1e-9);
+
+  // A folder from before the length was written has the notch without it.
+  auto summary = nlohmann::json::parse(content(folder.path() / "summary.json"));
+  summary["tests"][0]["notch"].erase("ligament_length_m");
+  folder.write("summary.json", summary.dump());
+  const auto older = read_result_folder(folder.path(), test_kinds()).at(0).tests;
+  ASSERT_TRUE(older.at(0).record.notch);
+  EXPECT_TRUE(std::isnan(older.at(0).record.notch->ligament_length));
+}
+
 TEST(ResultFolder, StagesAreReadBackUnlessTheyAreNotThoseOfTheCurve)
 {
   const TemporaryFolder folder;
@@ -980,6 +1013,7 @@ TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
   Reference reference = granite(120.0, 130.0);
   reference.experiment.values["fracture_toughness_MPa_sqrt_m"] = {1.3, std::nullopt, std::nullopt};
   FinishedTest bent = compression(3);
+  bent.record.kind = semicircular_bending.kind;
   bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
                                     .work_over_stress = 1e-3,
                                     .ligament_area = 0.01,
@@ -993,10 +1027,18 @@ TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
   const auto sentences = sentences_on_missing(rows, reference);
   ASSERT_FALSE(sentences.empty());
   EXPECT_EQ(sentences.front().rfind(
-              "No figure of fracture toughness, uniaxial compression: the body lies outside of the range", 0),
+              "No figure of fracture toughness, semicircular bending: the body lies outside of the range", 0),
             0u)
     << sentences.front();
   EXPECT_NE(as_text(rows, reference).find("No figure of fracture toughness"), std::string::npos);
+  // Where nothing else can be compared either, the verdict says it too.
+  EXPECT_EQ(verdict(rows, reference, "").points.front(), sentences.front());
+  // The same of a body that could not be set up.
+  FinishedTest refused;
+  refused.record.kind = semicircular_bending.kind;
+  refused.record.failure = "the roller has no bonded grain";
+  EXPECT_EQ(sentences_on_missing(compare({refused}, reference), reference).front(),
+            "No figure of fracture toughness, semicircular bending: the roller has no bonded grain.");
 }
 
 TEST(StrengthTable, HasTheToughnessOfNotchedBodiesOnly)

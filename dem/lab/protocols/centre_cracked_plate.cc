@@ -52,6 +52,7 @@ constinit const LaboratoryProtocol centre_cracked_plate = complete({
            .title = "Tension of a centre-cracked plate",
            .strength = "tensile strength, cracked",
            .sign = 1.0,
+           .has_notch = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::tension_strain_rate,
   .forecast = {PeakForecast::With::tension, 0.6},

@@ -84,6 +84,7 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
            .strength = "load over section, notched",
            .sign = -1.0,
            .channel = {&CurveSample::axial_stress, "load over section", "deflection over radius"},
+           .has_notch = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::bending_strain_rate,
   .forecast = {PeakForecast::With::tension, 1.3},

@@ -71,6 +71,7 @@ constinit const LaboratoryProtocol three_point_bending = complete({
            .strength = "bending strength, notched",
            .sign = -1.0,
            .channel = {&CurveSample::axial_stress, "bending stress", "deflection over depth"},
+           .has_notch = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::bending_strain_rate,
   .forecast = {PeakForecast::With::tension, 4.0},
