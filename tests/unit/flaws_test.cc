@@ -535,28 +535,33 @@ TEST(NotchedBodies, HaveTheShapeFactorsOfTheirSources)
   EXPECT_TRUE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
 }
 
-/// The highest grain within two mean radii of the middle of a half disc that has bonds; where its surface is, its radius.
-std::pair<double, double> highest_bonded(const Specimen<2>& half_disc)
+/// The bonded grain that protrudes furthest towards a roller, within two mean radii of it; where its surface is, its radius.
+std::pair<double, double> protruding(const Specimen<2>& half_disc, const double place, const double side)
 {
   const auto fragment = fragments(half_disc);
-  std::pair<double, double> highest{0.0, 0.0};
-  for (std::size_t i = 0; i < half_disc.grains.size(); ++i)
-    if (fragment[i] == 0 &&
-        std::abs(half_disc.grains.position[0][i] - 0.5 * half_disc.size[0]) <= 2.0 * half_disc.report.mean_radius)
-      highest = std::max(
-        highest, std::pair(half_disc.grains.position[1][i] + half_disc.grains.radius[i], half_disc.grains.radius[i]));
-  return highest;
+  std::pair<double, double> furthest{1.0, 0.0};
+  const auto& grains = half_disc.grains;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    if (fragment[i] == 0 && std::abs(grains.position[0][i] - place) <= 2.0 * half_disc.report.mean_radius)
+      furthest = std::min(furthest, std::pair(side * grains.position[1][i] - grains.radius[i], grains.radius[i]));
+  return {side * furthest.first, furthest.second};
 }
 
 TEST(NotchedBodies, LieWithBondedGrainsOnTheirRollers)
 {
-  // A grain without bonds would sink into the body and let it rock.
+  // A half disc of 6 mm radius, with a span of 0.6 times its diameter. A grain without bonds would sink into the body and let
+  // it rock.
   const auto set_up = [](const Specimen<2>& specimen) {
     return (*semicircular_bending.set_up_2d)(specimen, 0.0, {}, {});
   };
   const auto whole = set_up(rock());
-  const auto [surface, radius] = highest_bonded(whole.dynamics.specimen());
-  EXPECT_NEAR(whole.dynamics.walls().back().position, surface, 1e-12);
+  const auto& body = whole.dynamics.specimen();
+  const auto& rollers = whole.dynamics.walls();
+  ASSERT_EQ(rollers.size(), 3u);
+  EXPECT_NEAR(rollers[0].position, protruding(body, 0.0024, 1.0).first, 1e-12);
+  EXPECT_NEAR(rollers[1].position, protruding(body, 0.0096, 1.0).first, 1e-12);
+  const auto [surface, radius] = protruding(body, 0.006, -1.0);
+  EXPECT_NEAR(rollers[2].position, surface, 1e-12);
 
   Specimen<2> loosened = rock();
   const auto& radii = loosened.grains.radius;
@@ -567,7 +572,7 @@ TEST(NotchedBodies, LieWithBondedGrainsOnTheirRollers)
       for (unsigned int segment = 0; segment < loosened.joints.n_segments; ++segment)
         loosened.joints.bonded[loosened.joints.segment(segment, j)] = 0.0;
   const auto without = set_up(loosened);
-  const double next_surface = highest_bonded(without.dynamics.specimen()).first;
+  const double next_surface = protruding(without.dynamics.specimen(), 0.006, -1.0).first;
   EXPECT_LT(next_surface, surface);
   EXPECT_NEAR(without.dynamics.walls().back().position, next_surface, 1e-12);
 }
