@@ -562,7 +562,8 @@ double with_longer_notches(const nlohmann::json& study, const std::string& kind,
     if (test["group"] == group_of(study, kind, variant))
       {
         const double width = test["size_m"][0];
-        const double depth = kind == "centre_cracked_plate" ? 0.5 * width : double(test["size_m"][1]);
+        const double height = test["size_m"][2] > 0.0 ? test["size_m"][2] : test["size_m"][1];
+        const double depth = kind == "centre_cracked_plate" ? 0.5 * width : height;
         const double at_notch = intensity(kind, 0.5) * std::sqrt(depth);
         EXPECT_NEAR(double(test["notch"]["intensity_over_stress_sqrt_m"]), at_notch, 1e-6 * at_notch);
         const double mean_radius = width / (2.0 * double(test["resolution"]));
@@ -652,6 +653,10 @@ TEST(Example, TheToughnessReadmeShowsTheCommittedResults)
             row += fmt::format(" {} |", mean_and_deviation(study, group_of(study, bodies[k].kind, number),
                                                            "fracture_toughness_Pa_sqrt_m", 1e6, 2));
           shown(row);
+          std::string longer_notches = fmt::format("| {} | {} |", grains, radius);
+          for (std::size_t k = 0; k < 3; ++k)
+            longer_notches += fmt::format(" {:.2f} |", with_longer_notches(study, bodies[k].kind, number));
+          shown(longer_notches);
         }
     }
 
