@@ -1,7 +1,7 @@
 #include "dem/dynamics/walls.h"
 
-#include "dem/dynamics/pivot.h"
 #include "dem/laws/linear_contact_law.h"
+#include "dem/laws/pivoting_plate.h"
 
 #include <algorithm>
 #include <cmath>

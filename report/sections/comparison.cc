@@ -150,8 +150,8 @@ void add_shear_line(const std::vector<FinishedTest>& tests, Add&& add)
       }
   if (cohesion.empty())
     return;
-  add("friction angle, direct shear", "deg", 1, std::numbers::pi / 180.0, angle, "");
-  add("cohesion, direct shear", "MPa", 2, 1e6, cohesion, "");
+  add("friction angle, direct shear", "deg", 1, std::numbers::pi / 180.0, angle, "direct_shear_friction_angle_deg");
+  add("cohesion, direct shear", "MPa", 2, 1e6, cohesion, "direct_shear_cohesion_MPa");
 }
 } // namespace
 

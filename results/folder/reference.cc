@@ -52,6 +52,8 @@ constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
                                    {"fracture_energy_J_per_m2", 1e-2, 1e5},
                                    {"friction_angle_deg", 1.0, 89.0},
                                    {"cohesion_MPa", 1e-3, 2000.0},
+                                   {"direct_shear_friction_angle_deg", 1.0, 89.0},
+                                   {"direct_shear_cohesion_MPa", 0.0, 2000.0}, // none of a joint without a filling
                                    {"m_i", 0.1, 200.0}};
 constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};

@@ -116,6 +116,20 @@ FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
   return test;
 }
 
+/// A body with a ligament of 9 mm; its curve is that of `compression`.
+FinishedTest notched(const TestKind& kind, const bool is_valid)
+{
+  FinishedTest test = compression(1);
+  test.record.kind = kind;
+  test.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
+                                    .work_over_stress = 1e-3,
+                                    .ligament_area = 0.01,
+                                    .ligament_length = 0.009,
+                                    .is_valid = is_valid};
+  test.results = evaluate(test.record);
+  return test;
+}
+
 TEST(ResultFolder, IsReadBackAsItWasWritten)
 {
   const TemporaryFolder folder;
@@ -228,14 +242,7 @@ TEST(ResultFolder, OfTheLayoutBeforeIsReadInFull)
 TEST(ResultFolder, ToughnessAndNotchAreReadBackForThePage)
 {
   const TemporaryFolder folder;
-  FinishedTest bent = compression(1);
-  bent.record.kind = three_point_bending.kind;
-  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
-                                    .work_over_stress = 1e-3,
-                                    .ligament_area = 0.01,
-                                    .ligament_length = 0.009,
-                                    .is_valid = true};
-  bent.results = evaluate(bent.record);
+  const FinishedTest bent = notched(three_point_bending.kind, true);
   ASSERT_TRUE(bent.results.fracture_toughness.value);
   write_result_folder({}, {bent}, {}, folder.path());
   const auto tests = read_result_folder(folder.path(), test_kinds()).at(0).tests;
@@ -1009,17 +1016,10 @@ TEST(Comparison, NamesPropertiesOfTheRockThatWereNotTested)
 
 TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
 {
-  // A half disc with a notch for which its formula does not hold, pulled down to a twentieth of its peak.
+  // A half disc with a notch for which its formula does not hold.
   Reference reference = granite(120.0, 130.0);
   reference.experiment.values["fracture_toughness_MPa_sqrt_m"] = {1.3, std::nullopt, std::nullopt};
-  FinishedTest bent = compression(3);
-  bent.record.kind = semicircular_bending.kind;
-  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
-                                    .work_over_stress = 1e-3,
-                                    .ligament_area = 0.01,
-                                    .ligament_length = 0.01,
-                                    .is_valid = false};
-  bent.results = evaluate(bent.record);
+  const FinishedTest bent = notched(semicircular_bending.kind, false);
   ASSERT_FALSE(bent.results.fracture_toughness.value);
   const auto rows = compare({bent}, reference);
   const auto untested = properties_without_a_test(rows, reference);
@@ -1075,11 +1075,7 @@ TEST(TrustChecks, MeasureTheLigamentInGrains)
     return found == checks.end() ? std::nullopt : std::optional(*found);
   };
   EXPECT_FALSE(ligament());
-  bent.record.notch = NotchGeometry{.intensity_over_stress = 0.1,
-                                    .work_over_stress = 1e-3,
-                                    .ligament_area = 0.01,
-                                    .ligament_length = 0.009,
-                                    .is_valid = true};
+  bent.record.notch = notched(three_point_bending.kind, true).record.notch;
   ASSERT_TRUE(ligament());
   EXPECT_NEAR(ligament()->worst, 4.5, 1e-12);
   EXPECT_EQ(ligament()->n_out, 1u);

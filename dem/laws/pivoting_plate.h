@@ -1,12 +1,24 @@
-#include "dem/dynamics/pivot.h"
+#pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace feldspar
 {
-double balanced_tilt(const std::span<const SpringOnPlate> springs, const double before)
+/// A contact with a plate that turns about a pivot. It presses where overlap - tilt × lever is positive.
+struct SpringOnPlate
+{
+  double stiffness; ///< [N/m]
+  double lever;     ///< from the pivot, along the plate [m]
+  double overlap;   ///< with the plate level [m]
+};
+
+/// The tilt [rad] at which the contacts press without a moment about the pivot, where their energy is least. Where none
+/// presses over a range of tilts, the nearest of these to `before`. Bisection alone comes to rounding in some 50 trials.
+inline double balanced_tilt(const std::span<const SpringOnPlate> springs, const double before,
+                            const int most_trials = 100)
 {
   // With more tilt contacts beyond the pivot let go, and those before it come to press: the moment falls, linearly from
   // one such change to the next.
@@ -24,7 +36,6 @@ double balanced_tilt(const std::span<const SpringOnPlate> springs, const double 
   // Newton's method, which ends with the right contacts; bisection where it would leave the bracket. It has come to an end
   // where the moment is that of the rounding of its terms, which are larger than their difference, the overlap.
   constexpr double rounding = 1e-14;
-  constexpr int most_trials = 100; // bisection alone comes to rounding in some 50
   double least = all_before_off;
   double most = all_beyond_off;
   double tilt = std::clamp(before, least, most);
