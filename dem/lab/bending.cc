@@ -26,9 +26,9 @@ std::vector<bool> loose_grains(const Specimen<dim>& body)
   std::vector<std::uint32_t> size(fragment.size(), 0);
   for (const std::uint32_t number : fragment)
     ++size[number];
-  std::vector<bool> is_loose;
-  for (const std::uint32_t number : fragment)
-    is_loose.push_back(number > 0 && size[number] <= most_grains);
+  std::vector<bool> is_loose(fragment.size());
+  for (std::size_t i = 0; i < fragment.size(); ++i)
+    is_loose[i] = fragment[i] > 0 && size[fragment[i]] <= most_grains;
   return is_loose;
 }
 
