@@ -84,7 +84,7 @@ EXPERIMENTS = {
     "confined": Experiment("lab", "confined"),
     "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
-    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 2, *FINITE)),
+    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *FINITE)),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
 for across, along in MESHES[1:]:
@@ -428,18 +428,22 @@ def print_confined():
 
 
 def print_kinematics():
-    """The sample at 60 MPa by both kinematics of its cells: the highest stress and its strain."""
-    print("| seed | small strains: highest σ_1 [MPa] | at [1e-3] | finite: highest σ_1 [MPa] | at [1e-3] |")
-    print("|---|---|---|---|---|")
-    finite = {test["seed"]: test for test in results("sample-finite")["tests"]}
-    for test in results("sample-confined")["tests"]:
-        if test["seed"] in finite and round(test["confining_pressure_Pa"] / 1e6) == 60:
-            cells = [str(test["seed"])]
-            for one in (test, finite[test["seed"]]):
-                has_peak = one["peak_stress_Pa"] is not None
-                cells.append(f"{(one['peak_stress_Pa'] or one['stress_at_end_Pa']) / 1e6:.0f}")
-                cells.append(f"{1e3 * one['strain_at_peak']:.1f}" if has_peak else "no peak")
-            print(f"| {' | '.join(cells)} |")
+    """The sample under pressure by both kinematics of its cells: the highest stress and its strain."""
+    print("| pressure [MPa] | seed | small strains: highest σ_1 [MPa] | at [1e-3] ", end="")
+    print("| finite: highest σ_1 [MPa] | at [1e-3] |")
+    print("|---|---|---|---|---|---|")
+
+    def by_pressure_and_seed(name):
+        return {(round(test["confining_pressure_Pa"] / 1e6), test["seed"]): test for test in results(name)["tests"]}
+
+    small, finite = by_pressure_and_seed("sample-confined"), by_pressure_and_seed("sample-finite")
+    for key in sorted(finite):
+        cells = [str(part) for part in key]
+        for one in (small[key], finite[key]):
+            has_peak = one["peak_stress_Pa"] is not None
+            cells.append(f"{(one['peak_stress_Pa'] or one['stress_at_end_Pa']) / 1e6:.0f}")
+            cells.append(f"{1e3 * one['strain_at_peak']:.1f}" if has_peak else "no peak")
+        print(f"| {' | '.join(cells)} |")
     print()
 
 

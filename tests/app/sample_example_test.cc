@@ -187,13 +187,14 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
 
   // Kinematics of the cells.
   const auto finite = committed("sample-finite");
-  ASSERT_EQ(finite["tests"].size(), 2u);
+  ASSERT_GE(finite["tests"].size(), 4u);
   std::size_t n_pairs = 0;
   for (const auto& turned : finite["tests"])
     for (const auto& test : sample_under_pressure["tests"])
       if (test["seed"] == turned["seed"] && test["confining_pressure_Pa"] == turned["confining_pressure_Pa"])
         {
-          std::string row = fmt::format("| {} |", test["seed"].get<int>());
+          std::string row =
+            fmt::format("| {:.0f} | {} |", test["confining_pressure_Pa"].get<double>() / 1e6, test["seed"].get<int>());
           for (const auto* const one : {&test, &turned})
             if ((*one)["peak_stress_Pa"].is_null())
               row += fmt::format(" {:.0f} | no peak |", (*one)["stress_at_end_Pa"].get<double>() / 1e6);
@@ -203,7 +204,7 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
           shown(row);
           ++n_pairs;
         }
-  EXPECT_EQ(n_pairs, 2u);
+  EXPECT_EQ(n_pairs, finite["tests"].size());
 
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
