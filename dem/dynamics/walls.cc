@@ -234,13 +234,12 @@ template <int dim>
 void Walls<dim>::balance(const Specimen<dim>& body, const std::size_t wall)
 {
   Wall& plate = walls[wall];
-  Wall level = plate;
-  level.tilt = 0.0;
+  constexpr double at_pivot = 0.0; // where a plate has the distance that it has everywhere when it is level
   std::vector<SpringOnPlate> springs;
   springs.reserve(touches[wall].size());
   for (const auto& touch : touches[wall])
     springs.push_back({stiffness(body, body.grains.radius[touch.grain]), touch.lever,
-                       touch.zero_distance - distance_from(body, level, touch.grain, touch.lever)});
+                       touch.zero_distance - distance_from(body, plate, touch.grain, at_pivot)});
   plate.tilt = balanced_tilt(springs, plate.tilt);
 }
 
