@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 #include <variant>
 
 namespace feldspar
@@ -101,6 +103,7 @@ std::vector<Break> Dynamics<dim>::step()
   else if (watch_is_over() || faces_have_gone)
     {
       remove_lost_contacts();
+      gather_joints();
       find_contacts();
       choose_time_step();
     }
@@ -163,16 +166,34 @@ void Dynamics<dim>::start()
   check_motion(); // from the outside; a first step too long would take grains where no contact is looked for
 }
 
-/// After joints have gone.
+/// After joints have gone or have other places.
 template <int dim>
 void Dynamics<dim>::number_joints()
 {
   const auto& joints = body.joints;
+  std::vector<std::uint32_t> by_number(joints.size());
+  std::iota(by_number.begin(), by_number.end(), 0);
+  std::sort(by_number.begin(), by_number.end(),
+            [&](const std::uint32_t a, const std::uint32_t b) { return joints.number[a] < joints.number[b]; });
   joints_of = incidence(
-    images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
+    images.n_own(), joints.size(),
+    [&](const std::size_t k) { return GrainPair(joints.grain_1[by_number[k]], joints.grain_2[by_number[k]]); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
+  for (std::uint32_t& entry : joints_of.entries)
+    entry = 2 * by_number[entry / 2] + entry % 2;
   sum_order = SumOrder(joints_of);
   sweep_memory = SweepMemory<dim>(joints);
+  joint_groups = JointGroups<dim>(joints);
+}
+
+/// Of a law that responds for faces as for one.
+template <int dim>
+void Dynamics<dim>::gather_joints()
+{
+  const bool has_two_ways = std::visit(
+    [](const auto& law) { return RespondsAsOne<std::decay_t<decltype(law)>, dim, simd::Pack>; }, body.joints.law);
+  if (has_two_ways && joint_groups.gather(body.joints))
+    number_joints();
 }
 
 /// The grains of a joint that has lost its face may touch again.
@@ -316,6 +337,7 @@ template <int dim>
 std::vector<Break> Dynamics<dim>::update_contacts(const double step)
 {
   auto breaks = sweep_joints(body.joints, body.grains, step, sweep_memory);
+  joint_groups.note(breaks, body.joints);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step) || contact_made;
   sum_forces(body, sum_order, touches);
   if (!body.smooth_joints.empty())

@@ -9,6 +9,7 @@
 #include "dem/dynamics/incidence.h"
 #include "dem/dynamics/parameters.h"
 #include "dem/dynamics/runaway.h"
+#include "dem/dynamics/sweeps/joint_groups.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
@@ -120,6 +121,7 @@ private:
   double kinetic_energy(std::uint32_t one_body) const;
   bool watch_is_over();
   void remove_lost_contacts();
+  void gather_joints();
   void number_joints();
   void find_contacts();
   void choose_time_step();
@@ -143,6 +145,7 @@ private:
   Incidence joints_of; ///< each grain
   SumOrder sum_order;
   SweepMemory<dim> sweep_memory;
+  JointGroups<dim> joint_groups;
   ContactWatch<dim> watch;
   EnergyLedger ledger;
   Components<dim> position_at_start; ///< of the bodies

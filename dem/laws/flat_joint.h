@@ -167,6 +167,21 @@ Real widest_gap(const Face<Real>& face, const WholeFace<3>& whole, const Real& o
                                        flat_joint::absolute(rotation[2]) * whole.farthest_offset[0]);
 }
 
+/// Whether no point of a face would be closed, were nothing of it bonded: sufficient, by a margin for round-off.
+template <typename Real>
+auto surely_apart(const Face<Real>& face, const WholeFace<2>& /*whole*/, const Real& opening,
+                  const std::array<Real, 1>& rotation)
+{
+  return opening > 1.001 * flat_joint::absolute(rotation[0]) * face.half_length;
+}
+
+template <typename Real>
+auto surely_apart(const Face<Real>& face, const WholeFace<3>& whole, const Real& opening,
+                  const std::array<Real, 3>& rotation)
+{
+  return opening > 1.001 * (widest_gap(face, whole, opening, rotation) - opening);
+}
+
 /// Not below the square of the shear of any segment [m²].
 template <typename Real>
 Real farthest_slip_squared(const Face<Real>& /*face*/, const WholeFace<2>& /*whole*/,
@@ -239,6 +254,14 @@ struct FlatJoint : CarriedPlane<dim>
     const Real k_s = face.shear_stiffness;
     return highest_stress <= least.tensile_strength &&
            k_s * k_s * farthest_slip_squared(face, whole, rotation, slip) <= strength * strength;
+  }
+
+  /// Whether no segment of a face without bonds is closed: sufficient, and cheap. It then bears nothing.
+  template <typename Real>
+  static auto surely_open(const Face<Real>& face, const WholeFace<dim>& whole, const Real& opening,
+                          const std::array<Real, n_rotations<dim>>& rotation)
+  {
+    return surely_apart(face, whole, opening, rotation);
   }
 
   template <typename Real>

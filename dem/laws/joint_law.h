@@ -93,8 +93,8 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
 };
 
 /// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
-/// installation. The sweep then looks at elements one by one only where a bond may break or one has broken, and their
-/// shear stress need not be stored.
+/// installation, and that a face without bonds that stands open has none. The sweep then looks at elements one by one only
+/// where a bond may break or a broken face may press, and the shear stress of bonded faces need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
@@ -104,6 +104,11 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
   // Whether it is certain that no bond breaks; the bond has the least strengths of the face.
   {
     Law::surely_holds(face, whole, least, opening, rotation, slip)
+    } -> std::same_as<decltype(Real() < Real())>;
+  // Whether it is certain that all of a face is open. Without bonds and shear stress before, it then bears and changes
+  // nothing.
+  {
+    Law::surely_open(face, whole, opening, rotation)
     } -> std::same_as<decltype(Real() < Real())>;
   {
     Law::whole_response(face, whole, opening, rotation, slip)

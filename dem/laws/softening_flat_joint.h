@@ -72,6 +72,12 @@ struct SofteningFlatJoint : CarriedPlane<dim>
     return FlatJoint<dim>::surely_holds(face, whole, least, opening, rotation, slip);
   }
   template <typename Real>
+  static auto surely_open(const Face<Real>& face, const WholeFace<dim>& whole, const Real& opening,
+                          const std::array<Real, n_rotations<dim>>& rotation)
+  {
+    return FlatJoint<dim>::surely_open(face, whole, opening, rotation);
+  }
+  template <typename Real>
   static FaceResultants<dim, Real> whole_response(const Face<Real>& face, const WholeFace<dim>& whole,
                                                   const Real& opening,
                                                   const std::array<Real, n_rotations<dim>>& rotation,

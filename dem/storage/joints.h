@@ -5,6 +5,8 @@
 #include "dem/storage/grains.h"
 #include "dem/storage/packed_rows.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -111,7 +113,8 @@ struct JointTables
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(response, first_couple_2);
 };
 
-/// The joints of a specimen and their law, ordered in space. Per segment (in space: element of the disk): [segment * size()
+/// The joints of a specimen and their law, ordered in space but for neighbours that a sweep has together
+/// (dem/dynamics/sweeps/joint_groups.h). Per segment (in space: element of the disk): [segment * size()
 /// + joint].
 template <int dim>
 struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning takes its base, too
@@ -242,6 +245,21 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
         for (std::size_t to = 0; to < kept.size(); ++to)
           (*values)[to] = (*values)[kept[to]];
         values->resize(kept.size());
+      }
+  }
+
+  /// Puts the joints `taken`, a permutation of those from `first` on, in its order.
+  void reorder(const std::size_t first, const std::vector<std::size_t>& taken)
+  {
+    for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
+      table->reorder(first, taken);
+    this->response.reorder(first, taken);
+    std::vector<std::uint32_t> numbers(taken.size());
+    for (auto* values : {&grain_1, &grain_2, &number})
+      {
+        for (std::size_t k = 0; k < taken.size(); ++k)
+          numbers[k] = (*values)[taken[k]];
+        std::copy(numbers.begin(), numbers.end(), values->begin() + std::ptrdiff_t(first));
       }
   }
 };

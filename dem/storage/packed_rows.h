@@ -36,6 +36,19 @@ public:
     values.resize((column_count + width - 1) / width * width * row_count);
   }
 
+  /// Puts the columns `taken`, a permutation of those from `first` on, in its order.
+  void reorder(const std::size_t first, const std::vector<std::size_t>& taken)
+  {
+    std::vector<double> numbers(taken.size());
+    for (std::size_t row = 0; row < row_count; ++row)
+      {
+        for (std::size_t k = 0; k < taken.size(); ++k)
+          numbers[k] = *at(row, taken[k]);
+        for (std::size_t k = 0; k < taken.size(); ++k)
+          *at(row, first + k) = numbers[k];
+      }
+  }
+
   std::size_t n_rows() const { return row_count; }
   std::size_t n_columns() const { return column_count; }
 

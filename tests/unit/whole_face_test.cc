@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace feldspar
 {
@@ -128,6 +129,56 @@ TYPED_TEST(WholeFace, RespondsAndBreaksAsItsSegmentsDo)
   EXPECT_LT(n_whole, as_one.size() - as_one.size() / 20);
   EXPECT_GT(n_broken, as_one.size() / 2);
   EXPECT_GT(n_steps_with_breaks, 50u);
+}
+
+TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenToTheBitAsItsSegmentsDo)
+{
+  // Beside it the same joints, which never remember that they bear nothing: all broken ones go segment by segment.
+  constexpr int dim = TypeParam::dim;
+  using Memory = SweepMemory<dim>;
+  Specimen<dim> specimen = TypeParam::specimen();
+  auto& grains = specimen.grains;
+  Joints<dim>& resting = specimen.joints;
+  Joints<dim> restless = resting;
+  Memory memory(resting), memory_of_restless(restless);
+  const Components<dim> start = grains.position;
+  const double dt = 0.02;
+  const auto rests = [&](const std::size_t j) {
+    return *memory.weakest.at(Memory::tensile_strength, j) < 0.0 &&
+           *memory.weakest.at(Memory::cohesion, j) == Memory::at_rest;
+  };
+  std::vector<bool> rested(resting.size(), false);
+  std::size_t n_rests = 0, n_closings = 0;
+  for (int step = 1; step <= 400; ++step)
+    {
+      drive<dim>(grains, start, step, dt);
+      const auto breaks = sweep_joints(resting, grains, dt, memory);
+      EXPECT_EQ(sweep_joints(restless, grains, dt, memory_of_restless).size(), breaks.size());
+      for (std::size_t j = 0; j < resting.size(); ++j)
+        {
+          n_rests += rests(j);
+          n_closings += rested[j] && !rests(j);
+          rested[j] = rests(j);
+          if (*memory_of_restless.weakest.at(Memory::tensile_strength, j) < 0.0)
+            *memory_of_restless.weakest.at(Memory::cohesion, j) = Memory::in_pieces;
+        }
+    }
+  for (std::size_t row = 0; row < resting.state.n_rows(); ++row)
+    for (std::size_t j = 0; j < resting.size(); ++j)
+      ASSERT_EQ(*resting.state.at(row, j), *restless.state.at(row, j)) << "row " << row << ", joint " << j;
+  for (std::size_t j = 0; j < resting.size(); ++j)
+    for (unsigned int i = 0; i < resting.n_segments; ++i)
+      ASSERT_EQ(shear_stress(resting, i, j), shear_stress(restless, i, j)) << "segment " << i << ", joint " << j;
+  for (std::size_t row = 0; row < resting.response.n_rows(); ++row)
+    for (std::size_t j = 0; j < resting.size(); ++j)
+      ASSERT_EQ(*resting.response.at(row, j), *restless.response.at(row, j)) << "row " << row << ", joint " << j;
+  EXPECT_GT(n_rests, 1000u);
+  EXPECT_GT(n_closings, 20u);
+  // Whoever takes a run up knows from the joints what the sweep remembers.
+  const Memory again(resting);
+  for (std::size_t row = 0; row < Memory::n_weakest; ++row)
+    for (std::size_t j = 0; j < resting.size(); ++j)
+      EXPECT_EQ(*again.weakest.at(row, j), *memory.weakest.at(row, j));
 }
 
 TYPED_TEST(WholeFace, HasTheSameBitsWhateverItsNeighboursInAPack)

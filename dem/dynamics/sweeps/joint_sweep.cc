@@ -2,6 +2,7 @@
 
 #include "dem/dynamics/sweeps/joint_sweep_of_law.h"
 
+#include <utility>
 #include <variant>
 
 namespace feldspar
@@ -20,9 +21,10 @@ SweepMemory<dim>::SweepMemory(const Joints<dim>& joints)
           least_tension = std::min(least_tension, joints.tensile_strength[segment]);
           least_cohesion = std::min(least_cohesion, joints.cohesion[segment]);
         }
-      const bool whole = std::visit([&](const auto& law) { return is_whole(law, joints, j); }, joints.law);
+      const auto [whole, rests] = std::visit(
+        [&](const auto& law) { return std::pair(is_whole(law, joints, j), rests_open(law, joints, j)); }, joints.law);
       *weakest.at(tensile_strength, j) = whole ? least_tension : -joint_sweep::infinity;
-      *weakest.at(cohesion, j) = whole ? least_cohesion : -joint_sweep::infinity;
+      *weakest.at(cohesion, j) = whole ? least_cohesion : rests ? at_rest : in_pieces;
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace feldspar
@@ -27,8 +28,12 @@ struct SweepMemory
   explicit SweepMemory(const Joints<dim>& joints);
 
   static constexpr std::size_t tensile_strength = 0, cohesion = 1, n_weakest = 2;
-  /// The least strengths of each joint's bonds [Pa]; below every stress where not all of them hold.
+  /// The least strengths of each joint's bonds [Pa]. Where not all of them hold, the tensile one is below every stress, and
+  /// the cohesion tells whether the joint bears nothing (at_rest) or may bear something (in_pieces).
   PackedRows weakest;
+  /// No bond holds, no element has a shear stress, and all of the face is open.
+  static constexpr double at_rest = std::numeric_limits<double>::infinity();
+  static constexpr double in_pieces = -at_rest;
 
   /// Centre of each grain [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
   /// in the plane both in one four: x, y, φ.
@@ -37,7 +42,7 @@ struct SweepMemory
 };
 
 /// Carries every joint over one step of dt [s]: reads the grains' positions (at its end) and spins (at its middle),
-/// updates the segments and leaves forces and couples in the joints. Breaks come in the order of joint and segment,
+/// updates the segments and leaves forces and couples in the joints. Breaks come by the numbers of joint and segment,
 /// whatever the number of threads.
 template <int dim>
 std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt, SweepMemory<dim>& memory);

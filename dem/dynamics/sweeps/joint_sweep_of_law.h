@@ -82,6 +82,7 @@ struct StoredSegments
   const FaceBefore<dim, Real>& before;
   std::vector<Break>& breaks;
   Mask some_changed{false}; ///< broke, or remembers now what the motion of its face does not tell
+  Mask some_bear{false};    ///< are bonded, or have a shear stress
 
   static constexpr std::size_t n_rows = JointTables<dim>::n_segment_rows;
 
@@ -124,7 +125,12 @@ struct StoredSegments
         simd::store(update.state.more[k], joints.more(k).pack(i, first));
     const Mask broke = update.tension_break || update.shear_break;
     if constexpr (RespondsAsOne<Law, dim, Real>)
-      some_changed = some_changed || broke || Law::remembers(update.state);
+      {
+        some_changed = some_changed || broke || Law::remembers(update.state);
+        some_bear = some_bear || update.state.bonded;
+        for (int c = 0; c < dim - 1; ++c)
+          some_bear = some_bear || update.state.shear_stress[c] != 0.0;
+      }
     if (!simd::any(broke))
       return;
     for (std::size_t j = 0; j < simd::width<Real>; ++j)
@@ -147,6 +153,19 @@ void add_slip_energy(Joints<dim>& joints, const std::size_t j, const Real& energ
   simd::store(simd::load<Real>(slip_energy) + energy, slip_energy);
 }
 
+/// Slip energy is that of `no`, which alone has some.
+template <typename Mask, int dim, typename Real>
+FaceResultants<dim, Real> select(const Mask& condition, const FaceResultants<dim, Real>& yes,
+                                 FaceResultants<dim, Real> no)
+{
+  no.normal_force = simd::select(condition, yes.normal_force, no.normal_force);
+  for (std::size_t c = 0; c < no.shear_force.size(); ++c)
+    no.shear_force[c] = simd::select(condition, yes.shear_force[c], no.shear_force[c]);
+  for (std::size_t c = 0; c < no.moment.size(); ++c)
+    no.moment[c] = simd::select(condition, yes.moment[c], no.moment[c]);
+  return no;
+}
+
 /// The segments one by one, of a law whose faces never respond as one.
 template <typename Real, typename Law, int dim>
 FaceResultants<dim, Real> update_each_segment(const Law& law, Joints<dim>& joints, const Face<Real>& face,
@@ -167,21 +186,21 @@ template <typename Real, typename Law, int dim>
   const FaceMotion<dim, Real>& motion, const FaceBefore<dim, Real>& before, const FaceResultants<dim, Real>& as_one,
   const std::size_t j, std::vector<Break>& breaks)
 {
+  using Memory = SweepMemory<dim>;
   StoredSegments<Law, dim, Real> segments{joints, j, face, before, breaks};
   FaceResultants<dim, Real> sum = law.update(face, joints.elements, motion, segments);
   const auto is_whole = before.is_whole && !segments.some_changed;
-  sum.normal_force = simd::select(is_whole, as_one.normal_force, sum.normal_force);
-  for (std::size_t c = 0; c < sum.shear_force.size(); ++c)
-    sum.shear_force[c] = simd::select(is_whole, as_one.shear_force[c], sum.shear_force[c]);
-  for (std::size_t c = 0; c < sum.moment.size(); ++c)
-    sum.moment[c] = simd::select(is_whole, as_one.moment[c], sum.moment[c]);
+  sum = select(is_whole, as_one, sum);
 
+  double* const tensile_strength = memory.weakest.at(Memory::tensile_strength, j);
+  double* const cohesion = memory.weakest.at(Memory::cohesion, j);
   if (simd::any(before.is_whole && segments.some_changed))
-    for (const std::size_t row : {memory.tensile_strength, memory.cohesion})
-      {
-        double* const least = memory.weakest.at(row, j);
-        simd::store(simd::select(segments.some_changed, Real(-infinity), simd::load<Real>(least)), least);
-      }
+    simd::store(simd::select(segments.some_changed, Real(-infinity), simd::load<Real>(tensile_strength)),
+                tensile_strength);
+  const auto is_open = Law::surely_open(face, joints.whole, motion.opening, motion.rotation);
+  const Real what_it_bears =
+    simd::select(!segments.some_bear && is_open, Real(Memory::at_rest), Real(Memory::in_pieces));
+  simd::store(simd::select(is_whole, simd::load<Real>(cohesion), what_it_bears), cohesion);
   add_slip_energy(joints, j, sum.slip_energy);
   return sum;
 }
@@ -294,10 +313,16 @@ template <typename Real, typename Law, int dim>
       const Bond<Real> least{weakest.take(memory.tensile_strength), weakest.take(memory.cohesion),
                              joints.friction_slope};
       resultants = Law::whole_response(face, joints.whole, motion.opening, motion.rotation, slip);
-      if (!simd::all(Law::surely_holds(face, joints.whole, least, motion.opening, motion.rotation, slip)))
+      const auto holds = Law::surely_holds(face, joints.whole, least, motion.opening, motion.rotation, slip);
+      if (!simd::all(holds))
         {
           before.is_whole = least.tensile_strength >= 0.0;
-          resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
+          const auto stays_at_rest = !before.is_whole && least.cohesion == SweepMemory<dim>::at_rest &&
+                                     Law::surely_open(face, joints.whole, motion.opening, motion.rotation);
+          if (simd::all(holds || stays_at_rest))
+            resultants = select(stays_at_rest, FaceResultants<dim, Real>{}, resultants);
+          else
+            resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
         }
     }
   else
@@ -345,8 +370,8 @@ std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grain
   std::vector<Break> all;
   for (const auto& of_block : breaks)
     all.insert(all.end(), of_block.begin(), of_block.end());
-  std::sort(all.begin(), all.end(), [](const Break& a, const Break& b) {
-    return a.joint != b.joint ? a.joint < b.joint : a.segment < b.segment;
+  std::sort(all.begin(), all.end(), [&](const Break& a, const Break& b) {
+    return a.joint != b.joint ? joints.number[a.joint] < joints.number[b.joint] : a.segment < b.segment;
   });
   return all;
 }
@@ -376,6 +401,26 @@ bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
       if (Law::remembers(stored_state<dim, Law>(joints, i, j)))
         return false;
   return true;
+}
+
+/// Whether a face bears nothing and stays so as long as it is open.
+template <int dim, JointLaw<dim> Law>
+bool rests_open(const Law&, const Joints<dim>& joints, const std::size_t j)
+{
+  if constexpr (RespondsAsOne<Law, dim, double>)
+    {
+      std::array<double, n_rotations<dim>> rotation;
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        rotation[c] = joints.rotation[c][j];
+      if (joints.holds(j) || !Law::surely_open(joints.face(j), joints.whole, joints.opening[j], rotation))
+        return false;
+      for (unsigned int i = 0; i < joints.n_segments; ++i)
+        for (int c = 0; c < dim - 1; ++c)
+          if (joints.shear_stress[c][joints.segment(i, j)] != 0.0)
+            return false;
+      return true;
+    }
+  return false;
 }
 
 /// The state of a segment, stored or known from the motion of its face.
