@@ -61,7 +61,8 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("dt", dt);
   archive.value("previous_dt", previous_dt);
   archive.value("current_time", current_time);
-  number_joints();
+  joint_groups = JointGroups<dim>(joints);
+  find_ways_to_joints();
   touches.number(images);
 }
 

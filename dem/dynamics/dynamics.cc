@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace feldspar
@@ -102,8 +102,9 @@ std::vector<Break> Dynamics<dim>::step()
     start();
   else if (watch_is_over() || faces_have_gone)
     {
-      remove_lost_contacts();
-      gather_joints();
+      const bool some_have_gone = remove_lost_contacts();
+      if (regroup_joints() || some_have_gone)
+        find_ways_to_joints();
       find_contacts();
       choose_time_step();
     }
@@ -148,7 +149,8 @@ void Dynamics<dim>::restart()
 template <int dim>
 void Dynamics<dim>::start()
 {
-  number_joints();
+  joint_groups = JointGroups<dim>(body.joints);
+  find_ways_to_joints();
   find_contacts();
   check();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
@@ -168,37 +170,34 @@ void Dynamics<dim>::start()
 
 /// After joints have gone or have other places.
 template <int dim>
-void Dynamics<dim>::number_joints()
+void Dynamics<dim>::find_ways_to_joints()
 {
   const auto& joints = body.joints;
-  std::vector<std::uint32_t> by_number(joints.size());
-  std::iota(by_number.begin(), by_number.end(), 0);
-  std::sort(by_number.begin(), by_number.end(),
-            [&](const std::uint32_t a, const std::uint32_t b) { return joints.number[a] < joints.number[b]; });
   joints_of = incidence(
-    images.n_own(), joints.size(),
-    [&](const std::size_t k) { return GrainPair(joints.grain_1[by_number[k]], joints.grain_2[by_number[k]]); },
+    images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
-  for (std::uint32_t& entry : joints_of.entries)
-    entry = 2 * by_number[entry / 2] + entry % 2;
+  // By the numbers of the joints, wherever they stand: sums over them have one order.
+  const auto number_and_end = [&](const std::uint32_t entry) { return std::pair(joints.number[entry / 2], entry % 2); };
+  for (std::size_t i = 0; i < images.n_own(); ++i)
+    std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],
+              [&](const std::uint32_t a, const std::uint32_t b) { return number_and_end(a) < number_and_end(b); });
   sum_order = SumOrder(joints_of);
   sweep_memory = SweepMemory<dim>(joints);
-  joint_groups = JointGroups<dim>(joints);
 }
 
-/// Of a law that responds for faces as for one.
+/// Of a law that responds for faces as for one. Not of a periodic body, whose mean stress may lead its motion and is summed as
+/// its joints stand.
 template <int dim>
-void Dynamics<dim>::gather_joints()
+bool Dynamics<dim>::regroup_joints()
 {
-  const bool has_two_ways = std::visit(
+  const bool responds_as_one = std::visit(
     [](const auto& law) { return RespondsAsOne<std::decay_t<decltype(law)>, dim, simd::Pack>; }, body.joints.law);
-  if (has_two_ways && joint_groups.gather(body.joints))
-    number_joints();
+  return responds_as_one && !body.periodic && joint_groups.regroup(body.joints);
 }
 
-/// The grains of a joint that has lost its face may touch again.
+/// The grains of a joint that has lost its face may touch again. Returns whether joints have gone.
 template <int dim>
-void Dynamics<dim>::remove_lost_contacts()
+bool Dynamics<dim>::remove_lost_contacts()
 {
   auto& joints = body.joints;
   std::vector<std::size_t> kept;
@@ -227,12 +226,12 @@ void Dynamics<dim>::remove_lost_contacts()
                  (at<dim>(body.grains.position, ends.second) - at<dim>(body.grains.position, ends.first)).norm());
       touches.add(touch);
     }
-  if (kept.size() < joints.size())
-    {
-      joints.keep(kept);
-      number_joints();
-      touches.number(images);
-    }
+  if (kept.size() == joints.size())
+    return false;
+  joints.keep(kept);
+  joint_groups = JointGroups<dim>(joints);
+  touches.number(images);
+  return true;
 }
 
 template <int dim>

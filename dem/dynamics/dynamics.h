@@ -120,9 +120,9 @@ private:
   std::size_t n_bodies() const { return groups.empty() ? images.n_own() : groups.size(); }
   double kinetic_energy(std::uint32_t one_body) const;
   bool watch_is_over();
-  void remove_lost_contacts();
-  void gather_joints();
-  void number_joints();
+  bool remove_lost_contacts();
+  bool regroup_joints();
+  void find_ways_to_joints();
   void find_contacts();
   void choose_time_step();
   Circumstances circumstances() const;

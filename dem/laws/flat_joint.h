@@ -151,35 +151,18 @@ FaceResultants<3, Real> whole_face_response(const Face<Real>& face, const WholeF
           Real(0.0)};
 }
 
-/// Not below the gap at the centroid of any segment [m].
+/// By how much the gap at the centroid of a segment can differ from that in the middle, at most [m].
 template <typename Real>
-Real widest_gap(const Face<Real>& face, const WholeFace<2>& whole, const Real& opening,
-                const std::array<Real, 1>& rotation)
+Real largest_rise(const Face<Real>& face, const WholeFace<2>& whole, const std::array<Real, 1>& rotation)
 {
-  return opening + flat_joint::absolute(rotation[0]) * (face.half_length * whole.farthest_offset[0]);
+  return flat_joint::absolute(rotation[0]) * (face.half_length * whole.farthest_offset[0]);
 }
 
 template <typename Real>
-Real widest_gap(const Face<Real>& face, const WholeFace<3>& whole, const Real& opening,
-                const std::array<Real, 3>& rotation)
+Real largest_rise(const Face<Real>& face, const WholeFace<3>& whole, const std::array<Real, 3>& rotation)
 {
-  return opening + face.half_length * (flat_joint::absolute(rotation[1]) * whole.farthest_offset[1] +
-                                       flat_joint::absolute(rotation[2]) * whole.farthest_offset[0]);
-}
-
-/// Whether no point of a face would be closed, were nothing of it bonded: sufficient, by a margin for round-off.
-template <typename Real>
-auto surely_apart(const Face<Real>& face, const WholeFace<2>& /*whole*/, const Real& opening,
-                  const std::array<Real, 1>& rotation)
-{
-  return opening > 1.001 * flat_joint::absolute(rotation[0]) * face.half_length;
-}
-
-template <typename Real>
-auto surely_apart(const Face<Real>& face, const WholeFace<3>& whole, const Real& opening,
-                  const std::array<Real, 3>& rotation)
-{
-  return opening > 1.001 * (widest_gap(face, whole, opening, rotation) - opening);
+  return face.half_length * (flat_joint::absolute(rotation[1]) * whole.farthest_offset[1] +
+                             flat_joint::absolute(rotation[2]) * whole.farthest_offset[0]);
 }
 
 /// Not below the square of the shear of any segment [m²].
@@ -249,19 +232,24 @@ struct FlatJoint : CarriedPlane<dim>
                            const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
                            const std::array<Real, dim - 1>& slip)
   {
-    const Real highest_stress = face.normal_stiffness * widest_gap(face, whole, opening, rotation); // (10)
-    const Real strength = shear_strength(least, highest_stress);                                    // (15)
+    const Real highest_stress = face.normal_stiffness * (opening + largest_rise(face, whole, rotation)); // (10)
+    const Real strength = shear_strength(least, highest_stress);                                         // (15)
     const Real k_s = face.shear_stiffness;
     return highest_stress <= least.tensile_strength &&
            k_s * k_s * farthest_slip_squared(face, whole, rotation, slip) <= strength * strength;
   }
 
-  /// Whether no segment of a face without bonds is closed: sufficient, and cheap. It then bears nothing.
+  /// Whether no segment of a face without bonds would be closed: in the plane anywhere, in space at its centroid. Sufficient, by
+  /// a margin for round-off, and cheap.
   template <typename Real>
   static auto surely_open(const Face<Real>& face, const WholeFace<dim>& whole, const Real& opening,
                           const std::array<Real, n_rotations<dim>>& rotation)
   {
-    return surely_apart(face, whole, opening, rotation);
+    constexpr double margin = 1.001;
+    if constexpr (dim == 2)
+      return opening > margin * flat_joint::absolute(rotation[0]) * face.half_length;
+    else
+      return opening > margin * largest_rise(face, whole, rotation);
   }
 
   template <typename Real>

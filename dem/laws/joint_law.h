@@ -93,8 +93,8 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
 };
 
 /// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
-/// installation, and that a face without bonds that stands open has none. The sweep then looks at elements one by one only
-/// where a bond may break or a broken face may press, and the shear stress of bonded faces need not be stored.
+/// installation. Such a law also knows when a face without bonds is open and bears nothing. The sweep then looks at elements one
+/// by one only where a bond may break or a broken face may press, and the shear stress of bonded faces need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
@@ -105,8 +105,8 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
   {
     Law::surely_holds(face, whole, least, opening, rotation, slip)
     } -> std::same_as<decltype(Real() < Real())>;
-  // Whether it is certain that all of a face is open. Without bonds and shear stress before, it then bears and changes
-  // nothing.
+  // Whether it is certain that a face without bonds is open. If it was so before and had no shear stress, it bears nothing and
+  // its elements stay as they are.
   {
     Law::surely_open(face, whole, opening, rotation)
     } -> std::same_as<decltype(Real() < Real())>;

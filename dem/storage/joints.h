@@ -113,8 +113,8 @@ struct JointTables
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(response, first_couple_2);
 };
 
-/// The joints of a specimen and their law, ordered in space but for neighbours that a sweep has together
-/// (dem/dynamics/sweeps/joint_groups.h). Per segment (in space: element of the disk): [segment * size()
+/// The joints of a specimen and their law. Their numbers follow each other in space; where they stand among their neighbours is a
+/// matter of the sweep (dem/dynamics/sweeps/joint_groups.h). Per segment (in space: element of the disk): [segment * size()
 /// + joint].
 template <int dim>
 struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning takes its base, too
@@ -237,9 +237,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   /// Drops every joint that is not among `kept` (ascending).
   void keep(const std::vector<std::size_t>& kept)
   {
-    for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
-      table->keep(kept);
-    this->response.keep(kept);
+    for_each_table([&](auto& table) { table.keep(kept); });
     for (auto* values : {&grain_1, &grain_2, &number})
       {
         for (std::size_t to = 0; to < kept.size(); ++to)
@@ -248,19 +246,24 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
       }
   }
 
-  /// Puts the joints `taken`, a permutation of those from `first` on, in its order.
-  void reorder(const std::size_t first, const std::vector<std::size_t>& taken)
+  /// Makes joint k what joint order[k] was; a permutation of all.
+  void reorder(const std::vector<std::size_t>& order)
   {
-    for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
-      table->reorder(first, taken);
-    this->response.reorder(first, taken);
-    std::vector<std::uint32_t> numbers(taken.size());
+    for_each_table([&](auto& table) { table.reorder(order); });
     for (auto* values : {&grain_1, &grain_2, &number})
       {
-        for (std::size_t k = 0; k < taken.size(); ++k)
-          numbers[k] = (*values)[taken[k]];
-        std::copy(numbers.begin(), numbers.end(), values->begin() + std::ptrdiff_t(first));
+        const std::vector<std::uint32_t> before = *values;
+        std::transform(order.begin(), order.end(), values->begin(), [&](const std::size_t j) { return before[j]; });
       }
+  }
+
+private:
+  template <typename Visitor>
+  void for_each_table(Visitor&& visit)
+  {
+    for (auto* table : {&this->state, &this->segment_state, &this->strength, &this->more_state})
+      visit(*table);
+    visit(this->response);
   }
 };
 } // namespace feldspar

@@ -36,16 +36,16 @@ public:
     values.resize((column_count + width - 1) / width * width * row_count);
   }
 
-  /// Puts the columns `taken`, a permutation of those from `first` on, in its order.
-  void reorder(const std::size_t first, const std::vector<std::size_t>& taken)
+  /// Makes column k what column order[k] was; a permutation of all.
+  void reorder(const std::vector<std::size_t>& order)
   {
-    std::vector<double> numbers(taken.size());
+    std::vector<double> numbers(order.size());
     for (std::size_t row = 0; row < row_count; ++row)
       {
-        for (std::size_t k = 0; k < taken.size(); ++k)
-          numbers[k] = *at(row, taken[k]);
-        for (std::size_t k = 0; k < taken.size(); ++k)
-          *at(row, first + k) = numbers[k];
+        for (std::size_t k = 0; k < order.size(); ++k)
+          numbers[k] = *at(row, order[k]);
+        for (std::size_t k = 0; k < order.size(); ++k)
+          *at(row, k) = numbers[k];
       }
   }
 

@@ -1,14 +1,16 @@
-// Joints with broken bonds are gathered in storage: each keeps what it is, and a run the same bits.
+// Joints with broken bonds are put together in storage: each keeps what it is, and a run its bits.
 
 #include "dem/dynamics/dynamics.h"
 #include "dem/dynamics/sweeps/joint_groups.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -16,9 +18,19 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::size_t pack = 8;
+constexpr std::size_t pack = 8, window = 256;
 
-void break_segments(Joints<2>& joints, const std::size_t j, const unsigned int n, JointGroups<2>& groups)
+template <int dim>
+Specimen<dim> body()
+{
+  if constexpr (dim == 2)
+    return granite_box(0.03, 0.03);
+  else
+    return small_cylinder();
+}
+
+template <int dim>
+void break_segments(Joints<dim>& joints, const std::size_t j, const unsigned int n, JointGroups<dim>& groups)
 {
   std::vector<Break> breaks;
   for (unsigned int i = 0; i < n; ++i)
@@ -29,7 +41,8 @@ void break_segments(Joints<2>& joints, const std::size_t j, const unsigned int n
   groups.note(breaks, joints);
 }
 
-std::size_t n_packs_with_broken_bonds(const Joints<2>& joints)
+template <int dim>
+std::size_t n_packs_with_broken_bonds(const Joints<dim>& joints)
 {
   std::size_t n = 0;
   for (std::size_t begin = 0; begin < joints.size(); begin += pack)
@@ -42,8 +55,9 @@ std::size_t n_packs_with_broken_bonds(const Joints<2>& joints)
   return n;
 }
 
-/// What a joint is and remembers, by its number.
-std::vector<std::vector<double>> told_by_number(Joints<2>& joints)
+/// All that a joint is, remembers and does, by its number.
+template <int dim>
+std::vector<std::vector<double>> told_by_number(Joints<dim>& joints)
 {
   std::vector<std::vector<double>> told(joints.size());
   for (std::size_t j = 0; j < joints.size(); ++j)
@@ -55,27 +69,42 @@ std::vector<std::vector<double>> told_by_number(Joints<2>& joints)
         for (unsigned int i = 0; i < joints.n_segments; ++i)
           numbers.push_back(values[joints.segment(i, j)]);
       });
+      for (std::size_t row = 0; row < joints.response.n_rows(); ++row)
+        numbers.push_back(*joints.response.at(row, j));
     }
   return told;
 }
 
-TEST(JointGroups, GatherWhatIsBrokenAndChangeNoJoint)
+template <int dim>
+void expect_that_broken_joints_are_put_together()
 {
-  auto joints = granite_box(0.03, 0.03).joints;
-  ASSERT_GT(joints.size(), 512u); // two windows and a piece of a third
-  JointGroups<2> groups(joints);
-  EXPECT_FALSE(groups.gather(joints)); // all is whole
+  auto specimen = body<dim>();
+  auto& joints = specimen.joints;
+  sweep_joints(joints, specimen.grains, 0.0); // so that they have forces
+  JointGroups<dim> groups(joints);
+  EXPECT_FALSE(groups.regroup(joints)); // all are whole
   std::size_t n_broken = 0;
   for (std::size_t j = 0; j < joints.size(); j += 7, ++n_broken)
-    break_segments(joints, j, n_broken % 2 == 0 ? 4 : 1, groups);
+    break_segments(joints, j, n_broken % 2 == 0 ? joints.n_segments : 1, groups);
   const auto before = told_by_number(joints);
   EXPECT_GT(n_packs_with_broken_bonds(joints), joints.size() / pack * 9 / 10);
 
-  ASSERT_TRUE(groups.gather(joints));
+  ASSERT_TRUE(groups.regroup(joints));
   EXPECT_EQ(told_by_number(joints), before);
-  // In each window of 256 the last ones: packs full of them, and one that is mixed.
-  EXPECT_LE(n_packs_with_broken_bonds(joints), n_broken / pack + 2 * (joints.size() / 256 + 1));
-  EXPECT_FALSE(groups.gather(joints)); // nothing has broken since
+  // In each window the last ones: packs full of them, and one that is mixed at either end.
+  const std::size_t n_windows = (joints.size() + window - 1) / window;
+  EXPECT_LE(n_packs_with_broken_bonds(joints), n_broken / pack + 2 * n_windows);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    EXPECT_EQ(joints.number[j] / window, j / window); // none was lost: windows stay where they were
+  EXPECT_FALSE(groups.regroup(joints));               // nothing has broken since
+  JointGroups<dim> taken_up(joints);
+  EXPECT_FALSE(taken_up.regroup(joints)); // nor is there anything to gain
+}
+
+TEST(JointGroups, PutBrokenJointsTogetherAndChangeNone)
+{
+  expect_that_broken_joints_are_put_together<2>();
+  expect_that_broken_joints_are_put_together<3>();
 }
 
 TEST(JointGroups, ArePutAnewOnlyWhereItSparesEnough)
@@ -85,15 +114,36 @@ TEST(JointGroups, ArePutAnewOnlyWhereItSparesEnough)
   JointGroups<2> groups(joints);
   for (const std::size_t j : {std::size_t(0), std::size_t(100), std::size_t(400)})
     break_segments(joints, j, 1, groups);
-  EXPECT_FALSE(groups.gather(joints));
+  EXPECT_FALSE(groups.regroup(joints));
+}
+
+TEST(JointGroups, AreTheSameWhateverOrderBondsBrokeIn)
+{
+  auto one = granite_box(0.03, 0.03).joints, other = one;
+  JointGroups<2> groups_of_one(one), groups_of_other(other);
+  for (std::size_t j = 0; j < one.size(); j += 5)
+    break_segments(one, j, 4, groups_of_one);
+  ASSERT_TRUE(groups_of_one.regroup(one));
+
+  // The other loses half of these bonds and is put anew before it loses the rest.
+  for (std::size_t j = 0; j < other.size(); j += 10)
+    break_segments(other, j, 4, groups_of_other);
+  ASSERT_TRUE(groups_of_other.regroup(other));
+  EXPECT_NE(one.number, other.number);
+  for (std::size_t j = 0; j < other.size(); ++j)
+    if (other.number[j] % 10 == 5)
+      break_segments(other, j, 4, groups_of_other);
+  groups_of_other.regroup(other);
+  EXPECT_EQ(one.number, other.number);
 }
 
 TEST(JointGroups, LeaveARunItsBitsWhereverItsJointsLie)
 {
-  // Torn until much of it is broken, with its joints in the order of their numbers and in another.
+  // Torn until much of it is broken, with its joints in the order of their numbers and in another, on one thread and on two.
   using Event = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, bool, double>;
-  const auto run = [](const bool in_other_order) {
-    auto specimen = small_specimen(2);
+  const auto run = [](const bool in_other_order, const std::size_t n_threads) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
+    auto specimen = granite_box(0.03, 0.03);
     for (std::size_t i = 0; i < specimen.grains.size(); ++i)
       {
         const double away = specimen.grains.position[1][i] - 0.5 * specimen.size[1];
@@ -101,30 +151,33 @@ TEST(JointGroups, LeaveARunItsBitsWhereverItsJointsLie)
       }
     if (in_other_order)
       {
-        std::vector<std::size_t> taken(specimen.joints.size());
-        std::iota(taken.begin(), taken.end(), 0);
-        std::reverse(taken.begin(), taken.end());
-        specimen.joints.reorder(0, taken);
+        std::vector<std::size_t> order(specimen.joints.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::reverse(order.begin(), order.end());
+        specimen.joints.reorder(order);
       }
     Dynamics<2> dynamics(std::move(specimen), {0.0, 0.8}, ZeroForce::as_placed);
     const auto& numbers = dynamics.specimen().joints.number;
     std::vector<Event> events;
     std::vector<std::uint32_t> order = numbers;
-    std::size_t n_gatherings = 0;
+    std::size_t n_before = 0, n_regroupings = 0;
     while (dynamics.time() < 3e-4)
       {
         for (const Break& event : dynamics.step())
           events.emplace_back(dynamics.n_steps(), numbers[event.joint], event.segment, event.in_tension,
                               event.released_energy);
-        n_gatherings += numbers.size() == order.size() && numbers != order;
+        n_regroupings += numbers.size() == order.size() && numbers != order;
+        n_before += n_regroupings == 0 ? 1 : 0;
         order = numbers;
       }
-    EXPECT_GT(n_gatherings, 1u);
+    EXPECT_GT(n_before, 100u); // steps with the joints where they were put
+    EXPECT_GT(n_regroupings, 1u);
     return std::tuple(events, dynamics.specimen().grains.position, dynamics.specimen().grains.spin);
   };
-  const auto one = run(false);
-  EXPECT_GT(std::get<0>(one).size(), 200u);
-  EXPECT_EQ(one, run(true));
+  const auto one = run(false, 1);
+  EXPECT_GT(std::get<0>(one).size(), 500u);
+  EXPECT_EQ(one, run(true, 1));
+  EXPECT_EQ(one, run(false, 2));
 }
 } // namespace
 } // namespace feldspar

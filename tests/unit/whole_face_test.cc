@@ -145,7 +145,7 @@ TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenToTheBitAsItsSegmentsDo)
   const double dt = 0.02;
   const auto rests = [&](const std::size_t j) {
     return *memory.weakest.at(Memory::tensile_strength, j) < 0.0 &&
-           *memory.weakest.at(Memory::cohesion, j) == Memory::at_rest;
+           *memory.weakest.at(Memory::cohesion, j) == Memory::stands_open;
   };
   std::vector<bool> rested(resting.size(), false);
   std::size_t n_rests = 0, n_closings = 0;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
-#include <variant>
+#include <utility>
 
 namespace feldspar
 {
@@ -10,8 +10,24 @@ namespace
 {
 // Not those of this processor's packs: the order is to be the same on every machine.
 constexpr std::size_t pack = 8;
-/// Joints that change places lie in one of these: their grains and their own numbers stay near each other in memory.
+/// Of joints that follow each other by their numbers, which are those of their places in space. Only these change places among
+/// each other: their grains and their own numbers stay near each other in memory.
 constexpr std::size_t window = 256;
+
+/// Packs with a joint of which this is true.
+template <typename IsBroken>
+std::size_t n_packs(const std::size_t n_joints, IsBroken&& is_broken)
+{
+  std::size_t n = 0;
+  for (std::size_t begin = 0; begin < n_joints; begin += pack)
+    {
+      bool some_broken = false;
+      for (std::size_t k = begin; k < std::min(begin + pack, n_joints); ++k)
+        some_broken = some_broken || is_broken(k);
+      n += some_broken;
+    }
+  return n;
+}
 } // namespace
 
 template <int dim>
@@ -31,42 +47,46 @@ void JointGroups<dim>::note(const std::vector<Break>& breaks, const Joints<dim>&
   has_changed = has_changed || !breaks.empty();
 }
 
-/// Packs that would not have a joint with a broken bond.
 template <int dim>
-std::size_t JointGroups<dim>::n_spared() const
+std::vector<std::size_t> JointGroups<dim>::grouped(const Joints<dim>& joints) const
 {
-  std::size_t n_packs = 0, n_joints = 0;
-  for (std::size_t begin = 0; begin < bonds.size(); begin += pack)
+  std::vector<std::size_t> order(bonds.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](const std::size_t a, const std::size_t b) { return joints.number[a] < joints.number[b]; });
+  for (auto begin = order.begin(); begin != order.end();)
     {
-      const auto first = bonds.begin() + std::ptrdiff_t(begin);
-      const auto n_broken = std::count_if(first, bonds.begin() + std::ptrdiff_t(std::min(begin + pack, bonds.size())),
-                                          [](const Bonds of_joint) { return of_joint != all; });
-      n_packs += n_broken > 0;
-      n_joints += std::size_t(n_broken);
+      const auto end = begin + std::min(std::ptrdiff_t(window), order.end() - begin);
+      std::sort(begin, end, [&](const std::size_t a, const std::size_t b) {
+        return std::pair(bonds[a], joints.number[a]) < std::pair(bonds[b], joints.number[b]);
+      });
+      begin = end;
     }
-  return n_packs - (n_joints + pack - 1) / pack;
+  return order;
 }
 
 template <int dim>
-bool JointGroups<dim>::gather(Joints<dim>& joints)
+bool JointGroups<dim>::regroup(Joints<dim>& joints)
 {
-  if (!has_changed)
+  if (!std::exchange(has_changed, false))
     return false;
-  has_changed = false;
-  if (16 * pack * n_spared() <= bonds.size())
+  const auto is_broken = [&](const std::size_t j) { return bonds[j] != all; };
+  const std::size_t n_now = n_packs(bonds.size(), is_broken);
+  const auto spares_enough = [&](const std::size_t n_then) {
+    return 16 * pack * n_now > 16 * pack * n_then + bonds.size();
+  };
+  // No order has fewer than packs full of them: where that is not enough, none needs to be made.
+  const auto n_broken =
+    std::size_t(std::count_if(bonds.begin(), bonds.end(), [](const Bonds one) { return one != all; }));
+  if (!spares_enough((n_broken + pack - 1) / pack))
     return false;
-  std::vector<std::size_t> taken;
-  for (std::size_t begin = 0; begin < bonds.size(); begin += window)
-    {
-      taken.resize(std::min(window, bonds.size() - begin));
-      std::iota(taken.begin(), taken.end(), begin);
-      std::sort(taken.begin(), taken.end(), [&](const std::size_t a, const std::size_t b) {
-        return std::pair(bonds[a], joints.number[a]) < std::pair(bonds[b], joints.number[b]);
-      });
-      joints.reorder(begin, taken);
-    }
-  *this = JointGroups(joints);
-  has_changed = false;
+  const std::vector<std::size_t> order = grouped(joints);
+  if (!spares_enough(n_packs(bonds.size(), [&](const std::size_t k) { return is_broken(order[k]); })))
+    return false;
+  joints.reorder(order);
+  std::vector<Bonds> moved(bonds.size());
+  std::transform(order.begin(), order.end(), moved.begin(), [&](const std::size_t j) { return bonds[j]; });
+  bonds = std::move(moved);
   return true;
 }
 

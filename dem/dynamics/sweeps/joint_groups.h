@@ -3,14 +3,15 @@
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/storage/joints.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace feldspar
 {
 /// Which neighbouring joints stand together in storage. A sweep takes a pack of joints the long way, segment by segment, if
-/// one of them needs it: joints with broken bonds are therefore gathered. The order that joints have among each other, by
-/// which their forces are summed, is that of their numbers.
+/// one of them needs it. Joints with broken bonds are therefore put together, those with no bond left apart from those with
+/// some: most of the former stand open and need no look. Where joints stand is a function of their numbers and bonds alone.
 template <int dim>
 class JointGroups
 {
@@ -21,9 +22,9 @@ public:
   /// What broke in a sweep.
   void note(const std::vector<Break>& breaks, const Joints<dim>& joints);
 
-  /// Gathers joints anew where this spares more than a sixteenth of all packs the long way. Returns whether it did; then
-  /// joints have other places.
-  bool gather(Joints<dim>& joints);
+  /// Puts joints together anew where this spares a broken bond to more than a sixteenth of all packs. Returns whether joints
+  /// have other places now.
+  bool regroup(Joints<dim>& joints);
 
 private:
   /// In the order in which they are put.
@@ -33,9 +34,10 @@ private:
     none,
     some
   };
-  std::size_t n_spared() const;
+  /// The joints in the order in which they are to stand.
+  std::vector<std::size_t> grouped(const Joints<dim>& joints) const;
 
   std::vector<Bonds> bonds; ///< of each joint
-  bool has_changed = false; ///< since gather() looked
+  bool has_changed = false; ///< since regroup() looked
 };
 } // namespace feldspar

@@ -22,9 +22,10 @@ SweepMemory<dim>::SweepMemory(const Joints<dim>& joints)
           least_cohesion = std::min(least_cohesion, joints.cohesion[segment]);
         }
       const auto [whole, rests] = std::visit(
-        [&](const auto& law) { return std::pair(is_whole(law, joints, j), rests_open(law, joints, j)); }, joints.law);
+        [&](const auto& law) { return std::pair(is_whole(law, joints, j), stands_open_without_bonds(law, joints, j)); },
+        joints.law);
       *weakest.at(tensile_strength, j) = whole ? least_tension : -joint_sweep::infinity;
-      *weakest.at(cohesion, j) = whole ? least_cohesion : rests ? at_rest : in_pieces;
+      *weakest.at(cohesion, j) = whole ? least_cohesion : rests ? stands_open : in_pieces;
     }
 }
 

@@ -29,11 +29,11 @@ struct SweepMemory
 
   static constexpr std::size_t tensile_strength = 0, cohesion = 1, n_weakest = 2;
   /// The least strengths of each joint's bonds [Pa]. Where not all of them hold, the tensile one is below every stress, and
-  /// the cohesion tells whether the joint bears nothing (at_rest) or may bear something (in_pieces).
+  /// the cohesion is one of two marks.
   PackedRows weakest;
-  /// No bond holds, no element has a shear stress, and all of the face is open.
-  static constexpr double at_rest = std::numeric_limits<double>::infinity();
-  static constexpr double in_pieces = -at_rest;
+  /// No bond holds, no element has a shear stress, and the face is open: it bears nothing until it closes.
+  static constexpr double stands_open = std::numeric_limits<double>::infinity();
+  static constexpr double in_pieces = -stands_open;
 
   /// Centre of each grain [m] and its turn over the step [rad], each followed by nothing up to the next four numbers;
   /// in the plane both in one four: x, y, φ.

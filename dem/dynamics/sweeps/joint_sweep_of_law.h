@@ -198,9 +198,8 @@ template <typename Real, typename Law, int dim>
     simd::store(simd::select(segments.some_changed, Real(-infinity), simd::load<Real>(tensile_strength)),
                 tensile_strength);
   const auto is_open = Law::surely_open(face, joints.whole, motion.opening, motion.rotation);
-  const Real what_it_bears =
-    simd::select(!segments.some_bear && is_open, Real(Memory::at_rest), Real(Memory::in_pieces));
-  simd::store(simd::select(is_whole, simd::load<Real>(cohesion), what_it_bears), cohesion);
+  const Real mark = simd::select(!segments.some_bear && is_open, Real(Memory::stands_open), Real(Memory::in_pieces));
+  simd::store(simd::select(is_whole, simd::load<Real>(cohesion), mark), cohesion);
   add_slip_energy(joints, j, sum.slip_energy);
   return sum;
 }
@@ -317,10 +316,10 @@ template <typename Real, typename Law, int dim>
       if (!simd::all(holds))
         {
           before.is_whole = least.tensile_strength >= 0.0;
-          const auto stays_at_rest = !before.is_whole && least.cohesion == SweepMemory<dim>::at_rest &&
-                                     Law::surely_open(face, joints.whole, motion.opening, motion.rotation);
-          if (simd::all(holds || stays_at_rest))
-            resultants = select(stays_at_rest, FaceResultants<dim, Real>{}, resultants);
+          const auto stays_open = !before.is_whole && least.cohesion == SweepMemory<dim>::stands_open &&
+                                  Law::surely_open(face, joints.whole, motion.opening, motion.rotation);
+          if (simd::all(holds || stays_open))
+            resultants = select(stays_open, FaceResultants<dim, Real>{}, resultants);
           else
             resultants = update_segments<Real>(law, joints, memory, face, motion, before, resultants, j, breaks);
         }
@@ -405,7 +404,7 @@ bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
 
 /// Whether a face bears nothing and stays so as long as it is open.
 template <int dim, JointLaw<dim> Law>
-bool rests_open(const Law&, const Joints<dim>& joints, const std::size_t j)
+bool stands_open_without_bonds(const Law&, const Joints<dim>& joints, const std::size_t j)
 {
   if constexpr (RespondsAsOne<Law, dim, double>)
     {
