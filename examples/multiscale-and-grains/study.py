@@ -42,6 +42,7 @@ def with_seeds(first, last, *entries):
 SIZES_MM = (12.5, 18.0, 25.0, 36.0)  # of cells by their boundaries; those of 36 mm are only pulled
 BOUNDARIES = ("minimal kinematic", "weakly periodic", "edge", "periodic", "affine")
 N_POINTS = 32  # of a sample of 2 x 4 elements
+N_SEGMENTS = 4  # of a joint
 TURNED = "Sample/Orientation = random"
 UNTURNED = "Sample/Orientation = fixed"
 OWN = (f"Sample/Realisations = {N_POINTS}", "Sample/Draw = in turn")  # a packing of its own at every point
@@ -58,10 +59,14 @@ CONFINED = (
 )
 FINITE = (
     "Tests/List = triaxial_compression",
-    "Tests/Confinements = 60 MPa",
+    "Tests/Confinements = 20, 60 MPa",
     "Tests/Stop strain = 12e-3",
     "Representative volume/Kinematics = finite",
 )
+
+
+BEGUN = ("Tests/List = uniaxial_compression", "Tests/Stop strain = 9e-4")  # some 60 MPa
+BROKEN_SHARES = ("0.001", "0.002", "0.005")  # of all segments
 
 
 def at_boundary(boundary):
@@ -73,6 +78,8 @@ EXPERIMENTS = {
     "sample": Experiment("multiscale", "sample", with_seeds(1, 10)),
     "cored": Experiment("lab", "cored"),
     "rate": Experiment("lab", "rate"),
+    "first-cracks-grains": Experiment("lab", "rate", (("Variants/Values = 0.25 1/s", *BEGUN),)),
+    "first-cracks-sample": Experiment("multiscale", "sample", with_seeds(1, 10, *BEGUN)),
     "same-cells-grains": Experiment("lab", "same-cells-grains"),
     "same-cells-sample": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2)),
     "same-cells-sample-turned": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2, TURNED)),
@@ -222,6 +229,28 @@ def add_largest_falls(out, summary):
         }
 
 
+def add_first_cracks(out, summary, n_points):
+    """Adds to each test the stress at which a share of all its segments is broken; null where it is not reached."""
+    for test in summary["tests"]:
+        with open(os.path.join(out, "curves", test["name"] + ".csv"), encoding="utf-8") as file:
+            rows = [
+                (float(row["axial_stress_Pa"]), int(row["n_tension_cracks"]) + int(row["n_shear_cracks"]))
+                for row in csv.DictReader(file)
+            ]
+        n_segments = N_SEGMENTS * n_points * test["n_joints"]
+        test["stress_at_broken_share_Pa"] = {
+            share: next(
+                (
+                    abs(before + (after - before) * (float(share) * n_segments - n_before) / (n_after - n_before))
+                    for (before, n_before), (after, n_after) in itertools.pairwise(rows)
+                    if n_after >= float(share) * n_segments
+                ),
+                None,
+            )
+            for share in BROKEN_SHARES
+        }
+
+
 def keep(name, outs):
     """The summaries of result folders as results/NAME.json: that of the first, with the tests or paths of all."""
     summaries = []
@@ -232,6 +261,8 @@ def keep(name, outs):
             add_ends(out, summaries[-1])
         if name.startswith("softening"):
             add_largest_falls(out, summaries[-1])
+        if name.startswith("first-cracks"):
+            add_first_cracks(out, summaries[-1], N_POINTS if name.endswith("sample") else 1)
     summary = summaries[0]
     command = EXPERIMENTS[name].command
     if command == "multiscale":
@@ -354,6 +385,56 @@ def print_bodies():
             shown(column("youngs_modulus_initial_Pa", 1e9), 1),
             shown(column("crack_initiation_stress_Pa", 1e6), 1),
         ]
+        print(f"| {' | '.join(cells)} |")
+    print()
+
+
+BEFORE_THE_PEAK = (  # key of a test, heading, unit, decimals
+    ("crack_initiation_stress_Pa", "σ_ci [MPa]", 1e6, 0),
+    ("crack_initiation_stress_lateral_Pa", "σ_ci by the lateral strain [MPa]", 1e6, 0),
+    ("crack_damage_stress_Pa", "σ_cd [MPa]", 1e6, 0),
+    ("poissons_ratio_initial", "ν, initial", 1.0, 3),
+    ("poissons_ratio_secant", "ν, at half of the peak", 1.0, 2),
+)
+
+
+def print_before_the_peak():
+    """How damage begins in uniaxial compression; what separates the samples from the grains at 0.25/s."""
+    bodies = (
+        ("cored at the sides only, 1/s", "cored", "= sides only"),
+        ("cored at the sides only, 0.25/s", "rate", "= 0.25 1/s"),
+        ("sample", "sample", None),
+        ("sample, edge cells", "sample-edges", None),
+    )
+    print(f"| body | seeds | {' | '.join(heading for _, heading, _, _ in BEFORE_THE_PEAK)} |")
+    print("|---" * (2 + len(BEFORE_THE_PEAK)) + "|")
+    columns = {}
+    for label, name, variant in bodies:
+        crushed = tests_of(name, "uniaxial_compression", variant)
+        if crushed:
+            columns[name] = [
+                [test[key] / unit for test in crushed if test[key] is not None] for key, _, unit, _ in BEFORE_THE_PEAK
+            ]
+            cells = [shown(values, decimals) for values, (_, _, _, decimals) in zip(columns[name], BEFORE_THE_PEAK)]
+            print(f"| {label} | {len(crushed)} | {' | '.join(cells)} |")
+    for label, name, _ in bodies[2:]:
+        if name in columns:
+            cells = [difference(one, other) for one, other in zip(columns[name], columns["rate"])]
+            print(f"| {label}, from the grains at 0.25/s | | {' | '.join(cells)} |")
+    print()
+
+
+def print_first_cracks():
+    """The stress at equal shares of broken segments."""
+    print("| broken segments, of all | grains, 0.25/s [MPa] | sample [MPa] | sample from grains |\n|---|---|---|---|")
+    names = ("first-cracks-grains", "first-cracks-sample")
+    if not all(results(name) for name in names):
+        return
+    for share in BROKEN_SHARES:
+        grains, sample = (
+            [test["stress_at_broken_share_Pa"][share] / 1e6 for test in results(name)["tests"]] for name in names
+        )
+        cells = [f"{1e3 * float(share):g} ‰", shown(grains, 1), shown(sample, 1), difference(sample, grains)]
         print(f"| {' | '.join(cells)} |")
     print()
 
@@ -706,6 +787,8 @@ def main():
     walled = [peaks("laboratory", "uniaxial_compression", gap) for gap in ("0.0237", "0.0457")]
     if all(walled):
         print(f"walled at gap 0.0237 from 0.0457: {difference(*walled)}\n")
+    print_before_the_peak()
+    print_first_cracks()
     print_dealings()
     print_confined()
     print_kinematics()

@@ -224,6 +224,56 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 }
 
+// How damage begins, in the grains at both rates and in the samples.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsWhatComesBeforeThePeak)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  for (const auto& [label, name, variant] : {std::tuple("cored at the sides only, 1/s", "cored", "= sides only"),
+                                             {"cored at the sides only, 0.25/s", "rate", "= 0.25 1/s"},
+                                             {"sample", "sample", ""}})
+    {
+      const auto tests = results_of("multiscale-and-grains", name)["tests"];
+      std::string row = fmt::format("\n| {} | 10 |", label);
+      for (const auto& [key, unit, decimals] : {std::tuple("crack_initiation_stress_Pa", 1e6, 0),
+                                                {"crack_initiation_stress_lateral_Pa", 1e6, 0},
+                                                {"crack_damage_stress_Pa", 1e6, 0},
+                                                {"poissons_ratio_initial", 1.0, 3},
+                                                {"poissons_ratio_secant", 1.0, 2}})
+        {
+          std::vector<double> values;
+          for (const auto& test : tests)
+            if (test["kind"] == "uniaxial_compression" && test.value("variant", std::string()).ends_with(variant))
+              values.push_back(test[key].get<double>() / unit);
+          ASSERT_EQ(values.size(), 10u) << label;
+          row += fmt::format(" {} |", mean_and_deviation(values, decimals));
+        }
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
+// The stress at equal shares of broken segments: within a tenth, as the page says.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsTheFirstCracks)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  for (const auto& [label, share] : {std::pair("1 ‰", "0.001"), {"2 ‰", "0.002"}, {"5 ‰", "0.005"}})
+    {
+      std::string row = fmt::format("\n| {} |", label);
+      std::vector<double> means;
+      for (const char* const name : {"first-cracks-grains", "first-cracks-sample"})
+        {
+          std::vector<double> stresses;
+          const auto results = results_of("multiscale-and-grains", name);
+          for (const auto& test : results["tests"])
+            stresses.push_back(test["stress_at_broken_share_Pa"][share].get<double>() / 1e6);
+          ASSERT_EQ(stresses.size(), 10u) << name;
+          row += fmt::format(" {} |", mean_and_deviation(stresses, 1));
+          means.push_back(std::accumulate(stresses.begin(), stresses.end(), 0.0) / 10.0);
+        }
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+      EXPECT_NEAR(means[1], means[0], 0.1 * means[0]) << label;
+    }
+}
+
 // The sample of bonds that soften beside grains of them, and what it loses in the step in which it loses most.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsBondsThatSoften)
 {
