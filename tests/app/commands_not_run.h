@@ -44,6 +44,8 @@ inline const std::vector<NotRun> commands_not_run{
   {"benchmarks/README.md", "build/release/benchmarks/dynamics_benchmark", "measures an idle machine; minutes"},
   {"benchmarks/README.md", "FELDSPAR_THREADS=2 build/release/benchmarks/dynamics_benchmark --benchmark_filter=200000",
    "measures an idle machine; minutes"},
+  {"benchmarks/README.md", "python3 benchmarks/whole_tests.py OLD_BUILD NEW_BUILD",
+   "needs another build of the program"},
   {"benchmarks/README.md", "benchmarks/profile.sh build/release/app/feldspar",
    "needs perf, which is in no package of the tests"},
   {"benchmarks/README.md", "python3 benchmarks/load.py build/release/app/feldspar", "half an hour, 9 GB"},

@@ -380,6 +380,23 @@ TEST(Example, BenchmarksShowTheCommittedSteps)
     }
 }
 
+TEST(Example, BenchmarksShowWholeTestsBesideTheProgramBefore)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string page = content(folder + "README.md");
+  const auto tests = nlohmann::json::parse(content(folder + "results/whole-tests-avx2.json"))["tests"];
+  for (const auto& [grains, name] : {std::pair("discs", "plane"), {"spheres", "space"}})
+    {
+      const auto& test = tests[name];
+      const double before = test["old_s"], now = test["new_s"];
+      const std::string row =
+        fmt::format("\n| {} {}, {} joints | {:.1f} | {:.1f} | {:.2f} |\n", test["n_grains"].get<int>(), grains,
+                    test["n_joints"].get<int>(), before, now, before / now);
+      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+      EXPECT_EQ(test["old_peak_stress_Pa"], test["new_peak_stress_Pa"]) << name; // as the page says
+    }
+}
+
 TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/";

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Compares the speed of two builds in whole laboratory tests, by processor time.
+
+    benchmarks/whole_tests.py OLD_BUILD NEW_BUILD [--times N] [--json FILE]
+
+OLD_BUILD and NEW_BUILD: build folders of two trees. Each test of TESTS, packing and page included, runs in turns, old, new,
+new, old and so on, on one thread; the least processor time of N runs (3) of each build counts. Compare within one run only.
+FILE gets the times, with the strengths of both: packings and strengths are the same to the last bit as long as the order of
+no sum has changed.
+"""
+
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../scripts"))
+compare = __import__("compare-speed")
+
+COMPRESSION = """
+subsection Tests
+  set List = uniaxial_compression
+end
+"""
+TESTS = {
+    # Table 1 of the flat-joint paper: some 1 950 discs, 4 100 joints of four segments.
+    "plane": """
+subsection Specimen
+  set Packing relaxation = static
+end
+"""
+    + COMPRESSION,
+    # Some 1 500 spheres, 4 700 joints of eight elements.
+    "space": """
+subsection Specimen
+  set Dimension          = 3
+  set Shape              = cylinder
+  set Width              = 16 mm
+  set Height             = 32 mm
+  set Porosity           = 0.39
+  set Packing relaxation = static
+end
+subsection Flat joint
+  set Installation gap ratio = 0.05
+end
+subsection Tests
+  set Compression strain rate = 2.5 1/s
+end
+"""
+    + COMPRESSION,
+}
+
+
+def timed(build, text):
+    """Processor time [s] of a run, and its test."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "test.prm")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(
+            [os.path.join(build, "app/feldspar"), "lab", path, "--output", folder + "/out", "--quiet", "--threads", "1"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        with open(folder + "/out/summary.json", encoding="utf-8") as file:
+            return after.ru_utime - before.ru_utime, json.load(file)["tests"][0]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("old")
+    parser.add_argument("new")
+    parser.add_argument("--times", type=int, default=3)
+    parser.add_argument("--json")
+    wanted = parser.parse_args()
+    builds = (wanted.old, wanted.new)
+    told = {}
+    for name, text in TESTS.items():
+        runs = {build: [] for build in builds}
+        for k in range(wanted.times):
+            for build in builds if k % 2 == 0 else reversed(builds):
+                runs[build].append(timed(build, text))
+        seconds = [min(run[0] for run in runs[build]) for build in builds]
+        tests = [runs[build][0][1] for build in builds]
+        told[name] = {
+            "n_grains": tests[1]["n_grains"],
+            "n_joints": tests[1]["n_joints"],
+            "old_s": seconds[0],
+            "new_s": seconds[1],
+            "times_as_fast": seconds[0] / seconds[1],
+            "old_peak_stress_Pa": tests[0]["peak_stress_Pa"],
+            "new_peak_stress_Pa": tests[1]["peak_stress_Pa"],
+        }
+        print(f"{name}: {seconds[0]:.1f} s, {seconds[1]:.1f} s; {seconds[0] / seconds[1]:.2f} times as fast", flush=True)
+    if wanted.json:
+        made = {
+            "processor": compare.processor(),
+            "vector_instructions": compare.vector_instructions(wanted.new),
+            "flags": compare.flags(wanted.new),
+            "old": compare.version(wanted.old),
+            "feldspar_version": compare.version(wanted.new),
+            "times": wanted.times,
+        }
+        with open(wanted.json, "w", encoding="utf-8") as out:
+            json.dump({**made, "tests": told}, out, indent=2)
+            out.write("\n")
+
+
+if __name__ == "__main__":
+    main()
