@@ -17,7 +17,7 @@ studies=("$@")
   beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
   beishan-cylinder/beishan-cylinder
   contact-models/{flat-joint,parallel-bond,grain-based,clumped,clump-size}
-  calibrate-{beishan,lac-du-bonnet,sandstone}/calibrate
+  calibrate-{beishan,beishan-cylinder,lac-du-bonnet,sandstone}/calibrate
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,large-plate,softening,softening-strength,in-plane,in-space}
   direct-shear/{smooth-plane,intact,stiff-rock}

@@ -194,15 +194,68 @@ const CalibratedFigure direct_strength{"tensile strength [MPa]", "tensile_streng
 const CalibratedFigure uniaxial_strength{"uniaxial compressive strength [MPa]", "uniaxial_compressive_strength", 1e6,
                                          1};
 
+const CalibratedFigure secant_ratio{"Poisson's ratio, secant at 50 % of peak", "poissons_ratio", 1.0, 3};
+
 TEST(Example, TheReadmesOfCalibrationsShowTheCommittedAnswers)
 {
   expect_answer_in_readme("calibrate-beishan", {direct_strength, tangent_modulus, initial_ratio, uniaxial_strength});
+  expect_answer_in_readme("calibrate-beishan-cylinder",
+                          {direct_strength, tangent_modulus, secant_ratio, uniaxial_strength});
   CalibratedFigure small_modulus = tangent_modulus;
   small_modulus.decimals = 2;
   expect_answer_in_readme("calibrate-sandstone", {direct_strength, small_modulus, initial_ratio, uniaxial_strength}, 1);
   expect_answer_in_readme(
     "calibrate-lac-du-bonnet",
     {{"Brazilian strength [MPa]", "brazilian_strength", 1e6, 2}, tangent_modulus, initial_ratio, uniaxial_strength});
+}
+
+// The targets of the small cylinder: figures of the rock over the ratios of two cylinders of Table 1.
+TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSizes)
+{
+  const std::string examples = std::string(FELDSPAR_SOURCE_DIR) + "/examples/";
+  const std::string readme = content(examples + "calibrate-beishan-cylinder/README.md");
+  const auto targets =
+    nlohmann::json::parse(content(examples + "calibrate-beishan-cylinder/reference.json"))["experiment"];
+  const auto rock = nlohmann::json::parse(content(examples + "beishan-granite/reference.json"))["experiment"];
+  const auto large = results_of("beishan-cylinder", "full-size-tests")["tests"];
+  const auto small = results_of("beishan-cylinder", "beishan-cylinder")["tests"];
+  struct Figure
+  {
+    const char* heading;
+    const char* kind;
+    const char* key;
+    const char* target;
+    double scale;
+    int decimals_of_large, decimals_of_small;
+  };
+  for (const auto& [heading, kind, key, target, scale, decimals_of_large, decimals_of_small] :
+       {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2, 2},
+        Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
+               "uniaxial_compressive_strength_MPa", 1e6, 1, 1},
+        Figure{"Young's modulus, tangent 40-60 % of peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa",
+               "youngs_modulus_GPa", 1e9, 1, 1},
+        Figure{"Poisson's ratio, secant at 50 % of peak", "uniaxial_compression", "poissons_ratio_secant",
+               "poissons_ratio", 1.0, 4, 4}})
+    {
+      const auto mean = [&](const nlohmann::json& tests) {
+        double sum = 0.0;
+        int n = 0;
+        for (const auto& test : tests)
+          if (test["kind"] == kind)
+            {
+              sum += test[key].get<double>() / scale;
+              ++n;
+            }
+        return sum / n;
+      };
+      const double ratio = mean(large) / mean(small);
+      const std::string row = fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:.3f} |\n", heading, mean(large),
+                                          decimals_of_large, mean(small), decimals_of_small, ratio);
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+      // Targets are written with three figures.
+      const double expected = rock[target]["mean"].get<double>() / ratio;
+      EXPECT_NEAR(targets[target]["mean"].get<double>(), expected, 5e-3 * expected) << heading;
+    }
 }
 
 std::vector<std::string> cells_of(const std::string& line)
