@@ -226,35 +226,35 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
     const char* key;
     const char* target;
     double scale;
-    int decimals_of_large, decimals_of_small;
+    int decimals;
   };
-  for (const auto& [heading, kind, key, target, scale, decimals_of_large, decimals_of_small] :
-       {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2, 2},
+  const auto mean = [](const nlohmann::json& tests, const Figure& figure) {
+    double sum = 0.0;
+    int n = 0;
+    for (const auto& test : tests)
+      if (test["kind"] == figure.kind)
+        {
+          sum += test[figure.key].get<double>() / figure.scale;
+          ++n;
+        }
+    return sum / n;
+  };
+  for (const Figure& figure :
+       {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2},
         Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
-               "uniaxial_compressive_strength_MPa", 1e6, 1, 1},
+               "uniaxial_compressive_strength_MPa", 1e6, 1},
         Figure{"Young's modulus, tangent 40-60 % of peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa",
-               "youngs_modulus_GPa", 1e9, 1, 1},
+               "youngs_modulus_GPa", 1e9, 1},
         Figure{"Poisson's ratio, secant at 50 % of peak", "uniaxial_compression", "poissons_ratio_secant",
-               "poissons_ratio", 1.0, 4, 4}})
+               "poissons_ratio", 1.0, 4}})
     {
-      const auto mean = [&](const nlohmann::json& tests) {
-        double sum = 0.0;
-        int n = 0;
-        for (const auto& test : tests)
-          if (test["kind"] == kind)
-            {
-              sum += test[key].get<double>() / scale;
-              ++n;
-            }
-        return sum / n;
-      };
-      const double ratio = mean(large) / mean(small);
-      const std::string row = fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:.3f} |\n", heading, mean(large),
-                                          decimals_of_large, mean(small), decimals_of_small, ratio);
+      const double of_large = mean(large, figure), of_small = mean(small, figure), ratio = of_large / of_small;
+      const std::string row = fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:.3f} |\n", figure.heading, of_large,
+                                          figure.decimals, of_small, figure.decimals, ratio);
       EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
       // Targets are written with three figures.
-      const double expected = rock[target]["mean"].get<double>() / ratio;
-      EXPECT_NEAR(targets[target]["mean"].get<double>(), expected, 5e-3 * expected) << heading;
+      const double expected = rock[figure.target]["mean"].get<double>() / ratio;
+      EXPECT_NEAR(targets[figure.target]["mean"].get<double>(), expected, 5e-3 * expected) << figure.heading;
     }
 }
 
