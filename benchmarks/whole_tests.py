@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the speed of two builds in whole laboratory tests, by processor time.
+"""Compares the speed of two builds in whole laboratory tests, by processor time (user).
 
     benchmarks/whole_tests.py OLD_BUILD NEW_BUILD [--times N] [--json FILE]
 
@@ -33,7 +33,7 @@ subsection Specimen
 end
 """
     + COMPRESSION,
-    # Some 1 500 spheres, 4 700 joints of eight elements.
+    # Some 1 600 spheres, 4 900 joints of eight elements.
     "space": """
 subsection Specimen
   set Dimension          = 3

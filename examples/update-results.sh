@@ -38,7 +38,8 @@ for study in "${studies[@]}"; do
     reference=$(sed -n 's/.*set Reference file *= *//p' "$study.prm")
     sed "s|Reference file = reference.json|Reference file = $reference|" "$run/best.prm" >"$here/best.prm"
     cp "$run"/{calibration.json,design.csv} "$here/results/"
-    cp "$run/summary.json" "$here/results/best.json"
+    sed 's|"Reference file": "/[^"]*/examples/[^/]*/reference.json"|"Reference file": "'"$reference"'"|' \
+      "$run/summary.json" >"$here/results/best.json"
   else
     cp "$run/summary.json" "$(dirname "$study")/results/$(basename "$study").json"
   fi

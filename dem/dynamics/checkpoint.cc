@@ -62,7 +62,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("previous_dt", previous_dt);
   archive.value("current_time", current_time);
   joint_groups = JointGroups<dim>(joints);
-  find_ways_to_joints();
+  index_joints();
   touches.number(images);
 }
 

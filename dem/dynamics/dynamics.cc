@@ -104,7 +104,7 @@ std::vector<Break> Dynamics<dim>::step()
     {
       const bool some_have_gone = remove_lost_contacts();
       if (regroup_joints() || some_have_gone)
-        find_ways_to_joints();
+        index_joints();
       find_contacts();
       choose_time_step();
     }
@@ -150,7 +150,7 @@ template <int dim>
 void Dynamics<dim>::start()
 {
   joint_groups = JointGroups<dim>(body.joints);
-  find_ways_to_joints();
+  index_joints();
   find_contacts();
   check();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
@@ -168,9 +168,9 @@ void Dynamics<dim>::start()
   check_motion(); // from the outside; a first step too long would take grains where no contact is looked for
 }
 
-/// After joints have gone or have other places.
+/// Makes anew all that knows the places of joints, after some have gone or have other places.
 template <int dim>
-void Dynamics<dim>::find_ways_to_joints()
+void Dynamics<dim>::index_joints()
 {
   const auto& joints = body.joints;
   joints_of = incidence(
@@ -185,8 +185,8 @@ void Dynamics<dim>::find_ways_to_joints()
   sweep_memory = SweepMemory<dim>(joints);
 }
 
-/// Of a law that responds for faces as for one. Not of a periodic body, whose mean stress may lead its motion and is summed as
-/// its joints stand.
+/// Only a law that responds for faces as for one gains by it. A periodic body is left as it stands, because its mean stress may
+/// lead its motion and is summed in the order of storage.
 template <int dim>
 bool Dynamics<dim>::regroup_joints()
 {

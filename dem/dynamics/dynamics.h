@@ -122,7 +122,7 @@ private:
   bool watch_is_over();
   bool remove_lost_contacts();
   bool regroup_joints();
-  void find_ways_to_joints();
+  void index_joints();
   void find_contacts();
   void choose_time_step();
   Circumstances circumstances() const;

@@ -229,6 +229,16 @@ def add_largest_falls(out, summary):
         }
 
 
+def stress_at(n, rows):
+    """At which so many segments are broken, of (stress, number) rows; their number grows as an exponential of the stress."""
+    for (before, n_before), (after, n_after) in itertools.pairwise(rows):
+        if n_after >= n:
+            if n_before > 0:
+                n, n_before, n_after = math.log(n), math.log(n_before), math.log(n_after)
+            return abs(before + (after - before) * (n - n_before) / (n_after - n_before))
+    return None
+
+
 def add_first_cracks(out, summary, n_points):
     """Adds to each test the stress at which a share of all its segments is broken; null where it is not reached."""
     for test in summary["tests"]:
@@ -237,18 +247,8 @@ def add_first_cracks(out, summary, n_points):
                 (float(row["axial_stress_Pa"]), int(row["n_tension_cracks"]) + int(row["n_shear_cracks"]))
                 for row in csv.DictReader(file)
             ]
-        n_segments = N_SEGMENTS * n_points * test["n_joints"]
-        test["stress_at_broken_share_Pa"] = {
-            share: next(
-                (
-                    abs(before + (after - before) * (float(share) * n_segments - n_before) / (n_after - n_before))
-                    for (before, n_before), (after, n_after) in itertools.pairwise(rows)
-                    if n_after >= float(share) * n_segments
-                ),
-                None,
-            )
-            for share in BROKEN_SHARES
-        }
+        n_segments = N_SEGMENTS * n_points * test["n_joints"]  # of a sample by its first packing
+        test["stress_at_broken_share_Pa"] = {share: stress_at(float(share) * n_segments, rows) for share in BROKEN_SHARES}
 
 
 def keep(name, outs):

@@ -252,7 +252,7 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
       const std::string row = fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:.3f} |\n", figure.heading, of_large,
                                           figure.decimals, of_small, figure.decimals, ratio);
       EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
-      // Targets are written with three figures.
+      // Targets are written with three figures or more.
       const double expected = rock[figure.target]["mean"].get<double>() / ratio;
       EXPECT_NEAR(targets[figure.target]["mean"].get<double>(), expected, 5e-3 * expected) << figure.heading;
     }

@@ -251,7 +251,7 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsWhatComesBeforeThePeak)
     }
 }
 
-// The stress at equal shares of broken segments: within a tenth, as the page says.
+// The stress at equal shares of broken segments: some tenth higher, as the page says.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsTheFirstCracks)
 {
   const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
@@ -270,7 +270,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheFirstCracks)
           means.push_back(std::accumulate(stresses.begin(), stresses.end(), 0.0) / 10.0);
         }
       EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
-      EXPECT_NEAR(means[1], means[0], 0.1 * means[0]) << label;
+      EXPECT_GT(means[1], 1.05 * means[0]) << label;
+      EXPECT_LT(means[1], 1.10 * means[0]) << label;
     }
 }
 

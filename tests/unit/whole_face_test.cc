@@ -131,7 +131,7 @@ TYPED_TEST(WholeFace, RespondsAndBreaksAsItsSegmentsDo)
   EXPECT_GT(n_steps_with_breaks, 50u);
 }
 
-TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenToTheBitAsItsSegmentsDo)
+TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenJustAsItsSegmentsDo)
 {
   // Beside it the same joints, which never remember that they bear nothing: all broken ones go segment by segment.
   constexpr int dim = TypeParam::dim;

@@ -11,7 +11,7 @@ namespace
 // Not those of this processor's packs: the order is to be the same on every machine.
 constexpr std::size_t pack = 8;
 /// Of joints that follow each other by their numbers, which are those of their places in space. Only these change places among
-/// each other: their grains and their own numbers stay near each other in memory.
+/// each other: their grains and what they remember stay near each other in memory.
 constexpr std::size_t window = 256;
 
 /// Packs with a joint of which this is true.

@@ -11,7 +11,7 @@ namespace feldspar
 {
 /// Which neighbouring joints stand together in storage. A sweep takes a pack of joints the long way, segment by segment, if
 /// one of them needs it. Joints with broken bonds are therefore put together, those with no bond left apart from those with
-/// some: most of the former stand open and need no look. Where joints stand is a function of their numbers and bonds alone.
+/// some: most of the former stand open and need no look. The order that is made follows from numbers and bonds alone.
 template <int dim>
 class JointGroups
 {
@@ -22,8 +22,8 @@ public:
   /// What broke in a sweep.
   void note(const std::vector<Break>& breaks, const Joints<dim>& joints);
 
-  /// Puts joints together anew where this spares a broken bond to more than a sixteenth of all packs. Returns whether joints
-  /// have other places now.
+  /// Puts joints together anew where more than a sixteenth of all packs would then have no broken bond any more. Returns
+  /// whether it did: joints have other places now.
   bool regroup(Joints<dim>& joints);
 
 private:
