@@ -1,5 +1,7 @@
 #include "coupling/rve/equilibrium.h"
 
+#include "coupling/rve/work_on_the_way.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +12,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
-constexpr unsigned int most_work_intervals = 512;
-constexpr double work_tolerance = 1e-3;        // imbalance over what was moved between two events
-constexpr double least_work = 1e-8;            // below this share of what is stored nothing is refined
 constexpr unsigned int most_rounds = 24;       // of damped motion and Newton's method after it
 constexpr unsigned int rounds_before_slip = 2; // is made history
 } // namespace
@@ -107,80 +105,11 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
     }
 }
 
-/// Dissipated between two positions on the way from the last event [J].
-template <int dim>
-double Equilibrium<dim>::slip_energy(const Balance<dim>& from, const Balance<dim>& to) const
-{
-  double sum = 0.0;
-  const auto add = [&](const std::uint32_t link, const LinkResponse<dim>* before, const LinkResponse<dim>& after) {
-    for (std::uint32_t i = 0; i < after.segments.size(); ++i)
-      {
-        const double area = network.segment_area(network.links()[link], i);
-        for (int c = 0; c < dim - 1; ++c)
-          {
-            const double old_stress = before ? before->segments[i].shear_stress[c] : 0.0;
-            const double old_slip = before ? before->segments[i].slip[c] : 0.0;
-            sum +=
-              0.5 * (old_stress + after.segments[i].shear_stress[c]) * (after.segments[i].slip[c] - old_slip) * area;
-          }
-      }
-  };
-  for (std::size_t a = 0; a < history.active().size(); ++a)
-    add(history.active()[a].link, &from.active[a], to.active[a]);
-  for (const auto& [link, touch] : to.touches)
-    {
-      const auto before = std::find_if(from.touches.begin(), from.touches.end(),
-                                       [&, which = link](const auto& entry) { return entry.first == which; });
-      add(link, before == from.touches.end() ? nullptr : &before->second, touch);
-    }
-  return sum;
-}
-
-/// Along the way since the last event, taken as straight, by trapezoids.
-template <int dim>
-NetworkWork Equilibrium<dim>::work_since_event(const unsigned int n_intervals) const
-{
-  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
-  const Unknowns way = present.position - history.position();
-  NetworkWork work;
-  const auto add = [&](const Balance<dim>& at, const double share) {
-    work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
-    work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
-  };
-  std::array<Balance<dim>, 2> on_the_way;
-  const Balance<dim>* before = &at_event;
-  for (unsigned int k = 1; k <= n_intervals; ++k)
-    {
-      const Balance<dim>* after = &present.balance;
-      if (k < n_intervals)
-        {
-          Balance<dim>& there = on_the_way[k % 2];
-          there = history.balance(history.position() + double(k) / n_intervals * way, std::move(there));
-          after = &there;
-        }
-      add(*before, 0.5 / n_intervals);
-      add(*after, 0.5 / n_intervals);
-      work.slip += slip_energy(*before, *after);
-      before = after;
-    }
-  return work;
-}
-
 /// The work since the last event into the energies; then the present becomes the last event.
 template <int dim>
 void Equilibrium<dim>::commit()
 {
-  // On a long way contacts open, close and slide: as many intervals as the balance of what was summed apart asks for.
-  const auto is_fine_enough = [&](const NetworkWork& work) {
-    const double stored = present.balance.stored_energy - at_event.stored_energy;
-    const double moved = std::abs(work.boundary) + std::abs(work.settled) + std::abs(work.slip) + std::abs(stored);
-    return std::abs(work.boundary - work.settled - work.slip - stored) <=
-           std::max(work_tolerance * moved, least_work * present.balance.stored_energy);
-  };
-  unsigned int n_intervals = history.active().empty() ? 1 : least_work_intervals;
-  NetworkWork work = work_since_event(n_intervals);
-  while (!history.active().empty() && n_intervals < most_work_intervals && !is_fine_enough(work))
-    work = work_since_event(n_intervals *= 4);
+  const NetworkWork work = work_on_the_way(history, at_event, present);
   last.work.boundary += work.boundary;
   last.work.settled += work.settled;
   last.work.slip += work.slip;

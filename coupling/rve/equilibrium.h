@@ -96,8 +96,6 @@ public:
 
 private:
   void stand_at(Unknowns position);
-  double slip_energy(const Balance<dim>& from, const Balance<dim>& to) const;
-  NetworkWork work_since_event(unsigned int n_intervals) const;
   void commit();
   void begin_again();
   void make_event(); ///< of the present position; nothing breaks
