@@ -13,22 +13,22 @@ Eigen::Index first_motion(const std::uint32_t grain)
 }
 
 /// Of the second centre from the first, beyond the branch at rest, in the axes at rest [m].
-template <int dim>
-Vector<dim> way(const Link<dim>& link, const Unknowns& unknowns)
+template <int dim, typename Columns>
+RowsOf<dim, Columns> way(const Link<dim>& link, const Columns& unknowns)
 {
-  return link.axes * (unknowns.segment<dim>(first_motion<dim>(link.grain_2)) -
-                      unknowns.segment<dim>(first_motion<dim>(link.grain_1))) +
-         link.by_strain.template topRows<dim>() * unknowns.tail<n_voigt<dim>>();
+  return link.axes * (unknowns.template middleRows<dim>(first_motion<dim>(link.grain_2)) -
+                      unknowns.template middleRows<dim>(first_motion<dim>(link.grain_1))) +
+         link.by_strain.template topRows<dim>() * unknowns.template bottomRows<n_voigt<dim>>();
 }
 
 /// Adds forces on the second centre, against them on the first, and what they do to the strain.
-template <int dim>
-void add_on_centres(const Link<dim>& link, const Vector<dim>& force, Unknowns& sum)
+template <int dim, typename Columns>
+void add_on_centres(const Link<dim>& link, const RowsOf<dim, Columns>& force, Columns& sum)
 {
-  const Vector<dim> on_two = link.axes.transpose() * force;
-  sum.segment<dim>(first_motion<dim>(link.grain_1)) -= on_two;
-  sum.segment<dim>(first_motion<dim>(link.grain_2)) += on_two;
-  sum.tail<n_voigt<dim>>() += link.by_strain.template topRows<dim>().transpose() * force;
+  const RowsOf<dim, Columns> on_two = link.axes.transpose() * force;
+  sum.template middleRows<dim>(first_motion<dim>(link.grain_1)) -= on_two;
+  sum.template middleRows<dim>(first_motion<dim>(link.grain_2)) += on_two;
+  sum.template bottomRows<n_voigt<dim>>() += link.by_strain.template topRows<dim>().transpose() * force;
 }
 
 /// The motion of a link under the turn of one of its grains.
@@ -38,20 +38,20 @@ auto by_turn(const Link<dim>& link, const int end)
   return link.by_grains.template block<n_motions<dim>, n_rotations<dim>>(0, n_motions<dim> * end + dim);
 }
 
-template <int dim>
-Motion<dim> by_turns(const Link<dim>& link, const Unknowns& unknowns)
+template <int dim, typename Columns>
+RowsOf<n_motions<dim>, Columns> by_turns(const Link<dim>& link, const Columns& unknowns)
 {
   constexpr int n = n_rotations<dim>;
-  return by_turn(link, 0) * unknowns.segment<n>(first_motion<dim>(link.grain_1) + dim) +
-         by_turn(link, 1) * unknowns.segment<n>(first_motion<dim>(link.grain_2) + dim);
+  return by_turn(link, 0) * unknowns.template middleRows<n>(first_motion<dim>(link.grain_1) + dim) +
+         by_turn(link, 1) * unknowns.template middleRows<n>(first_motion<dim>(link.grain_2) + dim);
 }
 
-template <int dim>
-void add_couples(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum)
+template <int dim, typename Columns>
+void add_couples(const Link<dim>& link, const RowsOf<n_motions<dim>, Columns>& forces, Columns& sum)
 {
   constexpr int n = n_rotations<dim>;
-  sum.segment<n>(first_motion<dim>(link.grain_1) + dim) += by_turn(link, 0).transpose() * forces;
-  sum.segment<n>(first_motion<dim>(link.grain_2) + dim) += by_turn(link, 1).transpose() * forces;
+  sum.template middleRows<n>(first_motion<dim>(link.grain_1) + dim) += by_turn(link, 0).transpose() * forces;
+  sum.template middleRows<n>(first_motion<dim>(link.grain_2) + dim) += by_turn(link, 1).transpose() * forces;
 }
 } // namespace
 
@@ -136,19 +136,20 @@ Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, cons
 template <int dim>
 void add_forces(const Link<dim>& link, const Tensor<dim>& gradient, const Motion<dim>& forces, Unknowns& sum)
 {
-  add_on_centres<dim>(link, gradient.transpose() * forces.template head<dim>(), sum);
+  add_on_centres<dim, Unknowns>(link, gradient.transpose() * forces.template head<dim>(), sum);
   add_couples(link, forces, sum);
 }
 
-template <int dim>
+template <int dim, typename Columns>
 void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, const JointStiffness<dim>& stiffness,
-                          const Unknowns& motion, Unknowns& sum)
+                          const Columns& motion, Columns& sum)
 {
-  const Vector<dim> of_centres = way(link, motion);
-  Motion<dim> of_link = by_turns(link, motion);
-  of_link.template head<dim>() += turn.gradient * of_centres;
-  const Motion<dim> forces = stiffness * of_link;
-  add_on_centres<dim>(link, turn.gradient.transpose() * forces.template head<dim>() + turn.stiffness * of_centres, sum);
+  const RowsOf<dim, Columns> of_centres = way(link, motion);
+  RowsOf<n_motions<dim>, Columns> of_link = by_turns(link, motion);
+  of_link.template topRows<dim>() += turn.gradient * of_centres;
+  const RowsOf<n_motions<dim>, Columns> forces = stiffness * of_link;
+  add_on_centres<dim, Columns>(
+    link, turn.gradient.transpose() * forces.template topRows<dim>() + turn.stiffness * of_centres, sum);
   add_couples(link, forces, sum);
 }
 
@@ -162,4 +163,8 @@ template void add_forces_of_motion(const Link<2>&, const LinkTurn<2>&, const Joi
                                    Unknowns&);
 template void add_forces_of_motion(const Link<3>&, const LinkTurn<3>&, const JointStiffness<3>&, const Unknowns&,
                                    Unknowns&);
+template void add_forces_of_motion(const Link<2>&, const LinkTurn<2>&, const JointStiffness<2>&, const UnitUnknowns<2>&,
+                                   UnitUnknowns<2>&);
+template void add_forces_of_motion(const Link<3>&, const LinkTurn<3>&, const JointStiffness<3>&, const UnitUnknowns<3>&,
+                                   UnitUnknowns<3>&);
 } // namespace feldspar

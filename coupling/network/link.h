@@ -11,6 +11,14 @@ namespace feldspar
 /// Motions of all grains, [n_motions * n_grains], then the macroscopic strain, [n_voigt].
 using Unknowns = Eigen::VectorXd;
 
+/// Unknowns under each unit strain, side by side, [unknowns × n_voigt and zeros]: a row is one vector of the processor.
+template <int dim>
+using UnitUnknowns = Eigen::Matrix<double, Eigen::Dynamic, dim == 2 ? 4 : 8, Eigen::RowMajor>;
+
+/// The same of a link, a grain, or whatever has so few rows.
+template <int n_rows, typename Columns>
+using RowsOf = Eigen::Matrix<double, n_rows, Columns::ColsAtCompileTime, Columns::Options>;
+
 /// Motion of a link from the motions of both its grains, and from the macroscopic strain.
 template <int dim>
 using LinkGradient = Eigen::Matrix<double, n_motions<dim>, 2 * n_motions<dim>>;
@@ -51,22 +59,24 @@ template <int dim>
 LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link);
 
 /// Motion of a link.
-template <int dim>
-Motion<dim> link_motion(const Link<dim>& link, const Unknowns& unknowns)
+template <int dim, typename Columns>
+RowsOf<n_motions<dim>, Columns> link_motion(const Link<dim>& link, const Columns& unknowns)
 {
   constexpr int n = n_motions<dim>;
-  return link.by_grains.template leftCols<n>() * unknowns.segment<n>(n * Eigen::Index(link.grain_1)) +
-         link.by_grains.template rightCols<n>() * unknowns.segment<n>(n * Eigen::Index(link.grain_2)) +
-         link.by_strain * unknowns.tail<n_voigt<dim>>();
+  return link.by_grains.template leftCols<n>() * unknowns.template middleRows<n>(n * Eigen::Index(link.grain_1)) +
+         link.by_grains.template rightCols<n>() * unknowns.template middleRows<n>(n * Eigen::Index(link.grain_2)) +
+         link.by_strain * unknowns.template bottomRows<n_voigt<dim>>();
 }
 
 /// Adds what a link's forces do to its grains and to volume × stress: the transpose of link_motion().
-template <int dim>
-void add_forces(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum)
+template <int dim, typename Columns>
+void add_forces(const Link<dim>& link, const RowsOf<n_motions<dim>, Columns>& forces, Columns& sum)
 {
   constexpr int n = n_motions<dim>;
-  sum.segment<n>(n * Eigen::Index(link.grain_1)) += link.by_grains.template leftCols<n>().transpose() * forces;
-  sum.segment<n>(n * Eigen::Index(link.grain_2)) += link.by_grains.template rightCols<n>().transpose() * forces;
-  sum.tail<n_voigt<dim>>() += link.by_strain.transpose() * forces;
+  sum.template middleRows<n>(n * Eigen::Index(link.grain_1)) +=
+    link.by_grains.template leftCols<n>().transpose() * forces;
+  sum.template middleRows<n>(n * Eigen::Index(link.grain_2)) +=
+    link.by_grains.template rightCols<n>().transpose() * forces;
+  sum.template bottomRows<n_voigt<dim>>() += link.by_strain.transpose() * forces;
 }
 } // namespace feldspar
