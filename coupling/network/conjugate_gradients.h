@@ -12,6 +12,7 @@ struct LinearSolution
 {
   Columns x;
   bool converged; ///< all; false: x is the best within the iterations allowed
+  unsigned int n_iterations;
 };
 
 /// Solves `apply(x) = right` by preconditioned conjugate gradients until the residual's norm, in the preconditioner's
@@ -34,10 +35,11 @@ LinearSolution<Columns> conjugate_gradients(const Apply& apply, const Preconditi
   Row measure = dots(residual, z);
   const Row goal = (tolerance * tolerance * measure).max(least.square());
   auto goes_on = (measure > goal).eval();
-  for (unsigned int k = 0; goes_on.any(); ++k)
+  unsigned int k = 0;
+  for (; goes_on.any(); ++k)
     {
       if (k == most_iterations)
-        return {x, false};
+        return {x, false, k};
       const Columns image = apply(direction);
       const Row curvature = dots(direction, image);
       goes_on = goes_on && curvature > 0.0; // else only round-off, or a motion without stiffness, is left
@@ -50,7 +52,7 @@ LinearSolution<Columns> conjugate_gradients(const Apply& apply, const Preconditi
       measure = goes_on.select(next, measure);
       goes_on = goes_on && measure > goal;
     }
-  return {x, true};
+  return {x, true, k};
 }
 
 /// The same for an `apply` that is not symmetric, by stabilised bi-conjugate gradients; what is measured is the plain norm
@@ -70,7 +72,7 @@ LinearSolution<Eigen::VectorXd> bi_conjugate_gradients(const Apply& apply, const
   for (unsigned int k = 0; k < most_iterations; ++k)
     {
       if (residual.norm() <= goal)
-        return {x, true};
+        return {x, true, k};
       const Eigen::VectorXd image = precondition(apply(direction));
       const double alpha = measure / shadow.dot(image);
       const Eigen::VectorXd half = residual - alpha * image;
@@ -83,8 +85,8 @@ LinearSolution<Eigen::VectorXd> bi_conjugate_gradients(const Apply& apply, const
       direction = residual + beta * (direction - omega * image);
       measure = next;
       if (!std::isfinite(beta) || !x.allFinite())
-        return {Eigen::VectorXd::Zero(right.size()), false};
+        return {Eigen::VectorXd::Zero(right.size()), false, k};
     }
-  return {x, false};
+  return {x, false, most_iterations};
 }
 } // namespace feldspar

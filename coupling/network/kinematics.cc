@@ -4,62 +4,11 @@
 
 namespace feldspar
 {
-namespace
-{
-template <int dim>
-Eigen::Index first_motion(const std::uint32_t grain)
-{
-  return n_motions<dim> * Eigen::Index(grain);
-}
-
-/// Of the second centre from the first, beyond the branch at rest, in the axes at rest [m].
-template <int dim, typename Columns>
-RowsOf<dim, Columns> way(const Link<dim>& link, const Columns& unknowns)
-{
-  return link.axes * (unknowns.template middleRows<dim>(first_motion<dim>(link.grain_2)) -
-                      unknowns.template middleRows<dim>(first_motion<dim>(link.grain_1))) +
-         link.by_strain.template topRows<dim>() * unknowns.template bottomRows<n_voigt<dim>>();
-}
-
-/// Adds forces on the second centre, against them on the first, and what they do to the strain.
-template <int dim, typename Columns>
-void add_on_centres(const Link<dim>& link, const RowsOf<dim, Columns>& force, Columns& sum)
-{
-  const RowsOf<dim, Columns> on_two = link.axes.transpose() * force;
-  sum.template middleRows<dim>(first_motion<dim>(link.grain_1)) -= on_two;
-  sum.template middleRows<dim>(first_motion<dim>(link.grain_2)) += on_two;
-  sum.template bottomRows<n_voigt<dim>>() += link.by_strain.template topRows<dim>().transpose() * force;
-}
-
-/// The motion of a link under the turn of one of its grains.
-template <int dim>
-auto by_turn(const Link<dim>& link, const int end)
-{
-  return link.by_grains.template block<n_motions<dim>, n_rotations<dim>>(0, n_motions<dim> * end + dim);
-}
-
-template <int dim, typename Columns>
-RowsOf<n_motions<dim>, Columns> by_turns(const Link<dim>& link, const Columns& unknowns)
-{
-  constexpr int n = n_rotations<dim>;
-  return by_turn(link, 0) * unknowns.template middleRows<n>(first_motion<dim>(link.grain_1) + dim) +
-         by_turn(link, 1) * unknowns.template middleRows<n>(first_motion<dim>(link.grain_2) + dim);
-}
-
-template <int dim, typename Columns>
-void add_couples(const Link<dim>& link, const RowsOf<n_motions<dim>, Columns>& forces, Columns& sum)
-{
-  constexpr int n = n_rotations<dim>;
-  sum.template middleRows<n>(first_motion<dim>(link.grain_1) + dim) += by_turn(link, 0).transpose() * forces;
-  sum.template middleRows<n>(first_motion<dim>(link.grain_2) + dim) += by_turn(link, 1).transpose() * forces;
-}
-} // namespace
-
 template <int dim>
 TurnedLink<dim>::TurnedLink(const Link<dim>& link, const Unknowns& position)
   : length_at_rest(link.branch.norm())
-  , end(way(link, position))
-  , its_motion(by_turns(link, position))
+  , end(way_of_centres(link, position))
+  , its_motion(motion_by_turns(link, position))
 {
   const double stretch = end[0];
   end[0] += length_at_rest;
@@ -128,8 +77,8 @@ Tensor<dim> TurnedLink<dim>::stiffness(const Motion<dim>& forces) const
 template <int dim>
 Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, const Unknowns& unknowns)
 {
-  Motion<dim> motion = by_turns(link, unknowns);
-  motion.template head<dim>() += gradient * way(link, unknowns);
+  Motion<dim> motion = motion_by_turns(link, unknowns);
+  motion.template head<dim>() += gradient * way_of_centres(link, unknowns);
   return motion;
 }
 
@@ -144,8 +93,8 @@ template <int dim, typename Columns>
 void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, const JointStiffness<dim>& stiffness,
                           const Columns& motion, Columns& sum)
 {
-  const RowsOf<dim, Columns> of_centres = way(link, motion);
-  RowsOf<n_motions<dim>, Columns> of_link = by_turns(link, motion);
+  const RowsOf<dim, Columns> of_centres = way_of_centres(link, motion);
+  RowsOf<n_motions<dim>, Columns> of_link = motion_by_turns(link, motion);
   of_link.template topRows<dim>() += turn.gradient * of_centres;
   const RowsOf<n_motions<dim>, Columns> forces = stiffness * of_link;
   add_on_centres<dim, Columns>(

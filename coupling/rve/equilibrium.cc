@@ -24,7 +24,7 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   , last(state)
   , history(of, state, wanted.kinematics)
 {
-  begin_again();
+  stand_at(history.position());
 }
 
 /// The stored energy of an intact network is all the work that was done on it; of the same positions the kinematics make
@@ -36,7 +36,7 @@ void Equilibrium<dim>::leave_intact_response()
     return;
   history.become_finite();
   begin_again();
-  last.work.boundary = at_event.stored_energy;
+  last.work.boundary = at_event->stored_energy;
 }
 
 template <int dim>
@@ -49,7 +49,16 @@ template <int dim>
 void Equilibrium<dim>::stand_at(Unknowns position)
 {
   present.position = std::move(position);
-  present.balance = history.balance(present.position, std::move(present.balance));
+  is_balanced = false;
+}
+
+template <int dim>
+const Configuration<dim>& Equilibrium<dim>::here() const
+{
+  if (!is_balanced)
+    present.balance = history.balance(present.position, std::move(present.balance));
+  is_balanced = true;
+  return present;
 }
 
 /// At the last event.
@@ -57,7 +66,7 @@ template <int dim>
 void Equilibrium<dim>::begin_again()
 {
   stand_at(history.position());
-  at_event = present.balance;
+  at_event = here().balance;
 }
 
 template <int dim>
@@ -81,8 +90,13 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   const auto is_small = [&] {
     return present.position.template tail<n_voigt<dim>>().cwiseAbs().maxCoeff() <= largest_strain;
   };
+  const auto leave = [&] {
+    here();
+    return std::move(present);
+  };
   const auto take = [&](Relaxed<dim>&& relaxed) {
     present = std::move(relaxed.present);
+    is_balanced = true;
     iterations += relaxed.n_iterations;
     return relaxed.balanced;
   };
@@ -90,12 +104,12 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   for (unsigned int round = 0;; ++round)
     {
       const Unknowns before = present.position;
-      if (take(relax_by_newton(history, std::move(present), search, parameters.most_iterations, solver)))
+      if (take(relax_by_newton(history, leave(), search, parameters.most_iterations, solver)))
         return is_small();
       if (round == most_rounds)
         return false;
       stand_at(before);
-      take(relax_by_motion(history, std::move(present), search));
+      take(relax_by_motion(history, leave(), search));
       if (!is_small()) // it flies apart
         return false;
       // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only
@@ -109,11 +123,13 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
 template <int dim>
 void Equilibrium<dim>::commit()
 {
-  const NetworkWork work = work_on_the_way(history, at_event, present);
+  if (!at_event)
+    at_event = history.balance(history.position());
+  const NetworkWork work = work_on_the_way(history, *at_event, here());
   last.work.boundary += work.boundary;
   last.work.settled += work.settled;
   last.work.slip += work.slip;
-  history.keep(present);
+  history.keep(here());
 }
 
 template <int dim>
@@ -152,7 +168,7 @@ NetworkState<dim> Equilibrium<dim>::provisional_state() const
 {
   NetworkState<dim> result;
   result.strain = present.position.template tail<n_voigt<dim>>();
-  result.stress = present.balance.stress;
+  result.stress = here().balance.stress;
   result.intact = false;
   result.motions.assign(present.position.data(), present.position.data() + network.n_unknowns() - n_voigt<dim>);
   return result;
@@ -165,7 +181,7 @@ NetworkState<dim> Equilibrium<dim>::state()
   NetworkState<dim> result = last;
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   result.strain = present.position.template tail<n_voigt<dim>>();
-  result.stress = present.balance.stress;
+  result.stress = here().balance.stress;
   result.intact = history.active().empty();
   result.motions.clear();
   result.unbonded.clear();
@@ -206,13 +222,13 @@ template <int dim>
 LinkForces<dim> Equilibrium<dim>::link_forces() const
 {
   const auto& links = network.links();
-  LinkForces<dim> all{std::vector<Motion<dim>>(links.size(), Motion<dim>::Zero()), present.balance.turns};
+  LinkForces<dim> all{std::vector<Motion<dim>>(links.size(), Motion<dim>::Zero()), here().balance.turns};
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (history.is_active(k))
-      all.values[k] = present.balance.active[history.active_number(k)].forces;
+      all.values[k] = here().balance.active[history.active_number(k)].forces;
     else if (links[k].has_face)
       all.values[k] = network.bonded_stiffness(k) * history.motion(k, present.position);
-  for (const auto& [k, touch] : present.balance.touches)
+  for (const auto& [k, touch] : here().balance.touches)
     all.values[k] = touch.forces;
   return all;
 }

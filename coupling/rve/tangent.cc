@@ -3,6 +3,7 @@
 #include "base/fingerprint.h"
 #include "coupling/network/conjugate_gradients.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -80,12 +81,16 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
                                   const SolveWith& solve_with)
 {
   const Network<dim>& network = history.network();
-  if (const auto& nearby = factorised ? *factorised : network.factorised_intact();
+  if (const auto& nearby = kept.network ? *kept.network : network.factorised_intact();
       nearby.conditions() != history.conditions())
-    factorised = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
-  const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
-  if (auto found = solve_with(old, old.cost_in_iterations()); found.converged)
-    return found.x;
+    kept.network = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
+  const FactorisedNetwork<dim>& old = kept.network ? *kept.network : network.factorised_intact();
+  if (kept.n_more_iterations < old.cost_in_iterations())
+    if (auto found = solve_with(old, old.cost_in_iterations()); found.converged)
+      {
+        kept.n_more_iterations += found.n_iterations - std::min(found.n_iterations, kept.n_fresh_iterations);
+        return found.x;
+      }
   std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     stiffnesses[k] = &network.bonded_stiffness(k);
@@ -93,10 +98,13 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
     stiffnesses[history.active()[a].link] = &at.active[a].tangent;
   for (const auto& [k, touch] : at.touches)
     stiffnesses[k] = &touch.tangent;
-  factorised = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
+  kept.network = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
     [&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness, history.conditions()));
   constexpr unsigned int most_iterations = 400;
-  return solve_with(*factorised, most_iterations).x;
+  auto found = solve_with(*kept.network, most_iterations);
+  kept.n_fresh_iterations = found.n_iterations;
+  kept.n_more_iterations = 0;
+  return found.x;
 }
 
 template <int dim>

@@ -30,15 +30,25 @@ Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<
 template <int dim>
 std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
 
-/// Solves the linear equations by conjugate gradients with some network that was factorised: the intact one at first,
-/// the present one where that takes longer than factorising it.
+/// A network that was factorised, to solve nearby ones by.
+template <int dim>
+struct KeptFactor
+{
+  std::shared_ptr<const FactorisedNetwork<dim>> network; ///< empty: the intact one
+  unsigned int n_fresh_iterations = 1;                   ///< of the first solution by it
+  unsigned int n_more_iterations = 0;                    ///< of all later ones together, beyond as many as that
+};
+
+/// Solves the linear equations by conjugate gradients with some network that was factorised: the intact one at first. The
+/// present one is factorised where that has cost as many iterations as factorising does, so that both together cost at most
+/// twice the least.
 template <int dim>
 class TangentSolver
 {
 public:
   /// Begins with what an earlier one factorised last; may be empty.
-  void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { factorised = std::move(nearby); }
-  const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
+  void begin_with(KeptFactor<dim> nearby) { kept = std::move(nearby); }
+  const KeptFactor<dim>& last_factorised() const { return kept; }
 
   /// The solution, to a tolerance, with `apply`, which is near the tangent at the balance.
   Unknowns solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
@@ -53,7 +63,6 @@ private:
   template <typename SolveWith>
   auto solution(const NetworkHistory<dim>& history, const Balance<dim>& at, const SolveWith& solve_with);
 
-  /// Empty: the intact ones. Shared with the next trial, which changes nothing in it.
-  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  KeptFactor<dim> kept; ///< shared with the next trial, which changes nothing in it
 };
 } // namespace feldspar

@@ -103,7 +103,7 @@ void GrainPoint<dim>::accept(const Voigt<dim>& strain)
     throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
   forget_trial();
-  factorised.reset();
+  factorised = {};
   accepted = at_work;
   accepted_tangent = last_tangent;
   events_accepted = std::exchange(events_at_work, {});
@@ -115,7 +115,7 @@ void GrainPoint<dim>::reject()
   at_work = accepted;
   events_at_work.clear();
   forget_trial();
-  factorised.reset();
+  factorised = {};
   last_tangent = accepted_tangent;
 }
 

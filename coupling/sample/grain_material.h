@@ -72,9 +72,9 @@ private:
   std::vector<BreakEvent<dim>> events_accepted;
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the RVE's axes; of which `tried` is the response
   mutable Trial<dim> tried;
-  mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
-  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the RVE's axes
-  std::optional<Tangent<dim>> accepted_tangent;                     ///< the last of the accepted state
+  mutable KeptFactor<dim> factorised;                      ///< in this step, by the trial that did it last
+  mutable std::optional<Tangent<dim>> last_tangent;        ///< in the RVE's axes
+  std::optional<Tangent<dim>> accepted_tangent;            ///< the last of the accepted state
   std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the RVE's axes: nothing breaks there
 };
 
