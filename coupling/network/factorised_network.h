@@ -50,6 +50,13 @@ public:
   /// How many iterations of conjugate gradients cost as much as factorising anew, by counting operations.
   unsigned int cost_in_iterations() const { return cost; }
 
+  /// What it takes that no other has, nearly all of it for the factor.
+  std::size_t bytes() const
+  {
+    return factor->bytes() +
+           sizeof(double) * std::size_t(coupling->size() + of_multipliers.size() + unit_motion.size());
+  }
+
 private:
   Eigen::VectorXd solve_grains(Eigen::VectorXd forces) const;
   template <typename Columns>

@@ -19,11 +19,13 @@ namespace feldspar
 {
 template <int dim>
 GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-                            const EquilibriumParameters& parameters, std::function<bool()> leaves)
+                            const EquilibriumParameters& parameters, std::function<bool()> leaves,
+                            const bool with_factors)
   : turn(orientation)
   , accepted(network, parameters)
   , at_work(std::move(network), parameters)
   , gives_up(std::move(leaves))
+  , keeps_factors(with_factors)
 {
   for (int k = 0; k < n_voigt<dim>; ++k)
     strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
@@ -48,7 +50,7 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
         options.nearby = &nearby;
       tried = at_work.trial(strain_control<dim>(wanted), options);
       tried_strain = wanted;
-      factorised = tried.factorised;
+      take_factor_of(tried);
       if (tried.tangent && !at_work.state().intact)
         last_tangent = tried.tangent;
     }
@@ -69,8 +71,16 @@ Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
   Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
-  factorised = settled.factorised;
+  take_factor_of(settled);
   return settled;
+}
+
+template <int dim>
+void GrainPoint<dim>::take_factor_of(Trial<dim>& trial) const
+{
+  const KeptFactor<dim> last = std::exchange(trial.factorised, {});
+  if (keeps_factors)
+    factorised = last;
 }
 
 template <int dim>
@@ -330,7 +340,8 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
       turn = random_turn<dim>(random);
     if (parameters.in_local_axes)
       turn = local_axes<dim>(place) * turn;
-    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up);
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up,
+                                             parameters.keeps_factors);
   };
   return material;
 }
