@@ -239,6 +239,9 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
         }
     return sum / n;
   };
+  // What came out, on the last packings of the calibration and in a cylinder of the laboratory's size.
+  const auto reached = results_of("calibrate-beishan-cylinder", "best")["tests"];
+  const auto at_50_mm = results_of("calibrate-beishan-cylinder", "full-size")["tests"];
   for (const Figure& figure :
        {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2},
         Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
@@ -255,6 +258,13 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
       // Targets are written with three figures or more.
       const double expected = rock[figure.target]["mean"].get<double>() / ratio;
       EXPECT_NEAR(targets[figure.target]["mean"].get<double>(), expected, 5e-3 * expected) << figure.heading;
+
+      const double wanted = rock[figure.target]["mean"].get<double>(), found = mean(at_50_mm, figure);
+      const int decimals = std::min(figure.decimals, 3);
+      const std::string outcome =
+        fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:+.1f} % | {:.3f} | {:.3f} |\n", figure.heading, wanted, decimals,
+                    found, decimals, 100.0 * (found / wanted - 1.0), found / mean(reached, figure), ratio);
+      EXPECT_NE(readme.find(outcome), std::string::npos) << "missing: " << outcome;
     }
 }
 
