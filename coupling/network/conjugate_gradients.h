@@ -11,14 +11,13 @@ template <typename Columns>
 struct LinearSolution
 {
   Columns x;
-  bool converged; ///< all; false: x is the best within the iterations allowed
-  unsigned int n_iterations;
+  bool converged;            ///< all; false: x is the best within the iterations allowed
+  unsigned int n_iterations; ///< how often the operator and the preconditioner were applied
 };
 
 /// Solves `apply(x) = right` by preconditioned conjugate gradients until the residual's norm, in the preconditioner's
 /// measure √(r·P r), has fallen by `tolerance` or to `least`. `apply` may be singular where `right` lies in its range: nothing is
-/// asked of the rest. Several right sides go on together, each until it has converged; of what they do to the last bit one
-/// alone may differ, as sums are in another order. (Hestenes and Stiefel 1952.)
+/// asked of the rest. Several right sides go on together, each until it has converged. (Hestenes and Stiefel 1952.)
 template <typename Columns, typename Apply, typename Precondition>
 LinearSolution<Columns> conjugate_gradients(const Apply& apply, const Precondition& precondition, const Columns& right,
                                             const double tolerance, const unsigned int most_iterations,
@@ -72,7 +71,7 @@ LinearSolution<Eigen::VectorXd> bi_conjugate_gradients(const Apply& apply, const
   for (unsigned int k = 0; k < most_iterations; ++k)
     {
       if (residual.norm() <= goal)
-        return {x, true, k};
+        return {x, true, 2 * k};
       const Eigen::VectorXd image = precondition(apply(direction));
       const double alpha = measure / shadow.dot(image);
       const Eigen::VectorXd half = residual - alpha * image;
@@ -85,8 +84,8 @@ LinearSolution<Eigen::VectorXd> bi_conjugate_gradients(const Apply& apply, const
       direction = residual + beta * (direction - omega * image);
       measure = next;
       if (!std::isfinite(beta) || !x.allFinite())
-        return {Eigen::VectorXd::Zero(right.size()), false, k};
+        return {Eigen::VectorXd::Zero(right.size()), false, 2 * k};
     }
-  return {x, false, most_iterations};
+  return {x, false, 2 * most_iterations};
 }
 } // namespace feldspar

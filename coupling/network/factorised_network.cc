@@ -87,7 +87,7 @@ void FactorisedNetwork<dim>::condense()
     UnitUnknowns<dim>::Zero(n_own + n_voigt<dim>, UnitUnknowns<dim>::ColsAtCompileTime);
   of_unit_strains.topLeftCorner(n_own, n_voigt<dim>) = *coupling;
   unit_motion = -solve_with_strain_held(of_unit_strains).topLeftCorner(n_own, n_voigt<dim>);
-  condensed = of_strains + coupling->transpose() * unit_motion;
+  condensed = of_strains + coupling->transpose().lazyProduct(unit_motion); // as TangentSolver::tangent()
 }
 
 template <int dim>

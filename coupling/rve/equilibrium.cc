@@ -3,8 +3,6 @@
 #include "coupling/rve/work_on_the_way.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -90,8 +88,9 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   const auto is_small = [&] {
     return present.position.template tail<n_voigt<dim>>().cwiseAbs().maxCoeff() <= largest_strain;
   };
-  const auto leave = [&] {
+  const auto hand_over = [&] {
     here();
+    is_balanced = false;
     return std::move(present);
   };
   const auto take = [&](Relaxed<dim>&& relaxed) {
@@ -104,12 +103,12 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   for (unsigned int round = 0;; ++round)
     {
       const Unknowns before = present.position;
-      if (take(relax_by_newton(history, leave(), search, parameters.most_iterations, solver)))
+      if (take(relax_by_newton(history, hand_over(), search, parameters.most_iterations, solver)))
         return is_small();
       if (round == most_rounds)
         return false;
       stand_at(before);
-      take(relax_by_motion(history, leave(), search));
+      take(relax_by_motion(history, hand_over(), search));
       if (!is_small()) // it flies apart
         return false;
       // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only

@@ -53,7 +53,7 @@ struct TrialOptions
   /// accepted.
   bool provisional = false;
   /// The factor of an earlier trial, so that none is made anew.
-  KeptFactor<dim> factorised;
+  KeptFactor<dim> factorised{};
   /// The tangent of an earlier trial, handed out again where the states are the same.
   std::optional<Tangent<dim>> tangent{};
   double share_of_tolerance = 1.0;  ///< of the final one, up to which the forces may stay unbalanced
@@ -72,7 +72,10 @@ public:
   Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {
-    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr, {}});
+    TrialOptions<dim> options;
+    options.bonds = bonds;
+    options.with_tangent = with_tangent;
+    return trial(control, options);
   }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const

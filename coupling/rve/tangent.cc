@@ -86,11 +86,14 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
     kept.network = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
   const FactorisedNetwork<dim>& old = kept.network ? *kept.network : network.factorised_intact();
   if (kept.n_more_iterations < old.cost_in_iterations())
-    if (auto found = solve_with(old, old.cost_in_iterations()); found.converged)
-      {
-        kept.n_more_iterations += found.n_iterations - std::min(found.n_iterations, kept.n_fresh_iterations);
-        return found.x;
-      }
+    {
+      const unsigned int left = kept.n_fresh_iterations + old.cost_in_iterations() - kept.n_more_iterations;
+      if (auto found = solve_with(old, left); found.converged)
+        {
+          kept.n_more_iterations += found.n_iterations - std::min(found.n_iterations, kept.n_fresh_iterations);
+          return found.x;
+        }
+    }
   std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     stiffnesses[k] = &network.bonded_stiffness(k);
@@ -152,9 +155,10 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
       const auto precondition = [&](const UnitUnknowns<dim>& r) { return with.solve_with_strain_held(r); };
       return conjugate_gradients(apply, precondition, right, 0.0, most_iterations, least);
     }).topRows(n_own);
+  const UnitUnknowns<dim> forces = apply_tangent(history, at, units);
+  // Without Eigen's blocks, whose size is that of the processor's cache.
   const Stiffness<dim> result =
-    (units.template leftCols<n>().transpose() * apply_tangent(history, at, units).template leftCols<n>()) /
-    network.volume();
+    units.template leftCols<n>().transpose().lazyProduct(forces.template leftCols<n>()) / network.volume();
   return result.template selfadjointView<Eigen::Upper>(); // to the last bit
 }
 

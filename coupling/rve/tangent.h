@@ -35,13 +35,12 @@ template <int dim>
 struct KeptFactor
 {
   std::shared_ptr<const FactorisedNetwork<dim>> network; ///< empty: the intact one
-  unsigned int n_fresh_iterations = 1;                   ///< of the first solution by it
-  unsigned int n_more_iterations = 0;                    ///< of all later ones together, beyond as many as that
+  unsigned int n_fresh_iterations = 1; ///< of the first solution by it; of the intact one as good as any
+  unsigned int n_more_iterations = 0;  ///< of all later ones together, beyond as many as that
 };
 
 /// Solves the linear equations by conjugate gradients with some network that was factorised: the intact one at first. The
-/// present one is factorised where that has cost as many iterations as factorising does, so that both together cost at most
-/// twice the least.
+/// present one is factorised once that has cost as many iterations more as factorising does.
 template <int dim>
 class TangentSolver
 {

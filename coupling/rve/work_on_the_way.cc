@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace feldspar
@@ -13,10 +14,33 @@ constexpr double least_work = 1e-8;       // of all links together: below this s
 constexpr unsigned int most_halvings = 9; // of a way
 
 /// From the last event, for grains and strain apart.
-struct Way
+class Way
 {
-  Unknowns of_grains; ///< without strain
-  Unknowns of_strain; ///< without motions
+public:
+  Way(const Unknowns& its_from, const Unknowns& its_to, Unknowns its_grains, Unknowns its_strain)
+    : of_grains(std::move(its_grains))
+    , of_strain(std::move(its_strain))
+    , from(its_from)
+    , to(its_to)
+  {
+  }
+
+  const Unknowns of_grains; ///< without strain
+  const Unknowns of_strain; ///< without motions
+
+  /// Where the network is on it; all links halve it at the same places.
+  const Unknowns& position(const double share)
+  {
+    if (share == 0.0 || share == 1.0)
+      return share == 0.0 ? from : to;
+    const auto found = between.find(share);
+    return found != between.end() ? found->second : between.emplace(share, from + share * (to - from)).first->second;
+  }
+
+private:
+  const Unknowns& from;
+  const Unknowns& to;
+  std::map<double, Unknowns> between;
 };
 
 /// A link somewhere on the way.
@@ -58,9 +82,9 @@ template <int dim>
 class LinkOnTheWay
 {
 public:
-  /// its_history: nothing of a link whose bonds hold.
+  /// its_history: none of a link that is not active.
   LinkOnTheWay(const NetworkHistory<dim>& of, const std::uint32_t number, const ActiveLink<dim>* its_history,
-               const Way& its_way)
+               Way& its_way)
     : history(of)
     , link(number)
     , at_event(its_history)
@@ -80,7 +104,7 @@ public:
     if (history.is_finite())
       {
         const Link<dim>& turning = history.network().links()[link];
-        const Tensor<dim> gradient = TurnedLink<dim>(turning, position(share)).gradient();
+        const Tensor<dim> gradient = TurnedLink<dim>(turning, way.position(share)).gradient();
         of_grains = link_motion(turning, gradient, way.of_grains);
         of_strain = link_motion(turning, gradient, way.of_strain);
       }
@@ -106,11 +130,9 @@ public:
   }
 
 private:
-  Unknowns position(const double share) const { return history.position() + share * (way.of_grains + way.of_strain); }
-
   LinkResponse<dim> response_at(const double share) const
   {
-    const Motion<dim> motion = history.is_finite() || !at_event ? history.motion(link, position(share))
+    const Motion<dim> motion = history.is_finite() || !at_event ? history.motion(link, way.position(share))
                                                                 : at_event->motion + share * (by_grains + by_strain);
     if (at_event)
       return response(history.network(), *at_event, motion);
@@ -136,12 +158,23 @@ private:
     return sum;
   }
 
-  /// The balance alone does not see where a link begins to slide: what is missing of the work is then missing of the slip.
-  /// Its frozen states show it.
+  /// Whether the link has the same states at both ends, and nothing slid between them.
+  bool stays_linear(const LinkResponse<dim>& from, const LinkResponse<dim>& to) const
+  {
+    if (from.tangent != to.tangent)
+      return false;
+    for (std::size_t i = 0; i < to.segments.size(); ++i)
+      if (from.segments[i].slip != to.segments[i].slip)
+        return false;
+    return true;
+  }
+
+  /// The balance alone does not see slip that is counted wrong: as much is missing of the work. What slides is therefore
+  /// halved once at least.
   Stretch refined(const Stop<dim>& from, const Stop<dim>& to, const Stretch& whole, const double tolerance,
                   const unsigned int halvings_left) const
   {
-    if (from.response.tangent == to.response.tangent && whole.imbalance() <= tolerance)
+    if (stays_linear(from.response, to.response) && whole.imbalance() <= tolerance)
       return whole;
     const Stop<dim> middle = at(0.5 * (from.share + to.share));
     const Stretch first = between(from, middle);
@@ -158,7 +191,7 @@ private:
   const NetworkHistory<dim>& history;
   std::uint32_t link;
   const ActiveLink<dim>* at_event;
-  const Way& way;
+  Way& way;
   Motion<dim> by_grains = Motion<dim>::Zero(), by_strain = Motion<dim>::Zero(); ///< in small strains
 };
 } // namespace
@@ -169,10 +202,11 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
 {
   const Network<dim>& network = history.network();
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
-  Way way{present.position - history.position(), Unknowns::Zero(network.n_unknowns())};
-  way.of_strain.template tail<n_voigt<dim>>() = way.of_grains.template tail<n_voigt<dim>>();
-  way.of_grains.template tail<n_voigt<dim>>().setZero();
-  history.conditions()->project(way.of_grains);
+  Unknowns of_grains = present.position - history.position(), of_strain = Unknowns::Zero(network.n_unknowns());
+  of_strain.template tail<n_voigt<dim>>() = of_grains.template tail<n_voigt<dim>>();
+  of_grains.template tail<n_voigt<dim>>().setZero();
+  history.conditions()->project(of_grains); // what the boundary bears does no work
+  Way way(history.position(), present.position, std::move(of_grains), std::move(of_strain));
 
   // All links by one trapezoid, then what is missing of those that it does not have exactly.
   NetworkWork work;

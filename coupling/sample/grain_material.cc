@@ -43,7 +43,12 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
   const Voigt<dim> wanted = to_rve(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
+      TrialOptions<dim> options;
+      options.bonds = Bonds::frozen;
+      options.with_tangent = true;
+      options.provisional = true;
+      options.factorised = factorised;
+      options.tangent = last_tangent;
       options.gives_up = gives_up;
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
@@ -66,7 +71,9 @@ template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
                                    const std::function<bool()>& leaves) const
 {
-  TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
+  TrialOptions<dim> options;
+  options.bonds = bonds;
+  options.factorised = factorised;
   options.gives_up = leaves;
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
