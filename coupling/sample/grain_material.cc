@@ -19,13 +19,11 @@ namespace feldspar
 {
 template <int dim>
 GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-                            const EquilibriumParameters& parameters, std::function<bool()> leaves,
-                            const bool with_factors)
+                            const EquilibriumParameters& parameters, std::function<bool()> leaves)
   : turn(orientation)
   , accepted(network, parameters)
   , at_work(std::move(network), parameters)
   , gives_up(std::move(leaves))
-  , keeps_factors(with_factors)
 {
   for (int k = 0; k < n_voigt<dim>; ++k)
     strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
@@ -43,19 +41,14 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
   const Voigt<dim> wanted = to_rve(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options;
-      options.bonds = Bonds::frozen;
-      options.with_tangent = true;
-      options.provisional = true;
-      options.factorised = factorised;
-      options.tangent = last_tangent;
+      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
       options.gives_up = gives_up;
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
         options.nearby = &nearby;
       tried = at_work.trial(strain_control<dim>(wanted), options);
       tried_strain = wanted;
-      take_factor_of(tried);
+      factorised = tried.factorised;
       if (tried.tangent && !at_work.state().intact)
         last_tangent = tried.tangent;
     }
@@ -71,23 +64,13 @@ template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
                                    const std::function<bool()>& leaves) const
 {
-  TrialOptions<dim> options;
-  options.bonds = bonds;
-  options.factorised = factorised;
+  TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
   options.gives_up = leaves;
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
   Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
-  take_factor_of(settled);
+  factorised = settled.factorised;
   return settled;
-}
-
-template <int dim>
-void GrainPoint<dim>::take_factor_of(Trial<dim>& trial) const
-{
-  const KeptFactor<dim> last = std::exchange(trial.factorised, {});
-  if (keeps_factors)
-    factorised = last;
 }
 
 template <int dim>
@@ -120,7 +103,7 @@ void GrainPoint<dim>::accept(const Voigt<dim>& strain)
     throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
   forget_trial();
-  factorised = {};
+  factorised.reset();
   accepted = at_work;
   accepted_tangent = last_tangent;
   events_accepted = std::exchange(events_at_work, {});
@@ -132,7 +115,7 @@ void GrainPoint<dim>::reject()
   at_work = accepted;
   events_at_work.clear();
   forget_trial();
-  factorised = {};
+  factorised.reset();
   last_tangent = accepted_tangent;
 }
 
@@ -347,8 +330,7 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
       turn = random_turn<dim>(random);
     if (parameters.in_local_axes)
       turn = local_axes<dim>(place) * turn;
-    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up,
-                                             parameters.keeps_factors);
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up);
   };
   return material;
 }
