@@ -171,6 +171,67 @@ Eigen::VectorXd BlockFactor<dim>::solve(const Eigen::VectorXd& b) const
 }
 
 template <int dim>
+UnitUnknowns<dim> BlockFactor<dim>::solve(const UnitUnknowns<dim>& b) const
+{
+  // A column holds one motion of a grain by every right side.
+  constexpr int n_columns = UnitUnknowns<dim>::ColsAtCompileTime;
+  using Motions = std::array<Column, n>;
+  const std::size_t n_grains = pattern.n_grains();
+  std::vector<Motions> x(n_grains);
+  for (std::size_t i = 0; i < n_grains; ++i)
+    for (int c = 0; c < n; ++c)
+      for (int k = 0; k < n_columns; ++k)
+        x[pattern.place(i)][std::size_t(c)][k] = b(n * Eigen::Index(i) + c, k);
+
+  for (std::size_t k = 0; k < n_grains; ++k) // L
+    {
+      Motions own = x[k];
+      for (int c = 0; c + 1 < n; ++c)
+        for (int r = c + 1; r < n; ++r)
+          own[std::size_t(r)] -= own[std::size_t(c)] * diagonals[n * k + std::size_t(c)][r];
+      for (std::uint32_t block = pattern.first_block(k); block < pattern.first_block(k + 1); ++block)
+        {
+          Motions& other = x[pattern.row(block)];
+          for (int r = 0; r < n; ++r)
+            {
+              Column sum = other[std::size_t(r)];
+              for (int c = 0; c < n; ++c)
+                sum -= own[std::size_t(c)] * blocks[n * block + std::size_t(c)][r];
+              other[std::size_t(r)] = sum;
+            }
+        }
+      for (int r = 0; r < n; ++r)
+        x[k][std::size_t(r)] = own[std::size_t(r)] * inverse_pivots[k][r];
+    }
+  for (std::size_t k = n_grains; k-- > 0;) // Lᵀ
+    {
+      Motions own = x[k];
+      for (std::uint32_t block = pattern.first_block(k); block < pattern.first_block(k + 1); ++block)
+        {
+          const Motions& other = x[pattern.row(block)];
+          for (int c = 0; c < n; ++c)
+            {
+              Column sum = own[std::size_t(c)];
+              for (int r = 0; r < n; ++r)
+                sum -= other[std::size_t(r)] * blocks[n * block + std::size_t(c)][r];
+              own[std::size_t(c)] = sum;
+            }
+        }
+      for (int c = n - 1; c >= 0; --c)
+        for (int r = c + 1; r < n; ++r)
+          own[std::size_t(c)] -= own[std::size_t(r)] * diagonals[n * k + std::size_t(c)][r];
+      x[k] = own;
+    }
+
+  UnitUnknowns<dim> result(b.rows(), b.cols());
+  for (std::size_t i = 0; i < n_grains; ++i)
+    for (int c = 0; c < n; ++c)
+      for (int k = 0; k < n_columns; ++k)
+        result(n * Eigen::Index(i) + c, k) = x[pattern.place(i)][std::size_t(c)][k];
+  return result;
+}
+
+template <int dim>
 double BlockFactor<dim>::cost_of_factor() const
 {
   // Every block below the diagonal is multiplied by those at and below it in its column, and used twice in a solution.

@@ -83,26 +83,28 @@ void FactorisedNetwork<dim>::condense()
   if (n_multipliers > 0)
     violations_of_multipliers.compute(products);
 
-  unit_motion.resize(n_own, n_voigt<dim>);
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    unit_motion.col(k) = -solve_grains(coupling->col(k));
-  condensed = of_strains + coupling->transpose() * unit_motion;
+  UnitUnknowns<dim> of_unit_strains =
+    UnitUnknowns<dim>::Zero(n_own + n_voigt<dim>, UnitUnknowns<dim>::ColsAtCompileTime);
+  of_unit_strains.topLeftCorner(n_own, n_voigt<dim>) = *coupling;
+  unit_motion = -solve_with_strain_held(of_unit_strains).topLeftCorner(n_own, n_voigt<dim>);
+  condensed = of_strains + coupling->transpose().lazyProduct(unit_motion); // as TangentSolver::tangent()
 }
 
 template <int dim>
-Eigen::VectorXd FactorisedNetwork<dim>::solve_unconditioned(const Eigen::VectorXd& forces) const
+template <typename Columns>
+Columns FactorisedNetwork<dim>::solve_unconditioned(const Columns& forces) const
 {
   constexpr int n = n_motions<dim>;
   // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it.
-  Motion<dim> mean = Motion<dim>::Zero();
-  const Eigen::Index n_grains = forces.size() / n;
-  if (its_conditions->held().empty())
-    for (Eigen::Index i = 0; i < n_grains; ++i)
-      mean += forces.segment<n>(n * i) / double(n_grains);
-  mean.template tail<n_rotations<dim>>().setZero();
-  Eigen::VectorXd balanced = forces;
+  if (!its_conditions->held().empty())
+    return factor->solve(forces);
+  RowsOf<dim, Columns> mean = RowsOf<dim, Columns>::Zero();
+  const Eigen::Index n_grains = forces.rows() / n;
   for (Eigen::Index i = 0; i < n_grains; ++i)
-    balanced.segment<n>(n * i) -= mean;
+    mean += forces.template middleRows<dim>(n * i) / double(n_grains);
+  Columns balanced = forces;
+  for (Eigen::Index i = 0; i < n_grains; ++i)
+    balanced.template middleRows<dim>(n * i) -= mean;
   return factor->solve(balanced);
 }
 
@@ -149,6 +151,19 @@ Unknowns FactorisedNetwork<dim>::solve(const Unknowns& forces,
       result[n_own + free[a]] = strain[a];
       result.head(n_own) += strain[a] * unit_motion.col(free[a]);
     }
+  return result;
+}
+
+template <int dim>
+UnitUnknowns<dim> FactorisedNetwork<dim>::solve_with_strain_held(const UnitUnknowns<dim>& forces) const
+{
+  const Eigen::Index n_own = coupling->rows();
+  UnitUnknowns<dim> result = UnitUnknowns<dim>::Zero(forces.rows(), forces.cols());
+  if (its_conditions->are_none())
+    result.topRows(n_own) = solve_unconditioned(UnitUnknowns<dim>(forces.topRows(n_own)));
+  else
+    for (int k = 0; k < n_voigt<dim>; ++k)
+      result.col(k).head(n_own) = solve_grains(forces.col(k).head(n_own));
   return result;
 }
 

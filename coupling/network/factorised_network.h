@@ -41,15 +41,26 @@ public:
   /// Motions for forces on grains and on the free strains; the other strains stay.
   Unknowns solve(const Unknowns& forces, const std::array<bool, n_voigt<dim>>& strain_is_free) const;
 
+  /// Motions for several forces on grains, side by side; the strain stays.
+  UnitUnknowns<dim> solve_with_strain_held(const UnitUnknowns<dim>& forces) const;
+
   /// Grain motions under unit strains, nearly; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
 
   /// How many iterations of conjugate gradients cost as much as factorising anew, by counting operations.
   unsigned int cost_in_iterations() const { return cost; }
 
+  /// What it takes that no other has, nearly all of it for the factor.
+  std::size_t bytes() const
+  {
+    return factor->bytes() +
+           sizeof(double) * std::size_t(coupling->size() + of_multipliers.size() + unit_motion.size());
+  }
+
 private:
   Eigen::VectorXd solve_grains(Eigen::VectorXd forces) const;
-  Eigen::VectorXd solve_unconditioned(const Eigen::VectorXd& forces) const;
+  template <typename Columns>
+  Columns solve_unconditioned(const Columns& forces) const;
   void condense();
 
   std::shared_ptr<const BoundaryConditions<dim>> its_conditions;

@@ -4,62 +4,11 @@
 
 namespace feldspar
 {
-namespace
-{
-template <int dim>
-Eigen::Index first_motion(const std::uint32_t grain)
-{
-  return n_motions<dim> * Eigen::Index(grain);
-}
-
-/// Of the second centre from the first, beyond the branch at rest, in the axes at rest [m].
-template <int dim>
-Vector<dim> way(const Link<dim>& link, const Unknowns& unknowns)
-{
-  return link.axes * (unknowns.segment<dim>(first_motion<dim>(link.grain_2)) -
-                      unknowns.segment<dim>(first_motion<dim>(link.grain_1))) +
-         link.by_strain.template topRows<dim>() * unknowns.tail<n_voigt<dim>>();
-}
-
-/// Adds forces on the second centre, against them on the first, and what they do to the strain.
-template <int dim>
-void add_on_centres(const Link<dim>& link, const Vector<dim>& force, Unknowns& sum)
-{
-  const Vector<dim> on_two = link.axes.transpose() * force;
-  sum.segment<dim>(first_motion<dim>(link.grain_1)) -= on_two;
-  sum.segment<dim>(first_motion<dim>(link.grain_2)) += on_two;
-  sum.tail<n_voigt<dim>>() += link.by_strain.template topRows<dim>().transpose() * force;
-}
-
-/// The motion of a link under the turn of one of its grains.
-template <int dim>
-auto by_turn(const Link<dim>& link, const int end)
-{
-  return link.by_grains.template block<n_motions<dim>, n_rotations<dim>>(0, n_motions<dim> * end + dim);
-}
-
-template <int dim>
-Motion<dim> by_turns(const Link<dim>& link, const Unknowns& unknowns)
-{
-  constexpr int n = n_rotations<dim>;
-  return by_turn(link, 0) * unknowns.segment<n>(first_motion<dim>(link.grain_1) + dim) +
-         by_turn(link, 1) * unknowns.segment<n>(first_motion<dim>(link.grain_2) + dim);
-}
-
-template <int dim>
-void add_couples(const Link<dim>& link, const Motion<dim>& forces, Unknowns& sum)
-{
-  constexpr int n = n_rotations<dim>;
-  sum.segment<n>(first_motion<dim>(link.grain_1) + dim) += by_turn(link, 0).transpose() * forces;
-  sum.segment<n>(first_motion<dim>(link.grain_2) + dim) += by_turn(link, 1).transpose() * forces;
-}
-} // namespace
-
 template <int dim>
 TurnedLink<dim>::TurnedLink(const Link<dim>& link, const Unknowns& position)
   : length_at_rest(link.branch.norm())
-  , end(way(link, position))
-  , its_motion(by_turns(link, position))
+  , end(way_of_centres(link, position))
+  , its_motion(motion_by_turns(link, position))
 {
   const double stretch = end[0];
   end[0] += length_at_rest;
@@ -128,27 +77,28 @@ Tensor<dim> TurnedLink<dim>::stiffness(const Motion<dim>& forces) const
 template <int dim>
 Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, const Unknowns& unknowns)
 {
-  Motion<dim> motion = by_turns(link, unknowns);
-  motion.template head<dim>() += gradient * way(link, unknowns);
+  Motion<dim> motion = motion_by_turns(link, unknowns);
+  motion.template head<dim>() += gradient * way_of_centres(link, unknowns);
   return motion;
 }
 
 template <int dim>
 void add_forces(const Link<dim>& link, const Tensor<dim>& gradient, const Motion<dim>& forces, Unknowns& sum)
 {
-  add_on_centres<dim>(link, gradient.transpose() * forces.template head<dim>(), sum);
+  add_on_centres<dim, Unknowns>(link, gradient.transpose() * forces.template head<dim>(), sum);
   add_couples(link, forces, sum);
 }
 
-template <int dim>
+template <int dim, typename Columns>
 void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, const JointStiffness<dim>& stiffness,
-                          const Unknowns& motion, Unknowns& sum)
+                          const Columns& motion, Columns& sum)
 {
-  const Vector<dim> of_centres = way(link, motion);
-  Motion<dim> of_link = by_turns(link, motion);
-  of_link.template head<dim>() += turn.gradient * of_centres;
-  const Motion<dim> forces = stiffness * of_link;
-  add_on_centres<dim>(link, turn.gradient.transpose() * forces.template head<dim>() + turn.stiffness * of_centres, sum);
+  const RowsOf<dim, Columns> of_centres = way_of_centres(link, motion);
+  RowsOf<n_motions<dim>, Columns> of_link = motion_by_turns(link, motion);
+  of_link.template topRows<dim>() += turn.gradient * of_centres;
+  const RowsOf<n_motions<dim>, Columns> forces = stiffness * of_link;
+  add_on_centres<dim, Columns>(
+    link, turn.gradient.transpose() * forces.template topRows<dim>() + turn.stiffness * of_centres, sum);
   add_couples(link, forces, sum);
 }
 
@@ -162,4 +112,8 @@ template void add_forces_of_motion(const Link<2>&, const LinkTurn<2>&, const Joi
                                    Unknowns&);
 template void add_forces_of_motion(const Link<3>&, const LinkTurn<3>&, const JointStiffness<3>&, const Unknowns&,
                                    Unknowns&);
+template void add_forces_of_motion(const Link<2>&, const LinkTurn<2>&, const JointStiffness<2>&, const UnitUnknowns<2>&,
+                                   UnitUnknowns<2>&);
+template void add_forces_of_motion(const Link<3>&, const LinkTurn<3>&, const JointStiffness<3>&, const UnitUnknowns<3>&,
+                                   UnitUnknowns<3>&);
 } // namespace feldspar

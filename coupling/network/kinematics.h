@@ -57,8 +57,8 @@ Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, cons
 template <int dim>
 void add_forces(const Link<dim>& link, const Tensor<dim>& gradient, const Motion<dim>& forces, Unknowns& sum);
 
-/// Adds the forces that a small motion makes, by the stiffness of the link and that of its turning.
-template <int dim>
+/// Adds the forces that a small motion makes, or several do, by the stiffness of the link and that of its turning.
+template <int dim, typename Columns>
 void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, const JointStiffness<dim>& stiffness,
-                          const Unknowns& motion, Unknowns& sum);
+                          const Columns& motion, Columns& sum);
 } // namespace feldspar

@@ -1,8 +1,8 @@
 #include "coupling/rve/equilibrium.h"
 
+#include "coupling/rve/work_on_the_way.h"
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -10,10 +10,6 @@ namespace feldspar
 {
 namespace
 {
-constexpr unsigned int least_work_intervals = 8; // trapezoids for the way between two events
-constexpr unsigned int most_work_intervals = 512;
-constexpr double work_tolerance = 1e-3;        // imbalance over what was moved between two events
-constexpr double least_work = 1e-8;            // below this share of what is stored nothing is refined
 constexpr unsigned int most_rounds = 24;       // of damped motion and Newton's method after it
 constexpr unsigned int rounds_before_slip = 2; // is made history
 } // namespace
@@ -26,7 +22,7 @@ Equilibrium<dim>::Equilibrium(const Network<dim>& of, const NetworkState<dim>& s
   , last(state)
   , history(of, state, wanted.kinematics)
 {
-  begin_again();
+  stand_at(history.position());
 }
 
 /// The stored energy of an intact network is all the work that was done on it; of the same positions the kinematics make
@@ -38,7 +34,7 @@ void Equilibrium<dim>::leave_intact_response()
     return;
   history.become_finite();
   begin_again();
-  last.work.boundary = at_event.stored_energy;
+  last.work.boundary = at_event->stored_energy;
 }
 
 template <int dim>
@@ -51,7 +47,16 @@ template <int dim>
 void Equilibrium<dim>::stand_at(Unknowns position)
 {
   present.position = std::move(position);
-  present.balance = history.balance(present.position, std::move(present.balance));
+  is_balanced = false;
+}
+
+template <int dim>
+const Configuration<dim>& Equilibrium<dim>::here() const
+{
+  if (!is_balanced)
+    present.balance = history.balance(present.position, std::move(present.balance));
+  is_balanced = true;
+  return present;
 }
 
 /// At the last event.
@@ -59,7 +64,7 @@ template <int dim>
 void Equilibrium<dim>::begin_again()
 {
   stand_at(history.position());
-  at_event = present.balance;
+  at_event = here().balance;
 }
 
 template <int dim>
@@ -83,8 +88,14 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   const auto is_small = [&] {
     return present.position.template tail<n_voigt<dim>>().cwiseAbs().maxCoeff() <= largest_strain;
   };
+  const auto hand_over = [&] {
+    here();
+    is_balanced = false;
+    return std::move(present);
+  };
   const auto take = [&](Relaxed<dim>&& relaxed) {
     present = std::move(relaxed.present);
+    is_balanced = true;
     iterations += relaxed.n_iterations;
     return relaxed.balanced;
   };
@@ -92,12 +103,12 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
   for (unsigned int round = 0;; ++round)
     {
       const Unknowns before = present.position;
-      if (take(relax_by_newton(history, std::move(present), search, parameters.most_iterations, solver)))
+      if (take(relax_by_newton(history, hand_over(), search, parameters.most_iterations, solver)))
         return is_small();
       if (round == most_rounds)
         return false;
       stand_at(before);
-      take(relax_by_motion(history, std::move(present), search));
+      take(relax_by_motion(history, hand_over(), search));
       if (!is_small()) // it flies apart
         return false;
       // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only
@@ -107,84 +118,17 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
     }
 }
 
-/// Dissipated between two positions on the way from the last event [J].
-template <int dim>
-double Equilibrium<dim>::slip_energy(const Balance<dim>& from, const Balance<dim>& to) const
-{
-  double sum = 0.0;
-  const auto add = [&](const std::uint32_t link, const LinkResponse<dim>* before, const LinkResponse<dim>& after) {
-    for (std::uint32_t i = 0; i < after.segments.size(); ++i)
-      {
-        const double area = network.segment_area(network.links()[link], i);
-        for (int c = 0; c < dim - 1; ++c)
-          {
-            const double old_stress = before ? before->segments[i].shear_stress[c] : 0.0;
-            const double old_slip = before ? before->segments[i].slip[c] : 0.0;
-            sum +=
-              0.5 * (old_stress + after.segments[i].shear_stress[c]) * (after.segments[i].slip[c] - old_slip) * area;
-          }
-      }
-  };
-  for (std::size_t a = 0; a < history.active().size(); ++a)
-    add(history.active()[a].link, &from.active[a], to.active[a]);
-  for (const auto& [link, touch] : to.touches)
-    {
-      const auto before = std::find_if(from.touches.begin(), from.touches.end(),
-                                       [&, which = link](const auto& entry) { return entry.first == which; });
-      add(link, before == from.touches.end() ? nullptr : &before->second, touch);
-    }
-  return sum;
-}
-
-/// Along the way since the last event, taken as straight, by trapezoids.
-template <int dim>
-NetworkWork Equilibrium<dim>::work_since_event(const unsigned int n_intervals) const
-{
-  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
-  const Unknowns way = present.position - history.position();
-  NetworkWork work;
-  const auto add = [&](const Balance<dim>& at, const double share) {
-    work.boundary += share * network.volume() * at.stress.dot(way.template tail<n_voigt<dim>>());
-    work.settled += share * at.forces.head(n_own).dot(way.head(n_own));
-  };
-  std::array<Balance<dim>, 2> on_the_way;
-  const Balance<dim>* before = &at_event;
-  for (unsigned int k = 1; k <= n_intervals; ++k)
-    {
-      const Balance<dim>* after = &present.balance;
-      if (k < n_intervals)
-        {
-          Balance<dim>& there = on_the_way[k % 2];
-          there = history.balance(history.position() + double(k) / n_intervals * way, std::move(there));
-          after = &there;
-        }
-      add(*before, 0.5 / n_intervals);
-      add(*after, 0.5 / n_intervals);
-      work.slip += slip_energy(*before, *after);
-      before = after;
-    }
-  return work;
-}
-
 /// The work since the last event into the energies; then the present becomes the last event.
 template <int dim>
 void Equilibrium<dim>::commit()
 {
-  // On a long way contacts open, close and slide: as many intervals as the balance of what was summed apart asks for.
-  const auto is_fine_enough = [&](const NetworkWork& work) {
-    const double stored = present.balance.stored_energy - at_event.stored_energy;
-    const double moved = std::abs(work.boundary) + std::abs(work.settled) + std::abs(work.slip) + std::abs(stored);
-    return std::abs(work.boundary - work.settled - work.slip - stored) <=
-           std::max(work_tolerance * moved, least_work * present.balance.stored_energy);
-  };
-  unsigned int n_intervals = history.active().empty() ? 1 : least_work_intervals;
-  NetworkWork work = work_since_event(n_intervals);
-  while (!history.active().empty() && n_intervals < most_work_intervals && !is_fine_enough(work))
-    work = work_since_event(n_intervals *= 4);
+  if (!at_event)
+    at_event = history.balance(history.position());
+  const NetworkWork work = work_on_the_way(history, *at_event, here());
   last.work.boundary += work.boundary;
   last.work.settled += work.settled;
   last.work.slip += work.slip;
-  history.keep(present);
+  history.keep(here());
 }
 
 template <int dim>
@@ -223,7 +167,7 @@ NetworkState<dim> Equilibrium<dim>::provisional_state() const
 {
   NetworkState<dim> result;
   result.strain = present.position.template tail<n_voigt<dim>>();
-  result.stress = present.balance.stress;
+  result.stress = here().balance.stress;
   result.intact = false;
   result.motions.assign(present.position.data(), present.position.data() + network.n_unknowns() - n_voigt<dim>);
   return result;
@@ -236,7 +180,7 @@ NetworkState<dim> Equilibrium<dim>::state()
   NetworkState<dim> result = last;
   const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
   result.strain = present.position.template tail<n_voigt<dim>>();
-  result.stress = present.balance.stress;
+  result.stress = here().balance.stress;
   result.intact = history.active().empty();
   result.motions.clear();
   result.unbonded.clear();
@@ -277,13 +221,13 @@ template <int dim>
 LinkForces<dim> Equilibrium<dim>::link_forces() const
 {
   const auto& links = network.links();
-  LinkForces<dim> all{std::vector<Motion<dim>>(links.size(), Motion<dim>::Zero()), present.balance.turns};
+  LinkForces<dim> all{std::vector<Motion<dim>>(links.size(), Motion<dim>::Zero()), here().balance.turns};
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (history.is_active(k))
-      all.values[k] = present.balance.active[history.active_number(k)].forces;
+      all.values[k] = here().balance.active[history.active_number(k)].forces;
     else if (links[k].has_face)
       all.values[k] = network.bonded_stiffness(k) * history.motion(k, present.position);
-  for (const auto& [k, touch] : present.balance.touches)
+  for (const auto& [k, touch] : here().balance.touches)
     all.values[k] = touch.forces;
   return all;
 }

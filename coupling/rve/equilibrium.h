@@ -4,6 +4,7 @@
 #include "coupling/rve/relaxation.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace feldspar
@@ -48,9 +49,9 @@ public:
   /// Where the search begins, instead of at the last event: the position of a state found from it.
   void begin_at(const NetworkState<dim>& nearby);
 
-  /// The factor by which its linear systems are solved until that takes too long; may be empty.
-  void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { solver.begin_with(std::move(nearby)); }
-  const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return solver.last_factorised(); }
+  /// The factor by which its linear systems are solved until that takes too long.
+  void begin_with(KeptFactor<dim> nearby) { solver.begin_with(std::move(nearby)); }
+  const KeptFactor<dim>& last_factorised() const { return solver.last_factorised(); }
 
   /// relax() asks this in every iteration and throws GivenUp where it says so: the network is then of no use any more.
   void leave_when(std::function<bool()> wanted) { gives_up = std::move(wanted); }
@@ -60,12 +61,12 @@ public:
   bool relax(const Control<dim>& control, double tolerance);
 
   /// Segments with bonds that break where it stands.
-  std::vector<Overload> overloads() const { return feldspar::overloads(history, present, parameters); }
+  std::vector<Overload> overloads() const { return feldspar::overloads(history, here(), parameters); }
 
   /// The share of the way since the last event, taken as straight, at which the first of these is overloaded.
   double share_until(const std::vector<Overload>& overloads) const
   {
-    return feldspar::share_until(overloads, history, present, parameters);
+    return feldspar::share_until(overloads, history, here(), parameters);
   }
 
   /// Makes the present position the last event and breaks these, or lets them soften.
@@ -78,26 +79,25 @@ public:
   NetworkState<dim> provisional_state() const;
 
   const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }
-  Voigt<dim> stress() const { return present.balance.stress; }
-  double unbalanced_ratio() const { return present.balance.unbalanced_ratio; }
-  double stored_energy() const { return present.balance.stored_energy; }
+  Voigt<dim> stress() const { return here().balance.stress; }
+  double unbalanced_ratio() const { return here().balance.unbalanced_ratio; }
+  double stored_energy() const { return here().balance.stored_energy; }
   LinkForces<dim> link_forces() const;
   /// Bonds and open, stick and slip states frozen; [n_links].
-  std::vector<JointStiffness<dim>> link_tangents() const { return feldspar::link_tangents(history, present.balance); }
+  std::vector<JointStiffness<dim>> link_tangents() const { return feldspar::link_tangents(history, here().balance); }
   const Unknowns& unknowns() const { return present.position; }
   unsigned int n_iterations() const { return iterations; }
 
   /// With bonds and open, stick and slip states frozen as they are [Pa].
-  Stiffness<dim> tangent() { return solver.tangent(history, present.balance); }
+  Stiffness<dim> tangent() { return solver.tangent(history, here().balance); }
   /// A number for those states, and for how far a face is closed to a thousandth: where it is the same, so is the tangent.
-  std::uint64_t states_of_tangent() const { return feldspar::states_of_tangent(history, present.balance); }
+  std::uint64_t states_of_tangent() const { return feldspar::states_of_tangent(history, here().balance); }
   /// The same without the grains' rearrangement [Pa].
-  Stiffness<dim> affine_tangent() const { return feldspar::affine_tangent(history, present.balance); }
+  Stiffness<dim> affine_tangent() const { return feldspar::affine_tangent(history, here().balance); }
 
 private:
   void stand_at(Unknowns position);
-  double slip_energy(const Balance<dim>& from, const Balance<dim>& to) const;
-  NetworkWork work_since_event(unsigned int n_intervals) const;
+  const Configuration<dim>& here() const;
   void commit();
   void begin_again();
   void make_event(); ///< of the present position; nothing breaks
@@ -106,8 +106,9 @@ private:
   EquilibriumParameters parameters;
   NetworkState<dim> last; ///< at the last event, but for what `history` holds
   NetworkHistory<dim> history;
-  Balance<dim> at_event;
-  Configuration<dim> present;
+  std::optional<Balance<dim>> at_event; ///< made where it is asked for
+  mutable Configuration<dim> present;   ///< its balance is made where it is asked for; one thread has an equilibrium
+  mutable bool is_balanced = false;
   TangentSolver<dim> solver;
   std::function<bool()> gives_up;
   unsigned int iterations = 0;

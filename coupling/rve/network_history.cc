@@ -61,9 +61,8 @@ Motion<dim> NetworkHistory<dim>::motion(const std::uint32_t link, const Unknowns
   return finite ? TurnedLink<dim>(of.links()[link], at).motion() : link_motion(of.links()[link], at);
 }
 
-/// All bonded; a pair without a face never is.
 template <int dim>
-ActiveLink<dim> NetworkHistory<dim>::at_event(const std::uint32_t link) const
+ActiveLink<dim> NetworkHistory<dim>::as_at_event(const std::uint32_t link) const
 {
   const Link<dim>& as_built = of.links()[link];
   ActiveLink<dim> result{link, motion(link, position_at_event), {}};
@@ -78,7 +77,7 @@ ActiveLink<dim>& NetworkHistory<dim>::activate(const std::uint32_t link)
   if (number[link] == none)
     {
       number[link] = std::uint32_t(active_links.size());
-      active_links.push_back(at_event(link));
+      active_links.push_back(as_at_event(link));
     }
   return active_links[number[link]];
 }
@@ -182,7 +181,7 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim> resul
         }
       else if (links[k].opening + motion[0] < 0.0)
         {
-          result.touches.emplace_back(k, response(of, at_event(k), motion));
+          result.touches.emplace_back(k, response(of, as_at_event(k), motion));
           add_response(k, result.touches.back().second);
         }
     }

@@ -63,6 +63,9 @@ public:
   /// serve again.
   Balance<dim> balance(const Unknowns& at, Balance<dim> memory = {}) const;
 
+  /// A link that is not active as if it were: all bonded, or, where it has no face, not at all.
+  ActiveLink<dim> as_at_event(std::uint32_t link) const;
+
   /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);
 
@@ -74,8 +77,6 @@ public:
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-  ActiveLink<dim> at_event(std::uint32_t link) const;
 
   const Network<dim>& of;
   bool finite;

@@ -29,9 +29,8 @@ struct Trial
   double share_until_break = 1.0;      ///< of the way from the state before, about; 1: nothing broke
   std::optional<Tangent<dim>> tangent; ///< on request
   double unbalanced_ratio = 0.0;       ///< largest unbalanced over mean contact force
-  /// The factor of its last linear solution; empty: the intact network. Shared with the next trial, which changes
-  /// nothing in it.
-  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  /// The factor of its last linear solution.
+  KeptFactor<dim> factorised;
 };
 
 enum class Bonds
@@ -53,8 +52,8 @@ struct TrialOptions
   /// Only strain, stress and motions of the state are wanted, as between the iterations of a solver: it cannot be
   /// accepted.
   bool provisional = false;
-  /// The factor of an earlier trial, so that none is made anew; may be empty.
-  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  /// The factor of an earlier trial, so that none is made anew.
+  KeptFactor<dim> factorised{};
   /// The tangent of an earlier trial, handed out again where the states are the same.
   std::optional<Tangent<dim>> tangent{};
   double share_of_tolerance = 1.0;  ///< of the final one, up to which the forces may stay unbalanced
@@ -73,7 +72,10 @@ public:
   Trial<dim> trial(const Control<dim>& control, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const
   {
-    return trial(control, TrialOptions<dim>{bonds, with_tangent, nullptr, false, nullptr, {}});
+    TrialOptions<dim> options;
+    options.bonds = bonds;
+    options.with_tangent = with_tangent;
+    return trial(control, options);
   }
   Trial<dim> trial(const Voigt<dim>& strain, const Bonds bonds = Bonds::may_break,
                    const bool with_tangent = false) const

@@ -3,22 +3,23 @@
 #include "base/fingerprint.h"
 #include "coupling/network/conjugate_gradients.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
 namespace feldspar
 {
-template <int dim>
-Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
-                       JointStiffness<dim> LinkResponse<dim>::*const which)
+template <int dim, typename Columns>
+Columns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Columns& unknowns,
+                      JointStiffness<dim> LinkResponse<dim>::*const which)
 {
   const Network<dim>& network = history.network();
   const auto& links = network.links();
-  Unknowns result = Unknowns::Zero(network.n_unknowns());
+  Columns result = Columns::Zero(network.n_unknowns(), unknowns.cols());
   const auto add = [&](const std::uint32_t k, const JointStiffness<dim>& stiffness) {
     if (at.turns.empty())
-      add_forces(links[k], stiffness * link_motion(links[k], unknowns), result);
+      add_forces<dim, Columns>(links[k], stiffness * link_motion(links[k], unknowns), result);
     else
       add_forces_of_motion(links[k], at.turns[k], stiffness, unknowns, result);
   };
@@ -50,14 +51,11 @@ std::vector<JointStiffness<dim>> link_tangents(const NetworkHistory<dim>& histor
 template <int dim>
 Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
 {
+  constexpr int n = n_voigt<dim>;
   const Network<dim>& network = history.network();
-  Stiffness<dim> result;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    result.col(k) =
-      apply_tangent(history, at, Unknowns::Unit(network.n_unknowns(), network.n_unknowns() - n_voigt<dim> + k))
-        .template tail<n_voigt<dim>>() /
-      network.volume();
-  return result;
+  UnitUnknowns<dim> units = UnitUnknowns<dim>::Zero(network.n_unknowns(), UnitUnknowns<dim>::ColsAtCompileTime);
+  units.template bottomLeftCorner<n, n>().setIdentity();
+  return apply_tangent(history, at, units).template bottomLeftCorner<n, n>() / network.volume();
 }
 
 template <int dim>
@@ -78,23 +76,24 @@ std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balanc
 }
 
 template <int dim>
-Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
-                                   const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
-                                   const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
-                                   const double tolerance, const double least)
+template <typename SolveWith>
+auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Balance<dim>& at,
+                                  const SolveWith& solve_with)
 {
   const Network<dim>& network = history.network();
-  const auto solve = [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
-    const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
-    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations, least)
-                     : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
-  };
-  if (const auto& nearby = factorised ? *factorised : network.factorised_intact();
+  if (const auto& nearby = kept.network ? *kept.network : network.factorised_intact();
       nearby.conditions() != history.conditions())
-    factorised = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
-  const FactorisedNetwork<dim>& old = factorised ? *factorised : network.factorised_intact();
-  if (const LinearSolution solution = solve(old, old.cost_in_iterations()); solution.converged)
-    return solution.x;
+    kept.network = std::make_shared<const FactorisedNetwork<dim>>(nearby.under(history.conditions()));
+  const FactorisedNetwork<dim>& old = kept.network ? *kept.network : network.factorised_intact();
+  if (kept.n_more_iterations < old.cost_in_iterations())
+    {
+      const unsigned int left = kept.n_fresh_iterations + old.cost_in_iterations() - kept.n_more_iterations;
+      if (auto found = solve_with(old, left); found.converged)
+        {
+          kept.n_more_iterations += found.n_iterations - std::min(found.n_iterations, kept.n_fresh_iterations);
+          return found.x;
+        }
+    }
   std::vector<const JointStiffness<dim>*> stiffnesses(network.links().size(), nullptr);
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     stiffnesses[k] = &network.bonded_stiffness(k);
@@ -102,43 +101,65 @@ Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Bal
     stiffnesses[history.active()[a].link] = &at.active[a].tangent;
   for (const auto& [k, touch] : at.touches)
     stiffnesses[k] = &touch.tangent;
-  factorised = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
+  kept.network = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
     [&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness, history.conditions()));
   constexpr unsigned int most_iterations = 400;
-  return solve(*factorised, most_iterations).x;
+  auto found = solve_with(*kept.network, most_iterations);
+  kept.n_fresh_iterations = found.n_iterations;
+  kept.n_more_iterations = 0;
+  return found.x;
+}
+
+template <int dim>
+Unknowns TangentSolver<dim>::solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
+                                   const std::function<Unknowns(const Unknowns&)>& apply, const bool symmetric,
+                                   const Unknowns& right, const std::array<bool, n_voigt<dim>>& strain_is_free,
+                                   const double tolerance)
+{
+  return solution(history, at, [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+    const auto precondition = [&](const Unknowns& r) { return with.solve(r, strain_is_free); };
+    return symmetric ? conjugate_gradients(apply, precondition, right, tolerance, most_iterations)
+                     : bi_conjugate_gradients(apply, precondition, right, tolerance, (most_iterations + 1) / 2);
+  });
 }
 
 template <int dim>
 Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, const Balance<dim>& at)
 {
+  constexpr int n = n_voigt<dim>;
+  constexpr int n_columns = UnitUnknowns<dim>::ColsAtCompileTime;
   const Network<dim>& network = history.network();
   if (history.active().empty() && at.touches.empty())
     return network.intact_stiffness();
-  const Eigen::Index n_own = network.n_unknowns() - n_voigt<dim>;
-  const auto apply = [&](const Unknowns& x) {
-    Unknowns y = apply_tangent(history, at, x);
-    y.template tail<n_voigt<dim>>().setZero();
+  const Eigen::Index n_own = network.n_unknowns() - n;
+  // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts against
+  // the energy of the intact network under this strain.
+  UnitUnknowns<dim> units = UnitUnknowns<dim>::Zero(network.n_unknowns(), n_columns);
+  Eigen::Array<double, 1, n_columns> least = decltype(least)::Zero();
+  for (int k = 0; k < n; ++k)
+    {
+      Unknowns unit = network.intact_unknowns(Voigt<dim>::Unit(k));
+      history.conditions()->project(unit);
+      units.col(k) = unit;
+      constexpr double error_of_motions = 1e-5; // of energies, that is squared
+      least[k] = error_of_motions * std::sqrt(network.volume() * network.intact_stiffness()(k, k));
+    }
+  const auto apply = [&](const UnitUnknowns<dim>& x) {
+    UnitUnknowns<dim> y = apply_tangent(history, at, x);
+    y.template bottomRows<n>().setZero();
     return y;
   };
-  std::array<Unknowns, n_voigt<dim>> responses;
-  Stiffness<dim> result;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts
-      // against the energy of the intact network under this strain.
-      Unknowns& unit = responses[k];
-      unit = network.intact_unknowns(Voigt<dim>::Unit(k));
-      history.conditions()->project(unit);
-      Unknowns right = -apply_tangent(history, at, unit);
-      right.template tail<n_voigt<dim>>().setZero();
-      constexpr double error_of_motions = 1e-5; // of energies, that is squared
-      const double least = error_of_motions * std::sqrt(network.volume() * network.intact_stiffness()(k, k));
-      unit.head(n_own) += solve(history, at, apply, true, right, {}, 0.0, least).head(n_own);
-      const Unknowns forces = apply_tangent(history, at, unit);
-      for (int j = 0; j <= k; ++j)
-        result(j, k) = result(k, j) = responses[j].dot(forces) / network.volume();
-    }
-  return result;
+  const UnitUnknowns<dim> right = -apply(units);
+  units.topRows(n_own) +=
+    solution(history, at, [&](const FactorisedNetwork<dim>& with, const unsigned int most_iterations) {
+      const auto precondition = [&](const UnitUnknowns<dim>& r) { return with.solve_with_strain_held(r); };
+      return conjugate_gradients(apply, precondition, right, 0.0, most_iterations, least);
+    }).topRows(n_own);
+  const UnitUnknowns<dim> forces = apply_tangent(history, at, units);
+  // Without Eigen's blocks, whose size is that of the processor's cache.
+  const Stiffness<dim> result =
+    units.template leftCols<n>().transpose().lazyProduct(forces.template leftCols<n>()) / network.volume();
+  return result.template selfadjointView<Eigen::Upper>(); // to the last bit
 }
 
 template class TangentSolver<2>;

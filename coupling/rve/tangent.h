@@ -12,10 +12,10 @@ namespace feldspar
 /// Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.
 constexpr double lent_stiffness = 1e-7;
 
-/// Forces on grains, and volume × stress, for small motions from where the network stands.
-template <int dim>
-Unknowns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Unknowns& unknowns,
-                       JointStiffness<dim> LinkResponse<dim>::*which = &LinkResponse<dim>::tangent);
+/// Forces on grains, and volume × stress, for small motions from where the network stands: Unknowns or UnitUnknowns.
+template <int dim, typename Columns>
+Columns apply_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at, const Columns& unknowns,
+                      JointStiffness<dim> LinkResponse<dim>::*which = &LinkResponse<dim>::tangent);
 
 /// The stiffness of each link, in its own axes; [n_links].
 template <int dim>
@@ -30,27 +30,38 @@ Stiffness<dim> affine_tangent(const NetworkHistory<dim>& history, const Balance<
 template <int dim>
 std::uint64_t states_of_tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
 
-/// Solves the linear equations by conjugate gradients with some network that was factorised: the intact one at first,
-/// the present one where that takes longer than factorising it.
+/// A network that was factorised, to solve nearby ones by.
+template <int dim>
+struct KeptFactor
+{
+  std::shared_ptr<const FactorisedNetwork<dim>> network; ///< empty: the intact one
+  unsigned int n_fresh_iterations = 1; ///< of the first solution by it; of the intact one as good as any
+  unsigned int n_more_iterations = 0;  ///< of all later ones together, beyond as many as that
+};
+
+/// Solves the linear equations by conjugate gradients with some network that was factorised: the intact one at first. The
+/// present one is factorised once that has cost as many iterations more as factorising does.
 template <int dim>
 class TangentSolver
 {
 public:
   /// Begins with what an earlier one factorised last; may be empty.
-  void begin_with(std::shared_ptr<const FactorisedNetwork<dim>> nearby) { factorised = std::move(nearby); }
-  const std::shared_ptr<const FactorisedNetwork<dim>>& last_factorised() const { return factorised; }
+  void begin_with(KeptFactor<dim> nearby) { kept = std::move(nearby); }
+  const KeptFactor<dim>& last_factorised() const { return kept; }
 
-  /// The solution with `apply`, which is near the tangent at the balance; to a tolerance or, of one that is symmetric, until
-  /// the energy of the error, as the preconditioner measures it, is at most `least` squared [√J].
+  /// The solution, to a tolerance, with `apply`, which is near the tangent at the balance.
   Unknowns solve(const NetworkHistory<dim>& history, const Balance<dim>& at,
                  const std::function<Unknowns(const Unknowns&)>& apply, bool symmetric, const Unknowns& right,
-                 const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance, double least = 0.0);
+                 const std::array<bool, n_voigt<dim>>& strain_is_free, double tolerance);
 
   /// Stress under unit strains [Pa].
   Stiffness<dim> tangent(const NetworkHistory<dim>& history, const Balance<dim>& at);
 
 private:
-  /// Empty: the intact ones. Shared with the next trial, which changes nothing in it.
-  std::shared_ptr<const FactorisedNetwork<dim>> factorised;
+  /// solve_with(network, most_iterations): a LinearSolution by conjugate gradients with that network.
+  template <typename SolveWith>
+  auto solution(const NetworkHistory<dim>& history, const Balance<dim>& at, const SolveWith& solve_with);
+
+  KeptFactor<dim> kept; ///< shared with the next trial, which changes nothing in it
 };
 } // namespace feldspar

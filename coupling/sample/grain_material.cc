@@ -19,11 +19,13 @@ namespace feldspar
 {
 template <int dim>
 GrainPoint<dim>::GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-                            const EquilibriumParameters& parameters, std::function<bool()> leaves)
+                            const EquilibriumParameters& parameters, std::function<bool()> leaves,
+                            const bool with_factors)
   : turn(orientation)
   , accepted(network, parameters)
   , at_work(std::move(network), parameters)
   , gives_up(std::move(leaves))
+  , keeps_factors(with_factors)
 {
   for (int k = 0; k < n_voigt<dim>; ++k)
     strain_to_rve.col(k) = strain_voigt<dim>(turn.transpose() * strain_tensor<dim>(Voigt<dim>::Unit(k)) * turn);
@@ -41,14 +43,19 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
   const Voigt<dim> wanted = to_rve(strain);
   if (!tried_strain || *tried_strain != wanted)
     {
-      TrialOptions<dim> options{Bonds::frozen, true, nullptr, true, factorised, last_tangent};
+      TrialOptions<dim> options;
+      options.bonds = Bonds::frozen;
+      options.with_tangent = true;
+      options.provisional = true;
+      options.factorised = factorised;
+      options.tangent = last_tangent;
       options.gives_up = gives_up;
       const NetworkState<dim> nearby = std::move(tried.state);
       if (tried_strain && !nearby.motions.empty())
         options.nearby = &nearby;
       tried = at_work.trial(strain_control<dim>(wanted), options);
       tried_strain = wanted;
-      factorised = tried.factorised;
+      take_factor_of(tried);
       if (tried.tangent && !at_work.state().intact)
         last_tangent = tried.tangent;
     }
@@ -64,13 +71,23 @@ template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
                                    const std::function<bool()>& leaves) const
 {
-  TrialOptions<dim> options{bonds, false, nullptr, false, factorised, {}};
+  TrialOptions<dim> options;
+  options.bonds = bonds;
+  options.factorised = factorised;
   options.gives_up = leaves;
   if (tried_strain && !tried.state.motions.empty())
     options.nearby = &tried.state;
   Trial<dim> settled = at_work.trial(strain_control<dim>(to_rve(strain)), options);
-  factorised = settled.factorised;
+  take_factor_of(settled);
   return settled;
+}
+
+template <int dim>
+void GrainPoint<dim>::take_factor_of(Trial<dim>& trial) const
+{
+  const KeptFactor<dim> last = std::exchange(trial.factorised, {});
+  if (keeps_factors)
+    factorised = last;
 }
 
 template <int dim>
@@ -103,7 +120,7 @@ void GrainPoint<dim>::accept(const Voigt<dim>& strain)
     throw fem::PointFailure("the grains of an RVE find no equilibrium");
   at_work.accept(std::move(found));
   forget_trial();
-  factorised.reset();
+  factorised = {};
   accepted = at_work;
   accepted_tangent = last_tangent;
   events_accepted = std::exchange(events_at_work, {});
@@ -115,7 +132,7 @@ void GrainPoint<dim>::reject()
   at_work = accepted;
   events_at_work.clear();
   forget_trial();
-  factorised.reset();
+  factorised = {};
   last_tangent = accepted_tangent;
 }
 
@@ -330,7 +347,8 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
       turn = random_turn<dim>(random);
     if (parameters.in_local_axes)
       turn = local_axes<dim>(place) * turn;
-    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up);
+    return std::make_unique<GrainPoint<dim>>(network, turn, parameters.equilibrium, parameters.gives_up,
+                                             parameters.keeps_factors);
   };
   return material;
 }

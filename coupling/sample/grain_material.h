@@ -31,9 +31,10 @@ class GrainPoint final : public fem::MaterialPoint<dim>
 {
 public:
   /// orientation: turns the axes of the RVE into those of the sample. gives_up: asked in every iteration of trial() and
-  /// relax(), which throw GivenUp where it says so; then only reject() is of use.
+  /// relax(), which throw GivenUp where it says so; then only reject() is of use. keeps_factors: from one trial of a step to
+  /// the next (FactorisedNetwork::bytes()).
   GrainPoint(std::shared_ptr<const Network<dim>> network, const Tensor<dim>& orientation,
-             const EquilibriumParameters& parameters, std::function<bool()> gives_up = {});
+             const EquilibriumParameters& parameters, std::function<bool()> gives_up = {}, bool keeps_factors = true);
 
   fem::MaterialResponse<dim> trial(const Voigt<dim>& strain) const override;
   std::size_t relax(const Voigt<dim>& strain) override { return relax(strain, Bonds::may_break).n; }
@@ -60,6 +61,7 @@ public:
 private:
   fem::PointEvents<dim> relax(const Voigt<dim>& strain, Bonds bonds);
   Trial<dim> settle(const Voigt<dim>& strain, Bonds bonds, const std::function<bool()>& leaves) const;
+  void take_factor_of(Trial<dim>& trial) const;
   void forget_trial();
   Voigt<dim> to_rve(const Voigt<dim>& strain) const;
 
@@ -68,13 +70,14 @@ private:
   RepresentativeVolume<dim> accepted;
   RepresentativeVolume<dim> at_work; ///< with what broke in this step
   std::function<bool()> gives_up;
+  bool keeps_factors;
   std::vector<BreakEvent<dim>> events_at_work;
   std::vector<BreakEvent<dim>> events_accepted;
   mutable std::optional<Voigt<dim>> tried_strain; ///< in the RVE's axes; of which `tried` is the response
   mutable Trial<dim> tried;
-  mutable std::shared_ptr<const FactorisedNetwork<dim>> factorised; ///< in this step, by the trial that did it last
-  mutable std::optional<Tangent<dim>> last_tangent;                 ///< in the RVE's axes
-  std::optional<Tangent<dim>> accepted_tangent;                     ///< the last of the accepted state
+  mutable KeptFactor<dim> factorised;                      ///< in this step, by the trial that did it last
+  mutable std::optional<Tangent<dim>> last_tangent;        ///< in the RVE's axes
+  std::optional<Tangent<dim>> accepted_tangent;            ///< the last of the accepted state
   std::optional<std::pair<Voigt<dim>, Trial<dim>>> stable; ///< at a strain in the RVE's axes: nothing breaks there
 };
 
@@ -88,6 +91,7 @@ struct GrainMaterialParameters
   bool in_local_axes = false; ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
   EquilibriumParameters equilibrium;
   std::function<bool()> gives_up = {}; ///< as of GrainPoint
+  bool keeps_factors = true;           ///< the same
 };
 
 /// The same packing with bonds of this share of their strengths.

@@ -460,6 +460,24 @@ TEST(Example, BenchmarksShowWholeTestsBesideTheProgramBefore)
     }
 }
 
+TEST(Example, BenchmarksShowWholeSamplesBesideTheProgramBefore)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string page = content(folder + "README.md");
+  const auto tests = nlohmann::json::parse(content(folder + "results/whole-samples-avx2.json"))["tests"];
+  for (const auto& [name, cells] :
+       {std::pair("plane", "32 cells of {} discs"), {"section of a cylinder", "16 cells of {} spheres"}})
+    {
+      const auto& test = tests[name];
+      const double before = test["old_s"], now = test["new_s"];
+      const std::string row =
+        fmt::format("\n| {}, {} | {:.1f} | {:.1f} | {:.2f} |\n", name,
+                    fmt::format(fmt::runtime(cells), test["n_grains"].get<int>()), before, now, before / now);
+      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+      EXPECT_EQ(test["old_n_cracks"], test["new_n_cracks"]) << name; // as the page says
+    }
+}
+
 TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/beishan-cylinder/";

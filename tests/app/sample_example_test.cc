@@ -534,6 +534,28 @@ TEST(Example, TheMultiscaleCylinderReadmeShowsTheCommittedResults)
                                                  piece["steps"].get<int>(), shown_work(piece, 8192));
   EXPECT_NE(readme.find("\n" + costs_of_piece), std::string::npos) << "missing: " << costs_of_piece;
   EXPECT_NE(readme.find(fmt::format("{} broken segments", piece["n_tension_cracks"].get<int>())), std::string::npos);
+
+  // What the cost of compression is projected from.
+  for (const auto& [name, study, n_points] :
+       {std::tuple("fine section, uniaxial", "compression-fine", 64),
+        {"first steps of `published-size.prm`, uniaxial", "published-compression", 8192}})
+    {
+      const auto test = nlohmann::json::parse(content(folder + "results/" + study + ".json"))["tests"][0];
+      const std::string costs =
+        fmt::format("| {} | {} | {} | {} |", name, n_points, test["steps"].get<int>(), shown_work(test, n_points));
+      EXPECT_NE(readme.find("\n" + costs), std::string::npos) << "missing: " << costs;
+      if (n_points == 64)
+        {
+          const double of_point =
+            test["solver_work"]["seconds_in_points"].get<double>() / (test["steps"].get<int>() * 64);
+          EXPECT_NE(readme.find(fmt::format("took {:.0f} ms a point and step", 1e3 * of_point)), std::string::npos);
+          EXPECT_NE(readme.find(fmt::format("steps of a point are {:.1f} core-hours", 819200 * of_point / 3600)),
+                    std::string::npos);
+        }
+      else
+        EXPECT_NE(readme.find(fmt::format("with {} broken segments", test["n_tension_cracks"].get<int>())),
+                  std::string::npos);
+    }
   double moduli[2];
   for (int k = 0; k < 2; ++k)
     {

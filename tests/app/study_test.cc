@@ -879,6 +879,8 @@ const std::map<std::string, std::string> without_piece{
   {"free-sides-3d-13.3-mm-cell.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-box.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-cell.json", "packings of spheres take minutes"},
+  {"compression-fine.json", "the section of larger cells has a piece; minutes"},
+  {"published-compression.json", "8 192 cells; minutes"},
   {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-triaxial-10.json", "the packing of 49 464 spheres and a test of it take minutes"},

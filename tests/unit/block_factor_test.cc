@@ -79,6 +79,17 @@ TYPED_TEST(BlockFactors, SolveAsAFullMatrixDoes)
   // The least eigenvalue is 1 at least and the largest some 50: round-off grows by no more.
   EXPECT_LT((x - expected).norm(), 1e-13 * expected.norm());
   EXPECT_GT(factor.cost_of_factor(), 1.0);
+
+  // Several right sides at once: each as by itself, and zeros behind them.
+  UnitUnknowns<dim> together = UnitUnknowns<dim>::Zero(n * n_grains, UnitUnknowns<dim>::ColsAtCompileTime);
+  Random random(2, RandomStream::dealing);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    for (Eigen::Index i = 0; i < together.rows(); ++i)
+      together(i, k) = random.uniform(-1.0, 1.0);
+  const UnitUnknowns<dim> solved = factor.solve(together);
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    EXPECT_LT((solved.col(k) - factor.solve(Eigen::VectorXd(together.col(k)))).norm(), 1e-13 * solved.col(k).norm());
+  EXPECT_TRUE(solved.rightCols(solved.cols() - n_voigt<dim>).isZero(0.0));
 }
 } // namespace
 } // namespace feldspar

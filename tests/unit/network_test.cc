@@ -184,6 +184,36 @@ TYPED_TEST(Networks, RigidMotionsStrainNoJoint)
   EXPECT_GT(turn.norm(), 0.01);
 }
 
+TYPED_TEST(Networks, LinksMoveAsTheirGradientsSay)
+{
+  constexpr int dim = TypeParam::value;
+  constexpr int n = n_motions<dim>;
+  const Network<dim> network(periodic_specimen<dim>());
+  Random random(1, RandomStream::dealing);
+  // Motions of a strain, and turns of the same size; a link has six numbers of a few products each.
+  UnitUnknowns<dim> several = UnitUnknowns<dim>::Zero(network.n_unknowns(), UnitUnknowns<dim>::ColsAtCompileTime);
+  for (double& entry : several.reshaped())
+    entry = random.uniform(-1.0, 1.0);
+  for (const Link<dim>& link : network.links())
+    {
+      const RowsOf<n, UnitUnknowns<dim>> together = link_motion(link, several);
+      for (Eigen::Index k = 0; k < several.cols(); ++k)
+        {
+          const Unknowns one = several.col(k);
+          Eigen::Matrix<double, 2 * n, 1> of_grains;
+          of_grains << one.segment<n>(n * Eigen::Index(link.grain_1)), one.segment<n>(n * Eigen::Index(link.grain_2));
+          const Motion<dim> motion = link_motion(link, one);
+          const Motion<dim> expected = link.by_grains * of_grains + link.by_strain * one.tail<n_voigt<dim>>();
+          ASSERT_LT((motion - expected).cwiseAbs().maxCoeff(), 1e-14);
+          ASSERT_LT((together.col(k) - expected).cwiseAbs().maxCoeff(), 1e-14);
+
+          Unknowns sum = Unknowns::Zero(network.n_unknowns());
+          add_forces(link, motion, sum);
+          ASSERT_NEAR(sum.dot(one), motion.squaredNorm(), 1e-13 * motion.squaredNorm());
+        }
+    }
+}
+
 TYPED_TEST(Networks, TurnsWithItsCell)
 {
   constexpr int dim = TypeParam::value;
