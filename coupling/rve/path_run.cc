@@ -180,8 +180,12 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
       auto beginning = body.trial(control_at(position), exacter);
       if (!beginning.in_equilibrium || beginning.n_loosened > 0)
         break;
-      auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio);
       auto& row = path_record.samples.back();
+      // The correction of the row does hardly any work of its own: it is a part of the increment that led there.
+      const std::size_t n_rows = path_record.samples.size();
+      const double work_of_row =
+        n_rows > 1 ? row.work.boundary - path_record.samples[n_rows - 2].work.boundary : row.work.boundary;
+      auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio, std::abs(work_of_row));
       last.sample.hill_mandel_residual = std::max(row.hill_mandel_residual, last.sample.hill_mandel_residual);
       row = last.sample;
       forces = std::move(last.forces);
@@ -212,10 +216,11 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
     }
 }
 
-/// A state that follows the one before, whose link forces are `forces`.
+/// A state that follows the one before, whose link forces are `forces`; its Hill-Mandel residual is a share of at least
+/// `least_work` [J].
 template <int dim>
 typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state, const NetworkState<dim>& before,
-                                                  const double unbalanced_ratio) const
+                                                  const double unbalanced_ratio, const double least_work) const
 {
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
   Look look;
@@ -230,8 +235,9 @@ typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state
   sample.unbalanced_ratio = unbalanced_ratio;
   // An RVE that has come apart does no work but round-off.
   constexpr double least_share_of_work = 1e-6;
-  sample.hill_mandel_residual = hill_mandel_residual(body.network(), before, forces, state, look.forces,
-                                                     least_share_of_work * std::abs(state.work.boundary));
+  sample.hill_mandel_residual =
+    hill_mandel_residual(body.network(), before, forces, state, look.forces,
+                         std::max(least_work, least_share_of_work * std::abs(state.work.boundary)));
   const Tensor<dim> stress = branch_stress(body.network(), look.forces.of_links);
   if (const double size = stress.norm(); size > 0.0)
     sample.boundary_stress_error =

@@ -126,7 +126,8 @@ private:
     PathSample<dim> sample;
     BornForces<dim> forces;
   };
-  Look look_at(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio) const;
+  Look look_at(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio,
+               double least_work = 0.0) const;
   void add(Look&& look);
   BornForces<dim> forces_at(const NetworkState<dim>& state) const;
   template <typename Archive>
