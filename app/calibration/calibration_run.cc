@@ -331,7 +331,7 @@ private:
     result.seeds.resize(n);
     std::iota(result.seeds.begin(), result.seeds.end(), first_seed);
     result.calibration = {};
-    result.reference_file = std::filesystem::absolute(input.reference_file).string();
+    result.reference_file = std::filesystem::canonical(input.reference_file).string();
     // As a reader of the file would have it, to the last bit.
     const auto file = run.folder / "calibration" / "answer.prm";
     std::filesystem::create_directories(file.parent_path());

@@ -126,7 +126,7 @@ ValueForm<std::string> file_form()
 {
   return {"", std::string(none_or_a_file),
           [](const Input& input, const std::string_view text) {
-            const std::filesystem::path path = text.empty() || text == none ? "" : input.folder / text;
+            const std::filesystem::path path = text.empty() || text == none ? "" : input.file_named(text);
             std::error_code ignored;
             if (!path.empty() && !std::filesystem::exists(path, ignored))
               throw InputError(fmt::format("there is no file {}; a path is taken from the folder of the input",

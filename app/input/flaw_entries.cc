@@ -432,7 +432,7 @@ std::vector<Entry<Input>> flaw_entries()
                           input.flaws.traces_file.clear();
                           if (text.empty() || text == none)
                             return;
-                          const std::filesystem::path file = input.folder / text;
+                          const std::filesystem::path file = input.file_named(text);
                           std::error_code ignored;
                           if (!std::filesystem::exists(file, ignored))
                             throw InputError(fmt::format("there is no file {}", excerpt(file.string(), 300)));

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <numbers>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace feldspar
@@ -333,6 +334,13 @@ double expected_grains(const SpecimenParameters& specimen)
   const double of_grain = 4.0 / 3.0 * std::numbers::pi * r * r * r * (1.0 + ratio) * (1.0 + ratio * ratio) / 4.0;
   const double of_body = cylinder_over_box * specimen.width * specimen.width * specimen.height;
   return (1.0 - specimen.porosity) * of_body / of_grain;
+}
+
+std::filesystem::path Input::file_named(const std::string_view name) const
+{
+  const std::filesystem::path path = folder / name;
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) ? path : path.lexically_normal();
 }
 
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder,

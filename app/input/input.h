@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace feldspar
@@ -66,6 +67,11 @@ struct VariantParameters
 struct Input
 {
   std::filesystem::path folder; ///< relative paths of the input are relative to this
+
+  /// A file that the input names. The way to it may lead through a folder that has been renamed since: ../rock.json of a run
+  /// that is resumed needs only the folder above.
+  std::filesystem::path file_named(std::string_view name) const;
+
   SpecimenParameters specimen;
   FlawParameters flaws;
   FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};

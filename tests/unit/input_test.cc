@@ -231,6 +231,15 @@ std::string error_of_entry(const std::string_view section, const std::string_vie
   return error_of("a.prm", fmt::format("subsection {}\n  set {}\nend\n", section, setting));
 }
 
+// A run keeps the folder of its input, which may have been renamed when it is resumed.
+TEST(Input, FindsAFileAboveAFolderThatIsGone)
+{
+  const TemporaryFolder folder;
+  const auto rock = folder.write("rock.json", "{}");
+  const auto prm = folder.write("a.prm", "subsection Report\n  set Reference file = ../rock.json\nend\n");
+  EXPECT_EQ(read_input(prm, folder.path() / "gone").reference_file, rock.string());
+}
+
 TEST(Input, AnEmptyFileMeansTheDefaults)
 {
   const TemporaryFolder folder;
