@@ -420,26 +420,34 @@ TEST(Example, BenchmarksShowTheCommittedSteps)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
   const std::string page = content(folder + "README.md");
-  const auto ratios = nlohmann::json::parse(content(folder + "results/steps-avx2.json"))["new_over_old"];
-  const auto plane = nlohmann::json::parse(content(folder + "results/dynamics-benchmark-avx2.json"))["benchmarks"];
-  const auto times_as_fast = [&](const std::string& name) {
-    return ratios.contains(name) ? fmt::format("{:.1f}", 1.0 / ratios[name].get<double>()) : "–";
+  const auto result = [&](const std::string& name) {
+    return nlohmann::json::parse(content(folder + "results/" + name + ".json"));
   };
-  for (const int n : {2000, 20000, 200000})
+  for (const auto& [label, measured] :
+       {std::pair("AVX2, EPYC", "avx2"), {"AVX2, Xeon", "avx2-xeon"}, {"AVX-512, Xeon", "avx512"}})
     {
-      const auto named = [&](const std::string& of) { return fmt::format("{}/{}/real_time", of, n); };
-      const double over_plain = plane[named("plain_step")]["processor_time_ns"].get<double>() /
-                                plane[named("engine_step")]["processor_time_ns"].get<double>();
-      const std::string row = fmt::format("\n| {} discs | {} | {} | {:.1f} |\n", n, times_as_fast(named("engine_step")),
-                                          times_as_fast(named("engine_step_broken")), over_plain);
-      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
-    }
-  for (const int n : {5000, 50000, 400000})
-    {
-      const std::string row =
-        fmt::format("\n| {} spheres | {} | {} | – |\n", n, times_as_fast(fmt::format("space_step/{}", n)),
-                    times_as_fast(fmt::format("space_step_broken/{}", n)));
-      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+      const auto ratios = result(fmt::format("steps-{}", measured))["new_over_old"];
+      const auto plane = result(fmt::format("dynamics-benchmark-{}", measured))["benchmarks"];
+      const auto times_as_fast = [&](const std::string& name) {
+        return ratios.contains(name) ? fmt::format("{:.1f}", 1.0 / ratios[name].get<double>()) : "–";
+      };
+      for (const int n : {2000, 20000, 200000})
+        {
+          const auto named = [&](const std::string& of) { return fmt::format("{}/{}/real_time", of, n); };
+          const double over_plain = plane[named("plain_step")]["processor_time_ns"].get<double>() /
+                                    plane[named("engine_step")]["processor_time_ns"].get<double>();
+          const std::string row =
+            fmt::format("\n| {} discs | {} | {} | {} | {:.1f} |\n", n, label, times_as_fast(named("engine_step")),
+                        times_as_fast(named("engine_step_broken")), over_plain);
+          EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+        }
+      for (const int n : {5000, 50000, 400000})
+        {
+          const std::string row = fmt::format("\n| {} spheres | {} | {} | {} | – |\n", n, label,
+                                              times_as_fast(fmt::format("space_step/{}", n)),
+                                              times_as_fast(fmt::format("space_step_broken/{}", n)));
+          EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+        }
     }
 }
 
