@@ -5,6 +5,7 @@
 #include "feldspar_version.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -27,7 +28,12 @@ std::string processor_name()
 std::string as_in_input(const std::string& value, const std::filesystem::path& folder)
 {
   const std::string beginning = (folder / "").string();
-  return !beginning.empty() && value.starts_with(beginning) ? value.substr(beginning.size()) : value;
+  if (!beginning.empty() && value.starts_with(beginning))
+    return value.substr(beginning.size());
+  std::error_code ignored; // Input::file_named finds a file above a folder that is gone
+  const bool is_above = folder.is_absolute() && !std::filesystem::exists(folder, ignored) &&
+                        value.starts_with((folder.parent_path() / "").string());
+  return is_above ? std::filesystem::path(value).lexically_relative(folder).string() : value;
 }
 } // namespace
 

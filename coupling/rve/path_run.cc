@@ -183,8 +183,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
       auto& row = path_record.samples.back();
       // The correction of the row does hardly any work of its own: it is a part of the increment that led there.
       const std::size_t n_rows = path_record.samples.size();
-      const double work_of_row =
-        n_rows > 1 ? row.work.boundary - path_record.samples[n_rows - 2].work.boundary : row.work.boundary;
+      const double work_of_row = n_rows > 1 ? row.work.boundary - path_record.samples[n_rows - 2].work.boundary : 0.0;
       auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio, std::abs(work_of_row));
       last.sample.hill_mandel_residual = std::max(row.hill_mandel_residual, last.sample.hill_mandel_residual);
       row = last.sample;

@@ -234,6 +234,14 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
       const LinkOnTheWay<dim> link(history, number, &open, way);
       correct(link, link.at(0.0), link.at(1.0, touch));
     }
+  for (const auto& [number, touch] : at_event.touches)
+    if (!history.is_active(number) &&
+        std::ranges::none_of(present.balance.touches, [&](const auto& one) { return one.first == number; }))
+      {
+        const ActiveLink<dim> pressed = history.as_at_event(number);
+        const LinkOnTheWay<dim> link(history, number, &pressed, way);
+        correct(link, link.at(0.0, touch), link.at(1.0));
+      }
   if (history.is_finite())
     for (std::uint32_t number = 0; number < network.n_joints(); ++number)
       if (!history.is_active(number))

@@ -379,7 +379,7 @@ unsigned int n_points_of_cell(const SampleParameters& sample)
 /// A factor at every point takes 11 GB for 8 192 cells of a hundred spheres. By what the input says alone, as a run is to
 /// give the same on any machine and any number of ranks.
 template <int dim>
-bool has_room_for_factors(const unsigned int n_points, const Network<dim>& of_point)
+bool has_room_for_factors(const std::uint64_t n_points, const Network<dim>& of_point)
 {
   constexpr double most_bytes = 16e9;
   return double(n_points) * double(of_point.factorised_intact().bytes()) <= most_bytes;

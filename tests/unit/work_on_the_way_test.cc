@@ -88,6 +88,33 @@ TYPED_TEST(WorkOnTheWay, HasTheSlipOfAJointThatSlidesBack)
   EXPECT_NEAR(joint.over(1, way).slip, expected, 3e-3 * expected); // a thousandth of all that is moved
 }
 
+TYPED_TEST(WorkOnTheWay, EndsWhereAPairThatPressedOpens)
+{
+  // Pairs without a face and without shear are not kept as active from one event to the next.
+  constexpr int dim = TypeParam::value;
+  const Network<dim> network{periodic_specimen<dim>()};
+  NetworkState<dim> pressed;
+  pressed.strain.template head<dim>().setConstant(-4e-2);
+  pressed.intact = false;
+  pressed.motions.assign(std::size_t(network.n_unknowns() - n_voigt<dim>), 0.0);
+  const NetworkHistory<dim> history(network, pressed, Kinematics::small_strains);
+  const Balance<dim> at_event = history.balance(history.position());
+  ASSERT_FALSE(at_event.touches.empty());
+  double stored_in_pairs = 0.0;
+  for (const auto& [pair, touch] : at_event.touches)
+    {
+      ASSERT_FALSE(history.is_active(pair));
+      stored_in_pairs += touch.stored_energy;
+    }
+
+  Configuration<dim> present{Unknowns::Zero(network.n_unknowns()), {}};
+  present.balance = history.balance(present.position);
+  ASSERT_TRUE(present.balance.touches.empty());
+  const NetworkWork work = work_on_the_way(history, at_event, present);
+  const double stored = present.balance.stored_energy - at_event.stored_energy;
+  EXPECT_NEAR(work.boundary - work.settled, stored + work.slip, 1e-2 * stored_in_pairs);
+}
+
 TEST(WorkOnTheWayInSpace, HasTheSlipOfAJointThatTurnsAside)
 {
   // Across its shear stress, which turns towards the new way: against the sum of many small parts.
