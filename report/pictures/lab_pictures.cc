@@ -68,7 +68,7 @@ std::string curve_plot(const FinishedTest& test)
                                  "set y2label 'broken segments'\n"
                                  "set xtics nomirror autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
                                  "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
-                                 "set border 11; set lmargin 10; set rmargin 10\n"
+                                 "set border 11; set lmargin 10; set rmargin 14\n"
                                  "set bmargin 6\n"
                                  "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
                                  gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)),

@@ -884,6 +884,7 @@ const std::map<std::string, std::string> without_piece{
   {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-triaxial-10.json", "the packing of 49 464 spheres and a test of it take minutes"},
+  {"full-size-triaxial-40.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"grains.json", "the packing of 93 161 discs and a test of it take minutes"},
 };
 
