@@ -63,6 +63,18 @@ FINITE = (
     "Tests/Stop strain = 12e-3",
     "Representative volume/Kinematics = finite",
 )
+WIDTHS_MM = (25,)  # of walled specimens, beside those of 50 mm
+DIAMETERS_MM = (13.2, 20, 33)  # of cylinders: 8, 12 and 20 mean grain diameters; one of 50 mm beside them
+POROSITIES = {"cored": 0.365, "walled": 0.39}  # walls leave voids; with which grains are packed, and keep their radii nearly
+
+
+def at_width(width, *rates):
+    """Rates are those of 50 mm: as many waves cross each body up to its peak."""
+    return (
+        f"Specimen/Width = {width:g} mm",
+        f"Specimen/Height = {2 * width:g} mm",
+        *(f"Tests/{name} strain rate = {rate * 50 / width:.4g} 1/s" for name, rate in rates),
+    )
 
 
 BEGUN = ("Tests/List = uniaxial_compression", "Tests/Stop strain = 9e-4")  # some 60 MPa
@@ -92,6 +104,7 @@ EXPERIMENTS = {
     "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
     "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *FINITE)),
+    "sample-elements": Experiment("multiscale", "sample", with_seeds(1, 5, "Sample/Dealing = to elements")),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
 for across, along in MESHES[1:]:
@@ -106,6 +119,19 @@ for across, along in MESHES[1:]:
             f"Sample/Elements along = {along}",
         ),
     )
+RATES = (("Compression", 1.0), ("Tension", 0.164))
+for width in WIDTHS_MM:
+    one_gap = ("Variants/Entry = none", "Variants/Values = none", *at_width(width, *RATES))
+    EXPERIMENTS[f"laboratory-{width}-mm"] = Experiment("lab", "laboratory", (one_gap,))
+for sides, coring in (("cored", "sides only"), ("walled", "none")):
+    body = (f"Specimen/Coring = {coring}", f"Specimen/Porosity = {POROSITIES[sides]}")
+    for diameter in DIAMETERS_MM:
+        EXPERIMENTS[f"{sides}-cylinder-{diameter:g}-mm"] = Experiment(
+            "lab", "cylinder", ((*body, *at_width(diameter, *RATES)),)
+        )
+    if sides == "cored":  # that between walls is examples/beishan-cylinder/full-size.prm
+        entries = (*body, *at_width(50, *RATES), "Seeds/Seeds = 1")
+        EXPERIMENTS["cored-cylinder-50-mm"] = Experiment("lab", "cylinder", (entries,))
 for opening in OPENINGS_UM:
     EXPERIMENTS[f"softening-{opening}-um"] = Experiment(
         "multiscale", "softening", ((f"Softening flat joint/Softening opening = {opening} um",),)
@@ -444,6 +470,7 @@ DEALINGS = (
     ("4 packings, as they lie", "sample-unturned"),
     ("one a point, turned", "sample-own"),
     ("one a point, as they lie", "sample-own-unturned"),
+    ("4 packings, one an element, turned", "sample-elements"),
     ("4 packings, turned, edge cells", "sample-edges"),
 )
 
@@ -468,6 +495,36 @@ def print_dealings():
             shown(column(crushed, "strain_at_peak", 1e-3), 2),
             shown(column(crushed, "crack_initiation_stress_Pa", 1e6), 0),
             shown(ratios, 2),
+        ]
+        print(f"| {' | '.join(cells)} |")
+    print()
+
+
+def print_sizes():
+    """T4 and T5: specimens of several sizes, of one gap, crossed by as many waves: in the plane, then cylinders."""
+    print("| body | width [mm] | specimens | joints a grain in the bulk | porosity | σ_t [MPa] | UCS [MPa] | E_0 [GPa] |")
+    print("|---|---|---|---|---|---|---|---|")
+    bodies = [("walled, plane", width, f"laboratory-{width}-mm", None) for width in WIDTHS_MM]
+    bodies.insert(1, ("walled, plane", 50, "laboratory", "Flat joint/Installation gap ratio = 0.0457"))
+    for sides in ("walled", "cored"):
+        label = f"{sides} cylinder" if sides == "walled" else "cylinder cut free at its sides"
+        bodies += [(label, diameter, f"{sides}-cylinder-{diameter:g}-mm", None) for diameter in DIAMETERS_MM]
+        large = "cored-cylinder-50-mm" if sides == "cored" else "../../beishan-cylinder/results/full-size-tests"
+        bodies.append((label, 50, large, None))
+    for label, width, name, variant in bodies:
+        pulled, crushed = (tests_of(name, kind, variant) for kind in ("direct_tension", "uniaxial_compression"))
+        if not crushed:
+            continue
+        column = lambda tests, key, scale, decimals: shown([test[key] / scale for test in tests], decimals)
+        cells = [
+            label,
+            f"{width:g}",
+            str(len(crushed)),
+            column(crushed, "coordination_number_core", 1, 2),
+            column(crushed, "porosity", 1, 3),
+            column(pulled, "peak_stress_Pa", 1e6, 1),
+            column(crushed, "peak_stress_Pa", 1e6, 0),
+            column(crushed, "youngs_modulus_initial_Pa", 1e9, 1),
         ]
         print(f"| {' | '.join(cells)} |")
     print()
@@ -790,6 +847,7 @@ def main():
     print_before_the_peak()
     print_first_cracks()
     print_dealings()
+    print_sizes()
     print_confined()
     print_kinematics()
     print_softening()

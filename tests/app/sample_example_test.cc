@@ -369,7 +369,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsHowCellsAreDealt)
   for (const auto& [label, name] : {std::pair("4 packings, turned", "sample"),
                                     {"4 packings, as they lie", "sample-unturned"},
                                     {"one a point, turned", "sample-own"},
-                                    {"one a point, as they lie", "sample-own-unturned"}})
+                                    {"one a point, as they lie", "sample-own-unturned"},
+                                    {"4 packings, one an element, turned", "sample-elements"}})
     {
       const Figures strengths = figures(name, pressed, "peak_stress_Pa", 1e6);
       Figures ratios;
