@@ -234,9 +234,11 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
       const LinkOnTheWay<dim> link(history, number, &open, way);
       correct(link, link.at(0.0), link.at(1.0, touch));
     }
+  const auto presses_on = [&](const std::uint32_t pair) {
+    return std::ranges::any_of(present.balance.touches, [pair](const auto& touch) { return touch.first == pair; });
+  };
   for (const auto& [number, touch] : at_event.touches)
-    if (!history.is_active(number) &&
-        std::ranges::none_of(present.balance.touches, [&](const auto& one) { return one.first == number; }))
+    if (!history.is_active(number) && !presses_on(number))
       {
         const ActiveLink<dim> pressed = history.as_at_event(number);
         const LinkOnTheWay<dim> link(history, number, &pressed, way);

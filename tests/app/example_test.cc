@@ -553,7 +553,7 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
       EXPECT_EQ(confined["n_joints"], packing["n_joints"]);
       EXPECT_FALSE(confined["interrupted"]);
       const double left = 1.0 - confined["post_peak_drop"].get<double>();
-      for (const std::string& shown :
+      for (const std::string& text :
            {fmt::format("\n| strength at {} MPa [MPa] | {} | {} |", pressure,
                         number(confined["peak_stress_Pa"], 1e6, 1),
                         mean_and_deviation(study, kind, "peak_stress_Pa", 1e6, 1)),
@@ -563,7 +563,7 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
             fmt::format("At {} MPa {} % of the cracks up to the peak", pressure,
                         number(confined["shear_share_at_peak"], 0.01, 0)),
             fmt::format("ends at {:.0f} % of the peak", 100.0 * left)})
-        EXPECT_NE(readme.find(shown), std::string::npos) << "missing: " << shown;
+        EXPECT_NE(readme.find(text), std::string::npos) << "missing: " << text;
     }
 }
 
