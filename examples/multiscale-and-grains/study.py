@@ -500,6 +500,16 @@ def print_dealings():
     print()
 
 
+def without_surface(kind):
+    """Of cylinders cut free at their sides: the strength by a line over 1/diameter, where that is nothing [MPa]."""
+    inverse, strengths = [], []
+    for diameter in DIAMETERS_MM:
+        for strength in peaks(f"cored-cylinder-{diameter:g}-mm", kind):
+            inverse.append(1 / diameter)
+            strengths.append(strength)
+    return statistics.linear_regression(inverse, strengths).intercept
+
+
 def print_sizes():
     """T4 and T5: specimens of several sizes, of one gap, crossed by as many waves: in the plane, then cylinders."""
     print("| body | width [mm] | specimens | joints a grain in the bulk | porosity | σ_t [MPa] | UCS [MPa] | E_0 [GPa] |")
@@ -527,6 +537,8 @@ def print_sizes():
             column(crushed, "youngs_modulus_initial_Pa", 1e9, 1),
         ]
         print(f"| {' | '.join(cells)} |")
+    for kind in ("direct_tension", "uniaxial_compression"):
+        print(f"cylinders cut free, {kind}: {without_surface(kind):.1f} MPa where 1 / diameter is nothing")
     print()
 
 

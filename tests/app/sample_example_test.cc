@@ -388,6 +388,80 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsHowCellsAreDealt)
     }
 }
 
+// T4 and T5: one gap, several sizes, walls or free sides.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  struct Body
+  {
+    const char *label, *width, *example, *results, *variant;
+  };
+  for (const Body& body :
+       {Body{"walled, plane", "25", "multiscale-and-grains", "laboratory-25-mm", ""},
+        {"walled, plane", "50", "multiscale-and-grains", "laboratory", "0.0457"},
+        {"walled cylinder", "13.2", "multiscale-and-grains", "walled-cylinder-13.2-mm", ""},
+        {"walled cylinder", "20", "multiscale-and-grains", "walled-cylinder-20-mm", ""},
+        {"walled cylinder", "50", "beishan-cylinder", "full-size-tests", ""},
+        {"cylinder cut free at its sides", "13.2", "multiscale-and-grains", "cored-cylinder-13.2-mm", ""},
+        {"cylinder cut free at its sides", "20", "multiscale-and-grains", "cored-cylinder-20-mm", ""},
+        {"cylinder cut free at its sides", "33", "multiscale-and-grains", "cored-cylinder-33-mm", ""}})
+    {
+      const auto study = results_of(body.example, body.results);
+      const auto shown = [&](const std::string& kind, const char* const key, const double scale, const int decimals) {
+        std::vector<double> values;
+        for (const auto& test : study["tests"])
+          if (test["kind"] == kind && test.value("variant", "").ends_with(body.variant))
+            values.push_back(test[key].get<double>() / scale);
+        return values.size() == 1 ? fmt::format("{:.{}f}", values.front(), decimals)
+                                  : mean_and_deviation(values, decimals);
+      };
+      const auto n_specimens = std::ranges::count_if(study["tests"], [&](const auto& test) {
+        return test["kind"] == "uniaxial_compression" && test.value("variant", "").ends_with(body.variant);
+      });
+      const std::string pressed = "uniaxial_compression";
+      const std::string row =
+        fmt::format("\n| {} | {} | {} | {} | {} | {} | {} | {} |\n", body.label, body.width, n_specimens,
+                    shown(pressed, "coordination_number_core", 1.0, 2), shown(pressed, "porosity", 1.0, 3),
+                    shown("direct_tension", "peak_stress_Pa", 1e6, 1), shown(pressed, "peak_stress_Pa", 1e6, 0),
+                    shown(pressed, "youngs_modulus_initial_Pa", 1e9, 1));
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
+// A line over 1/diameter by least squares, and the standard error of where it ends.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsACylinderWithoutSurface)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  const auto without_surface = [](const std::string& kind, const int decimals) {
+    std::vector<double> x, y;
+    for (const char* const diameter : {"13.2", "20", "33"})
+      {
+        const auto study = results_of("multiscale-and-grains", fmt::format("cored-cylinder-{}-mm", diameter));
+        for (const auto& test : study["tests"])
+          if (test["kind"] == kind)
+            {
+              x.push_back(1.0 / std::stod(diameter));
+              y.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
+            }
+      }
+    const double n = double(x.size());
+    double squares = 0.0, products = 0.0, errors = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      {
+        squares += std::pow(x[k] - mean(x), 2);
+        products += (x[k] - mean(x)) * (y[k] - mean(y));
+      }
+    const double slope = products / squares;
+    const double end = mean(y) - slope * mean(x);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      errors += std::pow(y[k] - end - slope * x[k], 2);
+    const double standard_error = std::sqrt(errors / (n - 2.0) * (1.0 / n + std::pow(mean(x), 2) / squares));
+    return fmt::format("{:.{}f} ± {:.{}f} MPa in", end, decimals, standard_error, decimals);
+  };
+  EXPECT_NE(readme.find(without_surface("uniaxial_compression", 0) + " uniaxial compression"), std::string::npos);
+  EXPECT_NE(readme.find(without_surface("direct_tension", 1) + "\n  tension"), std::string::npos);
+}
+
 // T7 in compression: cells with an edge or a diagonal along the axis, and oblique ones.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsWhichCellsAreWeak)
 {
