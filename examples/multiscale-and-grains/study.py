@@ -119,18 +119,18 @@ for across, along in MESHES[1:]:
             f"Sample/Elements along = {along}",
         ),
     )
-RATES = (("Compression", 1.0), ("Tension", 0.164))
+RATES_OF_50_MM = (("Compression", 1.0), ("Tension", 0.164))
 for width in WIDTHS_MM:
-    one_gap = ("Variants/Entry = none", "Variants/Values = none", *at_width(width, *RATES))
+    one_gap = ("Variants/Entry = none", "Variants/Values = none", *at_width(width, *RATES_OF_50_MM))
     EXPERIMENTS[f"laboratory-{width}-mm"] = Experiment("lab", "laboratory", (one_gap,))
 for sides, coring in (("cored", "sides only"), ("walled", "none")):
     body = (f"Specimen/Coring = {coring}", f"Specimen/Porosity = {POROSITIES[sides]}")
     for diameter in DIAMETERS_MM:
         EXPERIMENTS[f"{sides}-cylinder-{diameter:g}-mm"] = Experiment(
-            "lab", "cylinder", ((*body, *at_width(diameter, *RATES)),)
+            "lab", "cylinder", ((*body, *at_width(diameter, *RATES_OF_50_MM)),)
         )
     if sides == "cored":  # that between walls is examples/beishan-cylinder/full-size.prm
-        entries = (*body, *at_width(50, *RATES), "Seeds/Seeds = 1")
+        entries = (*body, *at_width(50, *RATES_OF_50_MM), "Seeds/Seeds = 1")
         EXPERIMENTS["cored-cylinder-50-mm"] = Experiment("lab", "cylinder", (entries,))
 for opening in OPENINGS_UM:
     EXPERIMENTS[f"softening-{opening}-um"] = Experiment(
