@@ -211,7 +211,6 @@ Unknowns Network<dim>::apply_bonded(const Unknowns& unknowns) const
 template <int dim>
 void Network<dim>::factorise_intact()
 {
-  pattern = std::make_unique<StiffnessPattern>(all_links, number_of_grains);
   // Displacements and turns have their own scale each.
   stiffness_scale.setZero();
   for (std::size_t j = 0; j < number_of_joints; ++j)
@@ -227,7 +226,7 @@ void Network<dim>::factorise_intact()
   };
   const auto factor_of = [&](const StiffnessOf<dim>& stiffness_of) {
     const double lent_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
-    return std::make_unique<FactorisedNetwork<dim>>(all_links, *pattern, boundary_conditions, stiffness_of,
+    return std::make_unique<FactorisedNetwork<dim>>(all_links, number_of_grains, boundary_conditions, stiffness_of,
                                                     lent_share * stiffness_scale);
   };
   factorised = factor_of(bonded);

@@ -91,7 +91,7 @@ public:
   FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share,
                                    std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {
-    return FactorisedNetwork<dim>(all_links, *pattern, std::move(conditions), stiffness_of,
+    return FactorisedNetwork<dim>(all_links, number_of_grains, std::move(conditions), stiffness_of,
                                   lent_share * stiffness_scale);
   }
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
@@ -140,7 +140,6 @@ private:
   std::vector<std::uint32_t> unbonded_at_rest;
   std::vector<JointStiffness<dim>> bonded_stiffnesses;
 
-  std::unique_ptr<StiffnessPattern> pattern; ///< on the heap: what is factorised refers to it
   std::unique_ptr<FactorisedNetwork<dim>> factorised;
   std::unique_ptr<FactorisedNetwork<dim>> factorised_all;
   Motion<dim> stiffness_scale; ///< mean of the diagonal, of each motion of a grain

@@ -13,14 +13,16 @@ namespace
 {
 /// The place of each grain.
 template <int dim>
-std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>& links, const std::size_t n_grains)
+std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>& links, const std::size_t n_grains,
+                                                   const std::function<bool(std::uint32_t)>& bears)
 {
   std::vector<Eigen::Triplet<double>> neighbours;
-  for (const Link<dim>& link : links)
-    {
-      neighbours.emplace_back(int(link.grain_1), int(link.grain_2), 1.0);
-      neighbours.emplace_back(int(link.grain_2), int(link.grain_1), 1.0);
-    }
+  for (std::uint32_t k = 0; k < links.size(); ++k)
+    if (bears(k))
+      {
+        neighbours.emplace_back(int(links[k].grain_1), int(links[k].grain_2), 1.0);
+        neighbours.emplace_back(int(links[k].grain_2), int(links[k].grain_1), 1.0);
+      }
   for (std::size_t i = 0; i < n_grains; ++i)
     neighbours.emplace_back(int(i), int(i), 1.0);
   Eigen::SparseMatrix<double> graph{Eigen::Index(n_grains), Eigen::Index(n_grains)};
@@ -35,22 +37,25 @@ std::vector<std::uint32_t> ordered_for_little_fill(const std::vector<Link<dim>>&
 } // namespace
 
 template <int dim>
-StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const std::size_t n_grains)
-  : places(ordered_for_little_fill(links, n_grains))
+StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const std::size_t n_grains,
+                                   const std::function<bool(std::uint32_t)>& bears)
+  : places(ordered_for_little_fill(links, n_grains, bears))
 {
   std::vector<std::vector<std::uint32_t>> neighbours(n_grains); // of each column, in rows below it
-  for (const Link<dim>& link : links)
-    if (link.grain_1 != link.grain_2)
+  for (std::uint32_t k = 0; k < links.size(); ++k)
+    if (bears(k) && links[k].grain_1 != links[k].grain_2)
       {
-        const auto [column, row] = std::minmax({places[link.grain_1], places[link.grain_2]});
+        const auto [column, row] = std::minmax({places[links[k].grain_1], places[links[k].grain_2]});
         neighbours[column].push_back(row);
       }
   find_fill(std::move(neighbours));
-  for (const Link<dim>& link : links)
+  find_supernodes();
+  of_link.reserve(links.size());
+  for (std::uint32_t k = 0; k < links.size(); ++k)
     {
-      const std::uint32_t first = places[link.grain_1], second = places[link.grain_2];
-      of_link.push_back({first, second,
-                         first == second ? none : block_at(std::max(first, second), std::min(first, second)),
+      const std::uint32_t first = places[links[k].grain_1], second = places[links[k].grain_2];
+      const bool is_coupled = bears(k) && first != second;
+      of_link.push_back({first, second, is_coupled ? block_at(std::max(first, second), std::min(first, second)) : none,
                          first < second});
     }
 }
@@ -59,7 +64,6 @@ StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const st
 void StiffnessPattern::find_fill(std::vector<std::vector<std::uint32_t>> columns)
 {
   const std::size_t n = columns.size();
-  of_row.resize(n);
   first_blocks.push_back(0);
   for (std::size_t c = 0; c < n; ++c)
     {
@@ -68,13 +72,24 @@ void StiffnessPattern::find_fill(std::vector<std::vector<std::uint32_t>> columns
       column.erase(std::unique(column.begin(), column.end()), column.end());
       if (column.size() > 1)
         columns[column.front()].insert(columns[column.front()].end(), std::next(column.begin()), column.end());
-      for (const std::uint32_t row : column)
-        {
-          of_row[row].push_back({std::uint32_t(c), std::uint32_t(rows.size())});
-          rows.push_back(row);
-        }
+      rows.insert(rows.end(), column.begin(), column.end());
       first_blocks.push_back(std::uint32_t(rows.size()));
     }
+}
+
+void StiffnessPattern::find_supernodes()
+{
+  for (std::uint32_t c = 0; c < places.size(); ++c)
+    {
+      const auto goes_on = [&] {
+        const std::uint32_t before = first_blocks[c - 1], own = first_blocks[c], next = first_blocks[c + 1];
+        return c - first_columns.back() < most_columns && own - before == next - own + 1 && rows[before] == c;
+      };
+      if (c == 0 || !goes_on())
+        first_columns.push_back(c);
+      supernodes.push_back(std::uint32_t(first_columns.size() - 1));
+    }
+  first_columns.push_back(std::uint32_t(places.size()));
 }
 
 std::uint32_t StiffnessPattern::block_at(const std::uint32_t row, const std::uint32_t column) const
@@ -84,6 +99,8 @@ std::uint32_t StiffnessPattern::block_at(const std::uint32_t row, const std::uin
   return std::uint32_t(std::lower_bound(begin, end, row) - rows.begin());
 }
 
-template StiffnessPattern::StiffnessPattern(const std::vector<Link<2>>&, std::size_t);
-template StiffnessPattern::StiffnessPattern(const std::vector<Link<3>>&, std::size_t);
+template StiffnessPattern::StiffnessPattern(const std::vector<Link<2>>&, std::size_t,
+                                            const std::function<bool(std::uint32_t)>&);
+template StiffnessPattern::StiffnessPattern(const std::vector<Link<3>>&, std::size_t,
+                                            const std::function<bool(std::uint32_t)>&);
 } // namespace feldspar

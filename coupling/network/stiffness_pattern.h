@@ -3,26 +3,25 @@
 #include "coupling/network/link.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace feldspar
 {
 /// Where the stiffness of each link goes in the matrix of a network's grains, and where its factor has entries: a block for
 /// each pair of grains, below the diagonal, column by column. The grains are ordered for little fill (approximate minimum
-/// degree: Amestoy, Davis and Duff 1996). One pattern serves all factors of a network.
+/// degree: Amestoy, Davis and Duff 1996).
 class StiffnessPattern
 {
 public:
+  /// Of the links that `bears` says have a stiffness. A factor of 600 spheres that holds their pairs without a face too has half
+  /// as many blocks again, and takes twice the operations.
   template <int dim>
-  StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains);
+  StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains,
+                   const std::function<bool(std::uint32_t link)>& bears);
 
-  /// A block below the diagonal, in its row.
-  struct Entry
-  {
-    std::uint32_t column, block;
-  };
-  /// The blocks of a link. `block` couples both grains, the first in its rows unless it is transposed; none where both
-  /// ends are one grain and its image.
+  /// The blocks of a link that bears. `block` couples both grains, the first in its rows unless it is transposed; none where
+  /// both ends are one grain and its image.
   struct Place
   {
     std::uint32_t first, second;
@@ -38,18 +37,26 @@ public:
   /// Blocks of a column: from first_block(column) up to that of the next, in rows that ascend.
   std::uint32_t first_block(const std::size_t column) const { return first_blocks[column]; }
   std::uint32_t row(const std::size_t block) const { return rows[block]; }
-  /// Blocks of a row, in columns that ascend.
-  const std::vector<Entry>& entries_of_row(const std::size_t row) const { return of_row[row]; }
   const Place& place_of_link(const std::size_t link) const { return of_link[link]; }
+
+  /// A supernode is columns in a row of which each has the rows of the one before but for the first, which is its own. A
+  /// matrix is factorised by them, as one is read over and over: they are so few that it stays in the cache meanwhile.
+  std::size_t n_supernodes() const { return first_columns.size() - 1; }
+  /// Columns of a supernode: from first_column(supernode) up to that of the next.
+  std::uint32_t first_column(const std::size_t supernode) const { return first_columns[supernode]; }
+  std::uint32_t supernode_of(const std::size_t column) const { return supernodes[column]; }
+  static constexpr std::size_t most_columns = 8;
 
 private:
   void find_fill(std::vector<std::vector<std::uint32_t>> columns);
+  void find_supernodes();
   std::uint32_t block_at(std::uint32_t row, std::uint32_t column) const;
 
   std::vector<std::uint32_t> places;
-  std::vector<std::uint32_t> first_blocks; ///< [n_grains + 1]
-  std::vector<std::uint32_t> rows;         ///< [n_blocks]
-  std::vector<std::vector<Entry>> of_row;
+  std::vector<std::uint32_t> first_blocks;  ///< [n_grains + 1]
+  std::vector<std::uint32_t> rows;          ///< [n_blocks]
+  std::vector<std::uint32_t> first_columns; ///< [n_supernodes + 1]
+  std::vector<std::uint32_t> supernodes;    ///< of each column
   std::vector<Place> of_link;
 };
 } // namespace feldspar

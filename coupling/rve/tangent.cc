@@ -98,7 +98,10 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
   for (std::uint32_t k = 0; k < network.n_joints(); ++k)
     stiffnesses[k] = &network.bonded_stiffness(k);
   for (std::size_t a = 0; a < history.active().size(); ++a)
-    stiffnesses[history.active()[a].link] = &at.active[a].tangent;
+    {
+      const JointStiffness<dim>& tangent = at.active[a].tangent;
+      stiffnesses[history.active()[a].link] = tangent.isZero(0.0) ? nullptr : &tangent; // of an open one, nothing
+    }
   for (const auto& [k, touch] : at.touches)
     stiffnesses[k] = &touch.tangent;
   kept.network = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(

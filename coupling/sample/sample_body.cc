@@ -376,7 +376,7 @@ unsigned int n_points_of_cell(const SampleParameters& sample)
   return sample.geometry == SampleGeometry::cylinder ? in_section * each_way : in_section;
 }
 
-/// A factor at every point takes 11 GB for 8 192 cells of a hundred spheres. By what the input says alone, as a run is to
+/// A factor at every point takes some 3 GB for 8 192 cells of a hundred spheres. By what the input says alone, as a run is to
 /// give the same on any machine and any number of ranks.
 template <int dim>
 bool has_room_for_factors(const std::uint64_t n_points, const Network<dim>& of_point)
