@@ -100,7 +100,7 @@ inline ColumnOfSix minus_product(const ColumnOfSix& sum, const ColumnOfSix& a, c
 inline ColumnOfSix widened(const SingleColumnOfSix& column)
 {
 #ifdef __FMA__
-  const __m128 last_two = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(&column[4])));
+  const __m128 last_two = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&column[4])));
   return {{_mm256_cvtps_pd(_mm_loadu_ps(column.data())), _mm256_cvtps_pd(last_two)}};
 #else
   return {{simd::Four{column[0], column[1], column[2], column[3]}, simd::Four{column[4], column[5], 0.0, 0.0}}};

@@ -39,8 +39,8 @@ public:
   std::uint32_t row(const std::size_t block) const { return rows[block]; }
   const Place& place_of_link(const std::size_t link) const { return of_link[link]; }
 
-  /// A supernode is columns in a row of which each has the rows of the one before but for the first, which is its own. A
-  /// matrix is factorised by them, as one is read over and over: they are so few that it stays in the cache meanwhile.
+  /// A supernode is a run of columns, each of which has the rows of the column before it except the first one, which is its own.
+  /// Later columns take the products of all its columns in one go; it has few enough of them to stay in the cache meanwhile.
   std::size_t n_supernodes() const { return first_columns.size() - 1; }
   /// Columns of a supernode: from first_column(supernode) up to that of the next.
   std::uint32_t first_column(const std::size_t supernode) const { return first_columns[supernode]; }

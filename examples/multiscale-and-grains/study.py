@@ -57,12 +57,19 @@ CONFINED = (
     "Tests/Confinements = 5, 20, 60 MPa",
     "Tests/Stop strain = 12e-3",  # at 60 MPa not every sample has a peak
 )
-FINITE = (
-    "Tests/List = triaxial_compression",
-    "Tests/Confinements = 20, 60 MPa",
-    "Tests/Stop strain = 12e-3",
-    "Representative volume/Kinematics = finite",
-)
+TURNING = "Representative volume/Kinematics = finite"  # contacts turn with their grains
+
+
+def turning_under(pressures):
+    """Samples whose contacts turn, under these pressures [MPa]."""
+    return (
+        "Tests/List = triaxial_compression",
+        f"Tests/Confinements = {pressures} MPa",
+        "Tests/Stop strain = 12e-3",
+        TURNING,
+    )
+
+
 WIDTHS_MM = (25,)  # of walled specimens, beside those of 50 mm
 DIAMETERS_MM = (13.2, 20, 33)  # of cylinders: 8, 12 and 20 mean grain diameters; one of 50 mm beside them
 POROSITIES = {"cored": 0.365, "walled": 0.39}  # walls leave voids; with which grains are packed, and keep their radii nearly
@@ -103,7 +110,11 @@ EXPERIMENTS = {
     "confined": Experiment("lab", "confined"),
     "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
-    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *FINITE)),
+    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *turning_under("20, 60"))),
+    "sample-finite-5-mpa": Experiment("multiscale", "sample", with_seeds(1, 4, *turning_under("5"))),
+    "sample-finite-uniaxial": Experiment(
+        "multiscale", "sample", with_seeds(1, 5, "Tests/List = uniaxial_compression", TURNING)
+    ),
     "sample-elements": Experiment("multiscale", "sample", with_seeds(1, 5, "Sample/Dealing = to elements")),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
 }
@@ -471,7 +482,7 @@ DEALINGS = (
     ("one a point, turned", "sample-own"),
     ("one a point, as they lie", "sample-own-unturned"),
     ("4 packings, one an element, turned", "sample-elements"),
-    ("4 packings, turned, edge cells", "sample-edges"),
+    ("4 packings, as they lie, edge cells at the sides", "sample-edges"),
 )
 
 
@@ -584,9 +595,14 @@ def print_kinematics():
     print("|---|---|---|---|---|---|")
 
     def by_pressure_and_seed(name):
-        return {(round(test["confining_pressure_Pa"] / 1e6), test["seed"]): test for test in results(name)["tests"]}
+        tests = (results(name) or {"tests": ()})["tests"]
+        pressed = [test for test in tests if test["kind"] != "direct_tension"]
+        return {(round(test["confining_pressure_Pa"] / 1e6), test["seed"]): test for test in pressed}
 
-    small, finite = by_pressure_and_seed("sample-confined"), by_pressure_and_seed("sample-finite")
+    small = by_pressure_and_seed("sample") | by_pressure_and_seed("sample-confined")
+    finite = {}
+    for name in ("sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite"):
+        finite |= by_pressure_and_seed(name)
     for key in sorted(finite):
         cells = [str(part) for part in key]
         for one in (small[key], finite[key]):
@@ -594,6 +610,19 @@ def print_kinematics():
             cells.append(f"{(one['peak_stress_Pa'] or one['stress_at_end_Pa']) / 1e6:.0f}")
             cells.append(f"{1e3 * one['strain_at_peak']:.1f}" if has_peak else "no peak")
         print(f"| {' | '.join(cells)} |")
+
+    def highest(test):
+        return (test["peak_stress_Pa"] or test["stress_at_end_Pa"]) / 1e6
+
+    slow = {0: list(crushed_at("0.25").values())}
+    for test in (results("confined-slow") or {"tests": ()})["tests"]:
+        slow.setdefault(round(test["confining_pressure_Pa"] / 1e6), []).append(highest(test))
+    for pressure in sorted({key[0] for key in finite}):
+        keys = [key for key in finite if key[0] == pressure]
+        ratios = [highest(finite[key]) / highest(small[key]) for key in keys]
+        values = [highest(finite[key]) for key in keys]
+        print(f"| {pressure} | {len(keys)} | {shown(values, 0)} | {shown(ratios, 3)} |")
+        print(f"from grains at 0.25/s: {difference(values, slow[pressure])}")
     print()
 
 

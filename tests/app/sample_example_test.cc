@@ -186,13 +186,27 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
     }
 
   // Kinematics of the cells.
-  const auto finite = committed("sample-finite");
-  ASSERT_GE(finite["tests"].size(), 4u);
+  std::vector<nlohmann::json> finite, small;
+  for (const char* const name : {"sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite"})
+    for (const auto& test : committed(name)["tests"])
+      finite.push_back(test);
+  for (const char* const name : {"sample", "sample-confined"})
+    for (const auto& test : committed(name)["tests"])
+      if (test["kind"] != "direct_tension")
+        small.push_back(test);
+  ASSERT_GE(finite.size(), 12u);
+  const auto highest_of = [](const nlohmann::json& test) {
+    return test[test["peak_stress_Pa"].is_null() ? "stress_at_end_Pa" : "peak_stress_Pa"].get<double>() / 1e6;
+  };
+  std::map<long, std::array<std::vector<double>, 2>> by_pressure; // highest stresses, and over those in small strains
   std::size_t n_pairs = 0;
-  for (const auto& turned : finite["tests"])
-    for (const auto& test : sample_under_pressure["tests"])
+  for (const auto& turned : finite)
+    for (const auto& test : small)
       if (test["seed"] == turned["seed"] && test["confining_pressure_Pa"] == turned["confining_pressure_Pa"])
         {
+          auto& [stresses, shares] = by_pressure[std::lround(test["confining_pressure_Pa"].get<double>() / 1e6)];
+          stresses.push_back(highest_of(turned));
+          shares.push_back(highest_of(turned) / highest_of(test));
           std::string row =
             fmt::format("| {:.0f} | {} |", test["confining_pressure_Pa"].get<double>() / 1e6, test["seed"].get<int>());
           for (const auto* const one : {&test, &turned})
@@ -204,7 +218,10 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
           shown(row);
           ++n_pairs;
         }
-  EXPECT_EQ(n_pairs, finite["tests"].size());
+  EXPECT_EQ(n_pairs, finite.size());
+  for (const auto& [pressure, figures] : by_pressure)
+    shown(fmt::format("| {} | {} | {} | {} |", pressure, figures[0].size(), mean_and_deviation(figures[0], 0),
+                      mean_and_deviation(figures[1], 3)));
 
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
@@ -370,7 +387,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsHowCellsAreDealt)
                                     {"4 packings, as they lie", "sample-unturned"},
                                     {"one a point, turned", "sample-own"},
                                     {"one a point, as they lie", "sample-own-unturned"},
-                                    {"4 packings, one an element, turned", "sample-elements"}})
+                                    {"4 packings, one an element, turned", "sample-elements"},
+                                    {"4 packings, as they lie, edge cells at the sides", "sample-edges"}})
     {
       const Figures strengths = figures(name, pressed, "peak_stress_Pa", 1e6);
       Figures ratios;
@@ -401,6 +419,7 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
         {"walled, plane", "50", "multiscale-and-grains", "laboratory", "0.0457"},
         {"walled cylinder", "13.2", "multiscale-and-grains", "walled-cylinder-13.2-mm", ""},
         {"walled cylinder", "20", "multiscale-and-grains", "walled-cylinder-20-mm", ""},
+        {"walled cylinder", "33", "multiscale-and-grains", "walled-cylinder-33-mm", ""},
         {"walled cylinder", "50", "beishan-cylinder", "full-size-tests", ""},
         {"cylinder cut free at its sides", "13.2", "multiscale-and-grains", "cored-cylinder-13.2-mm", ""},
         {"cylinder cut free at its sides", "20", "multiscale-and-grains", "cored-cylinder-20-mm", ""},
