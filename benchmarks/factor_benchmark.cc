@@ -49,7 +49,7 @@ BlockFactor<dim> stiffness(const Network<dim>& of, const std::shared_ptr<const S
 {
   BlockFactor<dim> matrix(pattern);
   for (std::uint32_t k = 0; k < of.n_joints(); ++k)
-    matrix.add(of.links()[k], k, of.bonded_stiffness(k));
+    matrix.add(of.links()[k], of.bonded_stiffness(k));
   for (std::size_t i = 0; i < of.n_grains(); ++i)
     for (int c = 0; c < n_motions<dim>; ++c)
       matrix.set_diagonal(i, c, (1.0 + lent) * matrix.diagonal(i, c));

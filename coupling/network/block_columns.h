@@ -28,10 +28,12 @@ inline simd::Four minus_product(const simd::Four& sum, const simd::Four& a, cons
   return minus_product(sum, a, simd::Four{b, b, b, b});
 }
 
+inline double sum_of(const simd::Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+
 /// Six numbers in single precision.
 using SingleColumnOfSix = std::array<float, 6>;
 
-#ifdef __AVX512VL__
+#if defined(__AVX512VL__) && defined(__FMA__)
 using ColumnOfSix = simd::Eight;
 
 inline ColumnOfSix widened(const SingleColumnOfSix& column)
@@ -47,6 +49,8 @@ inline ColumnOfSix minus_product(const ColumnOfSix& sum, const ColumnOfSix& a, c
 {
   return minus_product(sum, a, _mm512_set1_pd(b));
 }
+
+inline double sum_of(const ColumnOfSix& column) { return sum_of(simd::low_half(column) + simd::high_half(column)); }
 #else
 /// Six numbers and two zeros, on a processor whose vectors have four: GCC moves its vectors of eight there in pieces of eight
 /// and sixteen bytes, by which a solution took twice as long.
@@ -96,6 +100,8 @@ inline ColumnOfSix minus_product(const ColumnOfSix& sum, const ColumnOfSix& a, c
 {
   return {{minus_product(sum.halves[0], a.halves[0], b), minus_product(sum.halves[1], a.halves[1], b)}};
 }
+
+inline double sum_of(const ColumnOfSix& column) { return sum_of(column.halves[0] + column.halves[1]); }
 
 inline ColumnOfSix widened(const SingleColumnOfSix& column)
 {

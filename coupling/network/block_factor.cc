@@ -8,17 +8,6 @@ namespace feldspar
 {
 namespace
 {
-double sum_of(const simd::Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
-
-double sum_of(const ColumnOfSix& column)
-{
-#ifdef __AVX512VL__
-  return sum_of(simd::low_half(column) + simd::high_half(column));
-#else
-  return sum_of(column.halves[0] + column.halves[1]);
-#endif
-}
-
 /// Adds a block of a matrix, or its transpose, to columns.
 template <typename Column, typename Block>
 void add_block(const Block& block, Column* const columns)
@@ -38,10 +27,10 @@ BlockFactor<dim>::BlockFactor(std::shared_ptr<const StiffnessPattern> of)
 }
 
 template <int dim>
-void BlockFactor<dim>::add(const Link<dim>& link, const std::size_t number, const JointStiffness<dim>& stiffness)
+void BlockFactor<dim>::add(const Link<dim>& link, const JointStiffness<dim>& stiffness)
 {
   const Eigen::Matrix<double, 2 * n, 2 * n> of_link = link.by_grains.transpose() * (stiffness * link.by_grains);
-  const auto& place = pattern->place_of_link(number);
+  const auto place = pattern->place_of(link);
   add_block(of_link.template topLeftCorner<n, n>(), &diagonals[n * place.first]);
   add_block(of_link.template bottomRightCorner<n, n>(), &diagonals[n * place.second]);
   const auto coupling = of_link.template topRightCorner<n, n>(); // rows of the first grain
@@ -155,6 +144,8 @@ void BlockFactor<dim>::factorise()
     if (source.block < pattern->first_block(pattern->first_column(source.supernode) + 1))
       sources[pattern->supernode_of(pattern->row(source.block))].push_back(source);
   };
+  pivots.reserve(pattern->n_grains());
+  inverse_pivots.reserve(pattern->n_grains());
   std::vector<std::uint32_t> place_of_row(pattern->n_grains());
   for (std::uint32_t supernode = 0; supernode < pattern->n_supernodes(); ++supernode)
     {
@@ -181,8 +172,8 @@ void BlockFactor<dim>::factorise()
   kept_blocks.reserve(blocks.size());
   for (const Column& column : blocks)
     kept_blocks.push_back(kept<dim>(column));
-  blocks = {};
-  pivots = {};
+  blocks = std::vector<Column>(); // {} would keep their memory
+  pivots = std::vector<Column>();
 }
 
 template <int dim>

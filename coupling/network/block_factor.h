@@ -13,7 +13,7 @@ namespace feldspar
 /// column of a block is one vector of the processor, with zeros below the motions of a grain: most of the time of a damaged
 /// representative volume goes into solving with this factor. Eigen's factor, number by number, takes longer
 /// (benchmarks/README.md), and the bits of CHOLMOD's depend on the library of linear algebra that a machine has. Here sums are
-/// in one order, and every processor gives the same bits.
+/// in one order, and every processor that rounds a product and a sum once (all with AVX2) gives the same bits.
 ///
 /// In space L is made in double precision and kept in single (KeptBlockColumn). What is solved with it is another matrix, as
 /// symmetric and as definite, of which L differs by 6e-8: enough for conjugate gradients.
@@ -27,7 +27,7 @@ public:
   explicit BlockFactor(std::shared_ptr<const StiffnessPattern> pattern);
 
   /// Adds Gᵀ D G of a link to the matrix.
-  void add(const Link<dim>& link, std::size_t number, const JointStiffness<dim>& stiffness);
+  void add(const Link<dim>& link, const JointStiffness<dim>& stiffness);
   /// The entry of a motion of a grain on the diagonal of the matrix.
   double diagonal(std::size_t grain, int motion) const;
   void set_diagonal(std::size_t grain, int motion, double value);
@@ -42,7 +42,8 @@ public:
 
   std::size_t bytes() const
   {
-    return sizeof(Column) * (diagonals.size() + inverse_pivots.size()) + sizeof(KeptColumn) * kept_blocks.size();
+    return sizeof(Column) * (diagonals.size() + inverse_pivots.size()) + sizeof(KeptColumn) * kept_blocks.size() +
+           pattern->bytes();
   }
 
   /// Operations of factorise() over those of solve(), roughly.

@@ -30,7 +30,7 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
   for (std::uint32_t k = 0; k < links.size(); ++k)
     if (const JointStiffness<dim>* const stiffness = stiffness_of(k))
       {
-        made->add(links[k], k, *stiffness);
+        made->add(links[k], *stiffness);
         const LinkStrainGradient<dim>& by_strain = links[k].by_strain;
         const Eigen::Matrix<double, 2 * n, n_voigt<dim>> forces =
           links[k].by_grains.transpose() * (*stiffness * by_strain);
@@ -98,17 +98,20 @@ template <typename Columns>
 Columns FactorisedNetwork<dim>::solve_unconditioned(const Columns& forces) const
 {
   constexpr int n = n_motions<dim>;
-  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it.
   if (!its_conditions->held().empty())
     return factor->solve(forces);
-  RowsOf<dim, Columns> mean = RowsOf<dim, Columns>::Zero();
-  const Eigen::Index n_grains = forces.rows() / n;
-  for (Eigen::Index i = 0; i < n_grains; ++i)
-    mean += forces.template middleRows<dim>(n * i) / double(n_grains);
-  Columns balanced = forces;
-  for (Eigen::Index i = 0; i < n_grains; ++i)
-    balanced.template middleRows<dim>(n * i) -= mean;
-  return factor->solve(balanced);
+  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it. A
+  // factor that was rounded shifts the body by balanced forces, too: for the inverse to be symmetric both are taken out.
+  const auto without_mean = [](Columns rows) {
+    RowsOf<dim, Columns> mean = RowsOf<dim, Columns>::Zero();
+    const Eigen::Index n_grains = rows.rows() / n;
+    for (Eigen::Index i = 0; i < n_grains; ++i)
+      mean += rows.template middleRows<dim>(n * i) / double(n_grains);
+    for (Eigen::Index i = 0; i < n_grains; ++i)
+      rows.template middleRows<dim>(n * i) -= mean;
+    return rows;
+  };
+  return without_mean(factor->solve(without_mean(forces)));
 }
 
 template <int dim>

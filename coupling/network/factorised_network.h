@@ -44,10 +44,7 @@ public:
   /// Motions for several forces on grains, side by side; the strain stays.
   UnitUnknowns<dim> solve_with_strain_held(const UnitUnknowns<dim>& forces) const;
 
-  /// Grain motions under unit strains, nearly; [n_motions * n_grains × n_voigt].
-  const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
-
-  /// How many iterations of conjugate gradients cost as much as factorising anew, by counting operations.
+  /// How many iterations of conjugate gradients cost as much as factorising anew, by the times that were measured of both.
   unsigned int cost_in_iterations() const { return cost; }
 
   /// What it takes that no other has, nearly all of it for the factor.
@@ -69,8 +66,8 @@ private:
   Stiffness<dim> of_strains;                       ///< volume × stiffness without motions of the grains [N m]
   Eigen::MatrixXd of_multipliers;                  ///< motions under the unit multipliers of the conditions
   Eigen::LDLT<Eigen::MatrixXd> violations_of_multipliers;
-  Eigen::MatrixXd unit_motion;
-  Stiffness<dim> condensed; ///< volume × stiffness [N m]
+  Eigen::MatrixXd unit_motion; ///< of grains under unit strains; [n_own × n_voigt]
+  Stiffness<dim> condensed;    ///< volume × stiffness [N m]
   unsigned int cost;
 };
 } // namespace feldspar

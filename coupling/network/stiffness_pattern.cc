@@ -50,14 +50,6 @@ StiffnessPattern::StiffnessPattern(const std::vector<Link<dim>>& links, const st
       }
   find_fill(std::move(neighbours));
   find_supernodes();
-  of_link.reserve(links.size());
-  for (std::uint32_t k = 0; k < links.size(); ++k)
-    {
-      const std::uint32_t first = places[links[k].grain_1], second = places[links[k].grain_2];
-      const bool is_coupled = bears(k) && first != second;
-      of_link.push_back({first, second, is_coupled ? block_at(std::max(first, second), std::min(first, second)) : none,
-                         first < second});
-    }
 }
 
 /// Eliminating a grain couples all the later ones that it is coupled with; it is enough to hand them on to the first of these.

@@ -2,6 +2,7 @@
 
 #include "coupling/network/link.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -37,7 +38,19 @@ public:
   /// Blocks of a column: from first_block(column) up to that of the next, in rows that ascend.
   std::uint32_t first_block(const std::size_t column) const { return first_blocks[column]; }
   std::uint32_t row(const std::size_t block) const { return rows[block]; }
-  const Place& place_of_link(const std::size_t link) const { return of_link[link]; }
+  template <int dim>
+  Place place_of(const Link<dim>& link) const
+  {
+    const std::uint32_t first = places[link.grain_1], second = places[link.grain_2];
+    return {first, second, first == second ? none : block_at(std::max(first, second), std::min(first, second)),
+            first < second};
+  }
+
+  std::size_t bytes() const
+  {
+    return sizeof(std::uint32_t) *
+           (places.size() + first_blocks.size() + rows.size() + first_columns.size() + supernodes.size());
+  }
 
   /// A supernode is a run of columns, each of which has the rows of the column before it except the first one, which is its own.
   /// Later columns take the products of all its columns in one go; it has few enough of them to stay in the cache meanwhile.
@@ -57,6 +70,5 @@ private:
   std::vector<std::uint32_t> rows;          ///< [n_blocks]
   std::vector<std::uint32_t> first_columns; ///< [n_supernodes + 1]
   std::vector<std::uint32_t> supernodes;    ///< of each column
-  std::vector<Place> of_link;
 };
 } // namespace feldspar

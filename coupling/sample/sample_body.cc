@@ -382,7 +382,7 @@ template <int dim>
 bool has_room_for_factors(const std::uint64_t n_points, const Network<dim>& of_point)
 {
   constexpr double most_bytes = 16e9;
-  return double(n_points) * double(of_point.factorised_intact().bytes()) <= most_bytes;
+  return double(n_points) * double(of_point.factorised_stiffest().bytes()) <= most_bytes;
 }
 } // namespace
 
