@@ -243,7 +243,9 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
   };
   // What came out, on the last packings of the calibration and in a cylinder of the laboratory's size.
   const auto reached = results_of("calibrate-beishan-cylinder", "best")["tests"];
-  const auto at_50_mm = results_of("calibrate-beishan-cylinder", "full-size")["tests"];
+  auto at_50_mm = results_of("calibrate-beishan-cylinder", "full-size")["tests"];
+  for (const auto& test : results_of("calibrate-beishan-cylinder", "full-size-seed-2")["tests"])
+    at_50_mm.push_back(test);
   for (const Figure& figure :
        {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2},
         Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
@@ -263,9 +265,13 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
 
       const double wanted = rock[figure.target]["mean"].get<double>(), found = mean(at_50_mm, figure);
       const int decimals = std::min(figure.decimals, 3);
+      std::vector<std::string> each;
+      for (const auto& test : at_50_mm)
+        if (test["kind"] == figure.kind)
+          each.push_back(fmt::format("{:.{}f}", test[figure.key].get<double>() / figure.scale, decimals));
       const std::string outcome =
-        fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:+.1f} % | {:.3f} | {:.3f} |\n", figure.heading, wanted, decimals,
-                    found, decimals, 100.0 * (found / wanted - 1.0), found / mean(reached, figure), ratio);
+        fmt::format("\n| {} | {:.{}f} | {} | {:+.1f} % | {:.3f} | {:.3f} |\n", figure.heading, wanted, decimals,
+                    fmt::join(each, ", "), 100.0 * (found / wanted - 1.0), found / mean(reached, figure), ratio);
       EXPECT_NE(readme.find(outcome), std::string::npos) << "missing: " << outcome;
     }
 }
