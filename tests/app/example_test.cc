@@ -244,8 +244,8 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
   // What came out, on the last packings of the calibration and in a cylinder of the laboratory's size.
   const auto reached = results_of("calibrate-beishan-cylinder", "best")["tests"];
   auto at_50_mm = results_of("calibrate-beishan-cylinder", "full-size")["tests"];
-  for (const auto& test : results_of("calibrate-beishan-cylinder", "full-size-seed-2")["tests"])
-    at_50_mm.push_back(test);
+  const auto second = results_of("calibrate-beishan-cylinder", "full-size-seed-2")["tests"];
+  at_50_mm.insert(at_50_mm.end(), second.begin(), second.end());
   for (const Figure& figure :
        {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2},
         Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
@@ -411,6 +411,25 @@ TEST(Example, ReliabilityShowsTheCommittedFigures)
                     soak["checkpoints_seen"].get<int>(), number(soak["least_bytes"], 1e6, 1),
                     number(soak["most_bytes"], 1e6, 1), number(soak["largest_deviation_from_mean"], 0.01, 2)));
   EXPECT_LE(soak["largest_deviation_from_mean"].get<double>(), 0.01);
+}
+
+TEST(Example, BenchmarksShowHowMuchFasterDamagedCellsAre)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string page = content(folder + "README.md");
+  const auto with_avx512 = nlohmann::json::parse(content(folder + "results/damaged-avx512.json"))["new_over_old"];
+  const auto with_avx2 = nlohmann::json::parse(content(folder + "results/damaged-avx2.json"))["new_over_old"];
+  for (const auto& [label, name] : {std::pair("increment of 408 discs without a break", "damaged_increment<2>/150"),
+                                    {"increment of 602 spheres, 30 breaks", "damaged_increment<3>/110"},
+                                    {"increment of 602 spheres, 15 breaks", "damaged_increment<3>/120"},
+                                    {"increment of 602 spheres without a break", "damaged_increment<3>/150"},
+                                    {"tangent of 602 damaged spheres", "damaged_tangent<3>/150"},
+                                    {"reference of 602 spheres", "reference<3>"}})
+    {
+      const std::string row = fmt::format("\n| {} | {:.1f} | {:.1f} |\n", label, 1.0 / with_avx512[name].get<double>(),
+                                          1.0 / with_avx2[name].get<double>());
+      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+    }
 }
 
 TEST(Example, BenchmarksShowTheCommittedFactors)

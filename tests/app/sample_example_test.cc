@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string>
 #include <tuple>
@@ -189,12 +190,16 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
   // Kinematics of the cells.
   std::vector<nlohmann::json> finite, small;
   for (const char* const name : {"sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite"})
-    for (const auto& test : committed(name)["tests"])
-      finite.push_back(test);
+    {
+      const auto study = committed(name);
+      finite.insert(finite.end(), study["tests"].begin(), study["tests"].end());
+    }
   for (const char* const name : {"sample", "sample-confined"})
-    for (const auto& test : committed(name)["tests"])
-      if (test["kind"] != "direct_tension")
-        small.push_back(test);
+    {
+      const auto study = committed(name);
+      std::ranges::copy_if(study["tests"], std::back_inserter(small),
+                           [](const auto& test) { return test["kind"] != "direct_tension"; });
+    }
   ASSERT_GE(finite.size(), 12u);
   const auto highest_of = [](const nlohmann::json& test) {
     return test[test["peak_stress_Pa"].is_null() ? "stress_at_end_Pa" : "peak_stress_Pa"].get<double>() / 1e6;
