@@ -24,15 +24,21 @@ inline constexpr std::size_t block_size = 1024;
 
 inline std::size_t n_blocks(const std::size_t n) { return (n + block_size - 1) / block_size; }
 
-/// Calls work(block, begin, end) for every block of 0 … n. Small jobs stay on this thread: handing them out costs more.
+/// Whether for_each_block() does a job of this size on this thread alone. Small jobs are not handed out, which costs more.
+inline bool stays_on_this_thread(const std::size_t n)
+{
+  constexpr std::size_t few_blocks = 8;
+  return n_blocks(n) <= few_blocks;
+}
+
+/// Calls work(block, begin, end) for every block of 0 … n.
 template <typename Work>
 void for_each_block(const std::size_t n, Work&& work)
 {
   const auto one = [&](const std::size_t block) {
     work(block, block * block_size, std::min(n, (block + 1) * block_size));
   };
-  constexpr std::size_t few_blocks = 8;
-  if (n_blocks(n) <= few_blocks)
+  if (stays_on_this_thread(n))
     for (std::size_t block = 0; block < n_blocks(n); ++block)
       one(block);
   else

@@ -18,7 +18,7 @@ void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touch
   for (const auto& joint : body.smooth_joints)
     add(Vector<dim>(Eigen::Map<const Vector<dim>>(joint.force.data())), joint.grain_1, joint.grain_2);
   for (const auto& touch : touches.list())
-    add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.force.data())), touch.grain_1, touch.grain_2);
+    add(Vector<dim>(Eigen::Map<const Vector<dim>>(touch.on_grains.force.data())), touch.grain_1, touch.grain_2);
 }
 
 /// Calls add(σV, grain) for each grain that a wall presses: the moment of the wall's force about the centre of the grain,

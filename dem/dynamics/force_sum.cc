@@ -89,9 +89,9 @@ void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_
 {
   const double direction = as_second ? 1.0 : -1.0;
   for (int c = 0; c < dim; ++c)
-    grains.force[c][grain] += direction * touch.force[c];
+    grains.force[c][grain] += direction * touch.on_grains.force[c];
   for (int c = 0; c < n_rotations<dim>; ++c)
-    grains.couple[c][grain] += (as_second ? touch.couple_2 : touch.couple_1)[c];
+    grains.couple[c][grain] += (as_second ? touch.on_grains.couple_2 : touch.on_grains.couple_1)[c];
 }
 } // namespace
 
@@ -136,9 +136,10 @@ void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& 
   const auto& joints = body.joints;
   const std::size_t n_grains = order.grain.size();
   const Incidence& touches_of = touches.incidence();
-  // To each grain come its touches by their numbers, whether it is grains or touches that are gone through.
+  // To each grain come its touches by their numbers, whether it is grains or touches that are gone through. Only grains can be
+  // shared out to threads.
   constexpr std::size_t grains_per_touch = 8;
-  const bool few_touch = grains_per_touch * touches.touching().size() < n_grains;
+  const bool by_touches = stays_on_this_thread(n_grains) || grains_per_touch * touches.touching().size() < n_grains;
   for_each_block(n_grains, [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t place = begin; place < end; ++place)
       {
@@ -148,14 +149,14 @@ void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& 
           grains.force[c][i] = force[c];
         for (int c = 0; c < n_rotations<dim>; ++c)
           grains.couple[c][i] = couple[c];
-        if (few_touch)
+        if (by_touches)
           continue;
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
           if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
             add_touch(touches.list()[entry / 2], entry % 2, i, grains);
       }
   });
-  if (few_touch)
+  if (by_touches)
     for (const std::uint32_t k : touches.touching())
       {
         const Touch<dim>& touch = touches.list()[k];

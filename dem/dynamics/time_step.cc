@@ -46,6 +46,13 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
         k_turning[c][i] += (k_s * arm * arm + k_bending) * (1.0 - axial) + k_twist * axial;
       }
   };
+  const auto add_touch = [&](const Touch<dim>& touch, const bool is_second, const std::uint32_t grain) {
+    const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
+    const auto a = arms(touch.frame.distance, touch.half_radius_difference);
+    add(grain, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
+  };
+  // To each grain come its joints and then its touches by their numbers, whether it is grains or touches that are gone through.
+  const bool by_touches = groups.empty() && stays_on_this_thread(n_own);
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = std::uint32_t(begin); i < end; ++i)
       {
@@ -58,16 +65,11 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
             add(i, at<dim>(joints.normal, j), springs.normal, springs.shear, is_second ? -a.two : a.one,
                 springs.bending, springs.twist);
           }
+        if (by_touches)
+          continue;
         for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
-          {
-            const Touch<dim>& touch = touches.list()[touches_of.entries[e] / 2];
-            const bool is_second = touches_of.entries[e] % 2;
-            if (!touch.touching)
-              continue;
-            const double k_s = body.particle_contact.friction > 0.0 ? touch.stiffness.shear : 0.0;
-            const auto a = arms(touch.frame.distance, touch.half_radius_difference);
-            add(i, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
-          }
+          if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
+            add_touch(touches.list()[entry / 2], entry % 2, i);
       }
   };
   if (groups.empty())
@@ -76,6 +78,14 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
     });
   else // members of one group may be of several blocks
     std::visit([&](const auto& law) { add_contacts(law, 0, n_own); }, joints.law);
+  if (by_touches)
+    for (std::size_t k = 0; k < touches.list().size(); ++k)
+      if (touches.is_touching(k))
+        {
+          const Touch<dim>& touch = touches.list()[k];
+          add_touch(touch, false, touch.grain_1);
+          add_touch(touch, true, touches.owner_2(k));
+        }
   for (const SmoothJoint<dim>& joint : body.smooth_joints)
     for (const std::uint32_t i : {joint.grain_1, joint.grain_2})
       {

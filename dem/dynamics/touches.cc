@@ -60,6 +60,8 @@ void Touches<dim>::number(const Images<dim>& images)
     images.n_own(), touches.size(), [&](const std::size_t k) { return touches[k].ends(); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
   looks.clear();
+  touching_ones.assign(touches.size(), 0);
+  n_touching = 0;
   for (const auto& touch : touches)
     looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
 }
@@ -149,9 +151,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
               touch.slip_energy += 0.5 * shear * shear / touch.stiffness.shear;
             touch.normal_force = 0.0;
             touch.shear_force = {};
-            touch.force = {};
-            touch.couple_1 = {};
-            touch.couple_2 = {};
+            touch.on_grains = {};
             continue;
           }
         std::array<double, dim - 1> slip{};
@@ -181,17 +181,16 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         touch.normal_force = response.normal_force;
         touch.shear_force = response.shear_force;
         touch.slip_energy += response.slip_energy;
-        const auto on_grains = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
-                                             response.shear_force, std::array<double, n_rotations<dim>>{});
-        touch.force = on_grains.force;
-        touch.couple_1 = on_grains.couple_1;
-        touch.couple_2 = on_grains.couple_2;
+        touch.on_grains = contact_force(touch.frame, touch.half_radius_difference, response.normal_force,
+                                        response.shear_force, std::array<double, n_rotations<dim>>{});
       }
   });
-  touching_ones.clear();
-  for (std::size_t k = 0; k < looks.size(); ++k)
-    if (looks[k].touching)
-      touching_ones.push_back(std::uint32_t(k));
+  n_touching = 0;
+  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which touch cannot be foretold
+    {
+      touching_ones[n_touching] = std::uint32_t(k);
+      n_touching += looks[k].touching ? 1 : 0;
+    }
   return contact_made;
 }
 

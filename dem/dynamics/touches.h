@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace feldspar
@@ -30,9 +31,7 @@ struct Touch
   std::array<double, dim - 1> shear_force{};
   double normal_force = 0.0;
   double slip_energy = 0.0;
-  std::array<double, dim> force{};                 ///< on grain 2 [N]
-  std::array<double, n_rotations<dim>> couple_1{}; ///< [N m]
-  std::array<double, n_rotations<dim>> couple_2{}; ///< [N m]
+  ContactForce<dim, double> on_grains{};
 
   GrainPair ends() const { return {grain_1, grain_2}; }
 };
@@ -53,8 +52,8 @@ public:
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
   /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
   std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }
-  /// Numbers of those that touch, ascending.
-  const std::vector<std::uint32_t>& touching() const { return touching_ones; }
+  /// Numbers of those that touch since the last update(), ascending.
+  std::span<const std::uint32_t> touching() const { return std::span(touching_ones).first(n_touching); }
 
   /// Notes the pairs within `skin` [m]; those with a face are told by the joints. `check` as of pairs_within().
   void search(const Specimen<dim>& body, const Images<dim>& images, const Incidence& joints_of, double skin,
@@ -91,8 +90,9 @@ private:
   auto find(const GrainPair& pair) const;
 
   std::vector<Touch<dim>> touches;
-  std::vector<Look> looks; ///< of each touch
-  std::vector<std::uint32_t> touching_ones;
+  std::vector<Look> looks;                  ///< of each touch
+  std::vector<std::uint32_t> touching_ones; ///< the first n_touching hold
+  std::size_t n_touching = 0;
   Incidence contacts_of;
 };
 } // namespace feldspar
