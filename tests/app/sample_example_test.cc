@@ -429,7 +429,8 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
         {"walled cylinder", "50", "beishan-cylinder", "full-size-tests", ""},
         {"cylinder cut free at its sides", "13.2", "multiscale-and-grains", "cored-cylinder-13.2-mm", ""},
         {"cylinder cut free at its sides", "20", "multiscale-and-grains", "cored-cylinder-20-mm", ""},
-        {"cylinder cut free at its sides", "33", "multiscale-and-grains", "cored-cylinder-33-mm", ""}})
+        {"cylinder cut free at its sides", "33", "multiscale-and-grains", "cored-cylinder-33-mm", ""},
+        {"cylinder cut free at its sides", "50", "multiscale-and-grains", "cored-cylinder-50-mm", ""}})
     {
       const auto study = results_of(body.example, body.results);
       const auto shown = [&](const std::string& kind, const char* const key, const double scale, const int decimals) {
@@ -453,11 +454,15 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
     }
 }
 
-// A line over 1/diameter by least squares, and the standard error of where it ends.
+// A line over 1/diameter by least squares, the standard error of where it ends, and where it puts one more cylinder.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsACylinderWithoutSurface)
 {
   const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
-  const auto without_surface = [](const std::string& kind, const int decimals) {
+  struct Found
+  {
+    std::string without_surface, at_50_mm, measured;
+  };
+  const auto by_the_line = [](const std::string& kind, const int decimals) {
     std::vector<double> x, y;
     for (const char* const diameter : {"13.2", "20", "33"})
       {
@@ -477,14 +482,29 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsACylinderWithoutSurface)
         products += (x[k] - mean(x)) * (y[k] - mean(y));
       }
     const double slope = products / squares;
-    const double end = mean(y) - slope * mean(x);
+    const auto on_the_line = [&](const double at) { return mean(y) + slope * (at - mean(x)); };
     for (std::size_t k = 0; k < x.size(); ++k)
-      errors += std::pow(y[k] - end - slope * x[k], 2);
-    const double standard_error = std::sqrt(errors / (n - 2.0) * (1.0 / n + std::pow(mean(x), 2) / squares));
-    return fmt::format("{:.{}f} ± {:.{}f} MPa in", end, decimals, standard_error, decimals);
+      errors += std::pow(y[k] - on_the_line(x[k]), 2);
+    // Of the line, and of one more cylinder beside it.
+    const auto deviation = [&](const double at, const double of_one) {
+      return std::sqrt(errors / (n - 2.0) * (of_one + 1.0 / n + std::pow(at - mean(x), 2) / squares));
+    };
+    double measured = 0.0;
+    for (const auto& test : results_of("multiscale-and-grains", "cored-cylinder-50-mm")["tests"])
+      if (test["kind"] == kind)
+        measured = test["peak_stress_Pa"].get<double>() / 1e6;
+    EXPECT_LT(std::abs(measured - on_the_line(1.0 / 50.0)), deviation(1.0 / 50.0, 1.0)) << kind; // as the page says
+    const auto shown = [&](const double at, const double of_one) {
+      return fmt::format("{:.{}f} ± {:.{}f} MPa", on_the_line(at), decimals, deviation(at, of_one), decimals);
+    };
+    return Found{shown(0.0, 0.0), shown(1.0 / 50.0, 1.0), fmt::format("{:.{}f}", measured, decimals)};
   };
-  EXPECT_NE(readme.find(without_surface("uniaxial_compression", 0) + " uniaxial compression"), std::string::npos);
-  EXPECT_NE(readme.find(without_surface("direct_tension", 1) + "\n  tension"), std::string::npos);
+  const Found crushed = by_the_line("uniaxial_compression", 0), pulled = by_the_line("direct_tension", 1);
+  EXPECT_NE(readme.find(crushed.without_surface + " in uniaxial compression"), std::string::npos);
+  EXPECT_NE(readme.find(pulled.without_surface + " in\n  tension"), std::string::npos);
+  EXPECT_NE(readme.find(fmt::format("{} and {} (standard deviations): the one that was run has {} and {} MPa",
+                                    crushed.at_50_mm, pulled.at_50_mm, crushed.measured, pulled.measured)),
+            std::string::npos);
 }
 
 // T7 in compression: cells with an edge or a diagonal along the axis, and oblique ones.

@@ -941,6 +941,7 @@ const std::map<std::string, std::string> without_piece{
   {"published-compression.json", "8 192 cells; minutes"},
   {"cored-cylinder-20-mm.json", "the cylinder of 13.2 mm has a piece"},
   {"cored-cylinder-33-mm.json", "the cylinder of 13.2 mm has a piece"},
+  {"cored-cylinder-50-mm.json", "the cylinder of 13.2 mm has a piece"},
   {"walled-cylinder-20-mm.json", "the cylinder of 13.2 mm has a piece"},
   {"walled-cylinder-33-mm.json", "the cylinder of 13.2 mm has a piece"},
   {"sample-finite-uniaxial.json", "the same sample under pressure has a piece"},
