@@ -39,7 +39,6 @@ Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_stren
                            const std::string& shape = "cylinder", Joint flat_joint = Joint())
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.dimension = 3;
   wanted.shape = shape;
   wanted.width = 0.008;
