@@ -311,6 +311,45 @@ void expect_strengths_held_back(const std::string& example_name, const std::stri
     }
 }
 
+TEST(Example, TheReadmeOfTheCylinderOfLacDuBonnetShowsItsAnswerAtTheLaboratorysSize)
+{
+  const std::string examples = std::string(FELDSPAR_SOURCE_DIR) + "/examples/";
+  const std::string readme = content(examples + "calibrate-lac-du-bonnet-cylinder/README.md");
+  const auto granite =
+    nlohmann::json::parse(content(examples + "calibrate-lac-du-bonnet/reference.json"))["experiment"];
+  const auto small = results_of("calibrate-lac-du-bonnet-cylinder", "nearest")["tests"];
+  const auto large = results_of("calibrate-lac-du-bonnet-cylinder", "full-size")["tests"];
+  struct Figure
+  {
+    const char *heading, *kind, *key, *target;
+    double scale;
+    int decimals;
+  };
+  const auto mean_of = [](const nlohmann::json& tests, const Figure& figure) {
+    std::vector<double> values;
+    for (const auto& test : tests)
+      if (test["kind"] == figure.kind)
+        values.push_back(test[figure.key].get<double>() / figure.scale);
+    return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+  };
+  for (const Figure& figure :
+       {Figure{"Brazilian strength [MPa]", "brazilian", "peak_stress_Pa", "brazilian_strength_MPa", 1e6, 2},
+        Figure{"Young's modulus, tangent 40-60 % of peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa",
+               "youngs_modulus_GPa", 1e9, 1},
+        Figure{"Poisson's ratio, secant at 50 % of peak", "uniaxial_compression", "poissons_ratio_secant",
+               "poissons_ratio", 1.0, 3},
+        Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
+               "uniaxial_compressive_strength_MPa", 1e6, 1}})
+    {
+      const double wanted = granite[figure.target]["mean"], at_20_mm = mean_of(small, figure),
+                   at_50_mm = mean_of(large, figure);
+      const std::string row = fmt::format("\n| {} | {:.{}f} | {:.{}f} | {:.{}f} | {:+.1f} % | {:.3f} |\n",
+                                          figure.heading, wanted, figure.decimals, at_20_mm, figure.decimals, at_50_mm,
+                                          figure.decimals, 100.0 * (at_50_mm / wanted - 1.0), at_50_mm / at_20_mm);
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 TEST(Example, TheReadmesOfLacDuBonnetShowTheStrengthsThatWereHeldBack)
 {
   expect_strengths_held_back("calibrate-lac-du-bonnet", "best");
