@@ -200,6 +200,7 @@ template <int dim>
 bool Dynamics<dim>::remove_lost_contacts()
 {
   auto& joints = body.joints;
+  const std::size_t n_touches = touches.list().size();
   std::vector<std::size_t> kept;
   for (std::size_t j = 0; j < joints.size(); ++j)
     {
@@ -226,11 +227,12 @@ bool Dynamics<dim>::remove_lost_contacts()
                  (at<dim>(body.grains.position, ends.second) - at<dim>(body.grains.position, ends.first)).norm());
       touches.add(touch);
     }
+  if (touches.list().size() > n_touches)
+    touches.number(images);
   if (kept.size() == joints.size())
     return false;
   joints.keep(kept);
   joint_groups = JointGroups<dim>(joints);
-  touches.number(images);
   return true;
 }
 

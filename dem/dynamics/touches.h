@@ -52,7 +52,7 @@ public:
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
   /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
   std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }
-  /// Numbers of those that touch since the last update(), ascending.
+  /// Numbers of those that touched at the last update(), ascending; none from number() to the next one.
   std::span<const std::uint32_t> touching() const { return std::span(touching_ones).first(n_touching); }
 
   /// Notes the pairs within `skin` [m]; those with a face are told by the joints. `check` as of pairs_within().
@@ -61,7 +61,7 @@ public:
   /// A pair that has lost its face; number() before the next update().
   void add(const Touch<dim>& touch);
   void number(const Images<dim>& images);
-  void clear() { touches.clear(); }
+  void clear() { *this = {}; }
 
   /// Carries all over a step [s]; whether a pair has come to touch.
   bool update(const Grains<dim>& grains, double friction, double dt);

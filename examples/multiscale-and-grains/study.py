@@ -52,21 +52,16 @@ PRESSURES_MPA = (5, 20, 60)
 OPENINGS_UM = (0, 1, 2, 5)  # over which bonds soften
 MESHES = ((2, 4), (3, 6), (4, 8))  # elements across and along
 SLOW = "Tests/Compression strain rate = 0.25 1/s"
-CONFINED = (
-    "Tests/List = triaxial_compression",
-    "Tests/Confinements = 5, 20, 60 MPa",
-    "Tests/Stop strain = 12e-3",  # at 60 MPa not every sample has a peak
-)
 TURNING = "Representative volume/Kinematics = finite"  # contacts turn with their grains
 
 
-def turning_under(pressures):
-    """Samples whose contacts turn, under these pressures [MPa]."""
+def under(pressures, *entries):
+    """Samples under these pressures [MPa]."""
     return (
         "Tests/List = triaxial_compression",
         f"Tests/Confinements = {pressures} MPa",
-        "Tests/Stop strain = 12e-3",
-        TURNING,
+        "Tests/Stop strain = 12e-3",  # at 60 MPa not every sample has a peak
+        *entries,
     )
 
 
@@ -109,11 +104,12 @@ EXPERIMENTS = {
     "sample-own-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, *OWN, UNTURNED)),
     "confined": Experiment("lab", "confined"),
     "confined-slow": Experiment("lab", "confined", ((SLOW,),)),
-    "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *CONFINED)),
-    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *turning_under("20, 60"))),
-    "sample-finite-5-mpa": Experiment("multiscale", "sample", with_seeds(1, 4, *turning_under("5"))),
+    "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *under("5, 20, 60"))),
+    "sample-5-mpa": Experiment("multiscale", "sample", with_seeds(5, 10, *under("5"))),
+    "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *under("20, 60", TURNING))),
+    "sample-finite-5-mpa": Experiment("multiscale", "sample", with_seeds(1, 10, *under("5", TURNING))),
     "sample-finite-uniaxial": Experiment(
-        "multiscale", "sample", with_seeds(1, 5, "Tests/List = uniaxial_compression", TURNING)
+        "multiscale", "sample", with_seeds(1, 10, "Tests/List = uniaxial_compression", TURNING)
     ),
     "sample-elements": Experiment("multiscale", "sample", with_seeds(1, 5, "Sample/Dealing = to elements")),
     "sample-edges": Experiment("multiscale", "sample", with_seeds(1, 5, at_boundary("edge"))),
@@ -562,8 +558,13 @@ def print_confined():
     print("|---|---|---|---|---|---|---|")
     for pressure in PRESSURES_MPA:
         bodies = [
-            [test for test in results(name)["tests"] if round(test["confining_pressure_Pa"] / 1e6) == pressure]
-            for name in ("confined", "confined-slow", "sample-confined")
+            [
+                test
+                for name in names
+                for test in (results(name) or {"tests": ()})["tests"]
+                if round(test["confining_pressure_Pa"] / 1e6) == pressure
+            ]
+            for names in (("confined",), ("confined-slow",), ("sample-confined", "sample-5-mpa"))
         ]
         highest = [
             [(test["peak_stress_Pa"] or test["stress_at_end_Pa"]) / 1e6 for test in tests] for tests in bodies
@@ -599,8 +600,9 @@ def print_kinematics():
         pressed = [test for test in tests if test["kind"] != "direct_tension"]
         return {(round(test["confining_pressure_Pa"] / 1e6), test["seed"]): test for test in pressed}
 
-    small = by_pressure_and_seed("sample") | by_pressure_and_seed("sample-confined")
-    finite = {}
+    small, finite = {}, {}
+    for name in ("sample", "sample-confined", "sample-5-mpa"):
+        small |= by_pressure_and_seed(name)
     for name in ("sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite"):
         finite |= by_pressure_and_seed(name)
     for key in sorted(finite):

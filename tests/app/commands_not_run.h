@@ -43,6 +43,8 @@ inline const std::vector<NotRun> commands_not_run{
    "refuses a tree with changes; minutes"},
   {"benchmarks/README.md", "python3 benchmarks/whole_tests.py OLD_BUILD NEW_BUILD --of samples",
    "needs another build of the program"},
+  {"benchmarks/README.md", "python3 benchmarks/whole_tests.py OLD_BUILD NEW_BUILD --of packings",
+   "needs another build of the program"},
   {"benchmarks/README.md", "build/release/benchmarks/dynamics_benchmark", "measures an idle machine; minutes"},
   {"benchmarks/README.md", "FELDSPAR_THREADS=2 build/release/benchmarks/dynamics_benchmark --benchmark_filter=200000",
    "measures an idle machine; minutes"},
