@@ -25,63 +25,54 @@ subsection Tests
   set List = uniaxial_compression
 end
 """
-SPECIMENS = {
-    # Table 1 of the flat-joint paper: some 1 950 discs, 4 100 joints of four segments.
-    "plane": """
-subsection Specimen
-  set Packing relaxation = static
-end
-"""
-    + COMPRESSION,
-    # Some 1 600 spheres, 4 900 joints of eight elements.
-    "space": """
-subsection Specimen
-  set Dimension          = 3
-  set Shape              = cylinder
-  set Width              = 16 mm
-  set Height             = 32 mm
-  set Porosity           = 0.39
-  set Packing relaxation = static
-end
-subsection Flat joint
-  set Installation gap ratio = 0.05
-end
-subsection Tests
-  set Compression strain rate = 2.5 1/s
-end
-"""
-    + COMPRESSION,
-}
-
-
 TENSION = """
 subsection Tests
   set List = direct_tension
 end
 """
-# Packed by damped motion, which takes most of the time, and pulled.
-PACKINGS = {
-    "plane": """
+
+
+def discs(relaxation):
+    """Table 1 of the flat-joint paper: some 1 950 discs, 4 100 joints of four segments."""
+    return f"""
 subsection Specimen
-  set Packing relaxation = dynamics
+  set Packing relaxation = {relaxation}
 end
 """
-    + TENSION,
-    # Some 670 spheres.
-    "space": """
+
+
+def spheres(relaxation, width, porosity):
+    """A cylinder of this width [mm], twice as high; joints have eight elements. Walls leave more voids in a narrow one."""
+    return f"""
 subsection Specimen
   set Dimension          = 3
   set Shape              = cylinder
-  set Width              = 12 mm
-  set Height             = 24 mm
-  set Porosity           = 0.40
-  set Packing relaxation = dynamics
+  set Width              = {width} mm
+  set Height             = {2 * width} mm
+  set Porosity           = {porosity}
+  set Packing relaxation = {relaxation}
 end
 subsection Flat joint
   set Installation gap ratio = 0.05
 end
 """
-    + TENSION,
+
+
+RATE_IN_SPACE = """
+subsection Tests
+  set Compression strain rate = 2.5 1/s
+end
+"""
+SPECIMENS = {
+    "plane": discs("static") + COMPRESSION,
+    # Some 1 600 spheres, 4 900 joints.
+    "space": spheres("static", 16, 0.39) + RATE_IN_SPACE + COMPRESSION,
+}
+# Packed by damped motion, which takes most of the time, and pulled.
+PACKINGS = {
+    "plane": discs("dynamics") + TENSION,
+    # Some 650 spheres, 1 900 joints.
+    "space": spheres("dynamics", 12, 0.40) + TENSION,
 }
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../examples")

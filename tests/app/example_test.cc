@@ -211,6 +211,32 @@ TEST(Example, TheReadmesOfCalibrationsShowTheCommittedAnswers)
                           {brazilian_strength, tangent_modulus, secant_ratio, uniaxial_strength});
 }
 
+/// A figure of tests of one kind, as pages show it beside that of a rock.
+struct Figure
+{
+  const char* heading;
+  const char* kind;
+  const char* key;    ///< in the record of a test
+  const char* target; ///< in the reference of the rock
+  double scale;
+  int decimals;
+};
+
+std::vector<double> values_of(const nlohmann::json& tests, const Figure& figure)
+{
+  std::vector<double> values;
+  for (const auto& test : tests)
+    if (test["kind"] == figure.kind)
+      values.push_back(test[figure.key].get<double>() / figure.scale);
+  return values;
+}
+
+double mean(const nlohmann::json& tests, const Figure& figure)
+{
+  const auto values = values_of(tests, figure);
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
 // The targets of the small cylinder: figures of the rock over the ratios of two cylinders of Table 1.
 TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSizes)
 {
@@ -221,26 +247,6 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
   const auto rock = nlohmann::json::parse(content(examples + "beishan-granite/reference.json"))["experiment"];
   const auto large = results_of("beishan-cylinder", "full-size-tests")["tests"];
   const auto small = results_of("beishan-cylinder", "beishan-cylinder")["tests"];
-  struct Figure
-  {
-    const char* heading;
-    const char* kind;
-    const char* key;
-    const char* target;
-    double scale;
-    int decimals;
-  };
-  const auto mean = [](const nlohmann::json& tests, const Figure& figure) {
-    double sum = 0.0;
-    int n = 0;
-    for (const auto& test : tests)
-      if (test["kind"] == figure.kind)
-        {
-          sum += test[figure.key].get<double>() / figure.scale;
-          ++n;
-        }
-    return sum / n;
-  };
   // What came out, on the last packings of the calibration and in a cylinder of the laboratory's size.
   const auto reached = results_of("calibrate-beishan-cylinder", "best")["tests"];
   auto at_50_mm = results_of("calibrate-beishan-cylinder", "full-size")["tests"];
@@ -319,19 +325,6 @@ TEST(Example, TheReadmeOfTheCylinderOfLacDuBonnetShowsItsAnswerAtTheLaboratorysS
     nlohmann::json::parse(content(examples + "calibrate-lac-du-bonnet/reference.json"))["experiment"];
   const auto small = results_of("calibrate-lac-du-bonnet-cylinder", "nearest")["tests"];
   const auto large = results_of("calibrate-lac-du-bonnet-cylinder", "full-size")["tests"];
-  struct Figure
-  {
-    const char *heading, *kind, *key, *target;
-    double scale;
-    int decimals;
-  };
-  const auto values_of = [](const nlohmann::json& tests, const Figure& figure) {
-    std::vector<double> values;
-    for (const auto& test : tests)
-      if (test["kind"] == figure.kind)
-        values.push_back(test[figure.key].get<double>() / figure.scale);
-    return values;
-  };
   std::map<std::string, double> at_laboratorys_size; // by target
   for (const Figure& figure :
        {Figure{"Brazilian strength [MPa]", "brazilian", "peak_stress_Pa", "brazilian_strength_MPa", 1e6, 2},
@@ -346,7 +339,7 @@ TEST(Example, TheReadmeOfTheCylinderOfLacDuBonnetShowsItsAnswerAtTheLaboratorysS
       ASSERT_EQ(of_small.size(), 16u);
       ASSERT_EQ(of_large.size(), 1u);
       const double wanted = granite[figure.target]["mean"], found = of_large.front();
-      const double ratio = found / (std::accumulate(of_small.begin(), of_small.end(), 0.0) / 16.0);
+      const double ratio = found / mean(small, figure);
       const std::string row = fmt::format("\n| {} | {:.{}f} | {} | {:.{}f} | {:+.1f} % | {:.3f} |\n", figure.heading,
                                           wanted, figure.decimals, mean_and_deviation(of_small, figure.decimals), found,
                                           figure.decimals, 100.0 * (found / wanted - 1.0), ratio);
