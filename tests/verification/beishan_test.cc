@@ -31,7 +31,7 @@ Specimen<2> joined(const std::uint64_t seed, const FlatJointParameters& flat_joi
   static std::map<std::uint64_t, Specimen<2>> packings;
   if (!packings.contains(seed))
     {
-      auto packing = make_specimen<2>({}, FlatJointParameters(), {}, seed, [](std::string_view, double) {});
+      auto packing = make_specimen<2>({}, flat_joint, {}, seed, [](std::string_view, double) {});
       packing.joints = {};
       packings.emplace(seed, std::move(packing));
     }
