@@ -222,6 +222,19 @@ struct Figure
   int decimals;
 };
 
+const Figure compressive_strength_of_tests{"uniaxial compressive strength [MPa]",
+                                           "uniaxial_compression",
+                                           "peak_stress_Pa",
+                                           "uniaxial_compressive_strength_MPa",
+                                           1e6,
+                                           1};
+const Figure tangent_modulus_of_tests{"Young's modulus, tangent 40-60 % of peak [GPa]",
+                                      "uniaxial_compression",
+                                      "youngs_modulus_tangent_Pa",
+                                      "youngs_modulus_GPa",
+                                      1e9,
+                                      1};
+
 std::vector<double> values_of(const nlohmann::json& tests, const Figure& figure)
 {
   std::vector<double> values;
@@ -254,10 +267,7 @@ TEST(Example, TheTargetsOfTheSmallCylinderAreThoseOfTheRockOverTheRatiosOfTheSiz
   at_50_mm.insert(at_50_mm.end(), second.begin(), second.end());
   for (const Figure& figure :
        {Figure{"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", "tensile_strength_MPa", 1e6, 2},
-        Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
-               "uniaxial_compressive_strength_MPa", 1e6, 1},
-        Figure{"Young's modulus, tangent 40-60 % of peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa",
-               "youngs_modulus_GPa", 1e9, 1},
+        compressive_strength_of_tests, tangent_modulus_of_tests,
         Figure{"Poisson's ratio, secant at 50 % of peak", "uniaxial_compression", "poissons_ratio_secant",
                "poissons_ratio", 1.0, 4}})
     {
@@ -328,12 +338,10 @@ TEST(Example, TheReadmeOfTheCylinderOfLacDuBonnetShowsItsAnswerAtTheLaboratorysS
   std::map<std::string, double> at_laboratorys_size; // by target
   for (const Figure& figure :
        {Figure{"Brazilian strength [MPa]", "brazilian", "peak_stress_Pa", "brazilian_strength_MPa", 1e6, 2},
-        Figure{"Young's modulus, tangent 40-60 % of peak [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa",
-               "youngs_modulus_GPa", 1e9, 1},
+        tangent_modulus_of_tests,
         Figure{"Poisson's ratio, secant at 50 % of peak", "uniaxial_compression", "poissons_ratio_secant",
                "poissons_ratio", 1.0, 3},
-        Figure{"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa",
-               "uniaxial_compressive_strength_MPa", 1e6, 1}})
+        compressive_strength_of_tests})
     {
       const auto of_small = values_of(small, figure), of_large = values_of(large, figure);
       ASSERT_EQ(of_small.size(), 16u);
