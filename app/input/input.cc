@@ -219,9 +219,6 @@ void check_specimen(const Input& input, const GivenEntries& values)
                        "a periodic cell has no sides to be cut free; set Shape = box or cylinder");
   if (specimen.is_cored() && !specimen.packing_file.empty())
     throw values.error("Specimen", "Coring", "excludes Packing file, whose grains are not packed as a periodic cell");
-  if (specimen.packed_by_descent && !(specimen.packing_file.empty() && specimen.specimen_file.empty()))
-    throw values.error("Specimen", "Packing relaxation",
-                       "excludes Packing file and Specimen file, whose grains are packed already");
   for (const auto& [entry, n] :
        {std::pair("Cells across", specimen.cells_across), std::pair("Cells along", specimen.cells_along)})
     if (n > 1 && (!specimen.is_cored() || specimen.dimension != 2))

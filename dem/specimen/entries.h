@@ -49,10 +49,10 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
     entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
                   "mean stress in the packing over Particle contact/Modulus, before the joints are installed", of_rock),
     entry::choice(
-      "Packing relaxation", &P::packed_by_descent, {{"dynamics", false}, {"static", true}},
-      "how the grains come to rest. dynamics: by damped motion, radii scaled in steps between; static: by "
-      "descent of grains and radii together, some ten times as fast. The same seed gives another packing of "
-      "the same rock",
+      "Packing relaxation", &P::packed_by_descent, {{"static", true}, {"dynamics", false}},
+      "how the grains come to rest. static: by descent of grains and radii together; dynamics: by damped motion, "
+      "radii scaled in steps between, which takes some ten times as long. The same seed gives another packing of the "
+      "same rock",
       of_rock),
     entry::choice(
       "Coring", &P::coring,

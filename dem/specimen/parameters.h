@@ -29,7 +29,7 @@ struct SpecimenParameters
   double porosity = 0.16;
   double bulk_density = 2700.0;       ///< [kg/m³]; a grain's is bulk / (1 - porosity)
   double packing_stress_ratio = 1e-4; ///< P_m/E*, mean stress of the packing over the grain contact modulus
-  bool packed_by_descent = false;     ///< grains come to rest by descent, not by damped dynamics
+  bool packed_by_descent = true;      ///< grains come to rest by descent, not by damped dynamics
   std::string joint_law = "flat joint";
   Coring coring = Coring::none;
   unsigned int cells_across = 1; ///< of a cored specimen: equal cells that it is put together from

@@ -107,6 +107,7 @@ EXPERIMENTS = {
     "sample-confined": Experiment("multiscale", "sample", with_seeds(1, 5, *under("5, 20, 60"))),
     "sample-5-mpa": Experiment("multiscale", "sample", with_seeds(5, 10, *under("5"))),
     "sample-finite": Experiment("multiscale", "sample", with_seeds(1, 4, *under("20, 60", TURNING))),
+    "sample-finite-later-seeds": Experiment("multiscale", "sample", with_seeds(5, 10, *under("20, 60", TURNING))),
     "sample-finite-5-mpa": Experiment("multiscale", "sample", with_seeds(1, 10, *under("5", TURNING))),
     "sample-finite-uniaxial": Experiment(
         "multiscale", "sample", with_seeds(1, 10, "Tests/List = uniaxial_compression", TURNING)
@@ -290,7 +291,7 @@ def keep(name, outs):
     for out in outs:
         with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
             summaries.append(json.load(file))
-        if name in ("sample-confined", "sample-finite"):
+        if name in ("sample-confined", "sample-finite", "sample-finite-later-seeds"):
             add_ends(out, summaries[-1])
         if name.startswith("softening"):
             add_largest_falls(out, summaries[-1])

@@ -457,26 +457,13 @@ TEST(Input, CoresAreRefusedWhereTheyCannotBe)
   EXPECT_EQ(refused(core + "  set Cells across = 10\n"), "");
 }
 
-// What is packed already needs no solver.
-TEST(Input, AStaticPackingIsAChoiceThatExcludesFiles)
+TEST(Input, GrainsComeToRestByDescentUnlessMotionIsAskedFor)
 {
   const TemporaryFolder folder;
-  const std::string choice = "subsection Specimen\n  set Packing relaxation = static\n";
-  EXPECT_TRUE(read_input(folder.write("a.prm", choice + "end\n")).specimen.packed_by_descent);
-  EXPECT_FALSE(SpecimenParameters().packed_by_descent);
-  folder.write("grains.txt", "0.002 0.005 0.001\n");
-  for (const std::string file : {"Packing file", "Specimen file"})
-    try
-      {
-        read_input(folder.write("b.prm", choice + "  set " + file + " = grains.txt\nend\n"));
-        ADD_FAILURE() << file << " was accepted";
-      }
-    catch (const InputError& error)
-      {
-        EXPECT_NE(std::string(error.what()).find("are packed already"), std::string::npos) << error.what();
-      }
-  EXPECT_NE(error_of("a.prm", "subsection Specimen\n  set Packing relaxation = fast\nend\n").find("dynamics or static"),
-            std::string::npos);
+  const std::string choice = "subsection Specimen\n  set Packing relaxation = ";
+  EXPECT_TRUE(SpecimenParameters().packed_by_descent);
+  EXPECT_FALSE(read_input(folder.write("a.prm", choice + "dynamics\nend\n")).specimen.packed_by_descent);
+  EXPECT_NE(error_of("a.prm", choice + "fast\nend\n").find("static or dynamics"), std::string::npos);
 }
 
 TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)
