@@ -28,7 +28,6 @@ const Network<dim>& network(const double width)
   wanted.shape = "periodic";
   wanted.width = wanted.height = width;
   wanted.porosity = dim == 2 ? 0.16 : 0.36;
-  wanted.packed_by_descent = true;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
   return known.try_emplace(width, make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {}))

@@ -73,7 +73,6 @@ int main()
   SpecimenParameters wanted;
   wanted.dimension = 3;
   wanted.porosity = 0.37;
-  wanted.packed_by_descent = true;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
   const GenesisMonitor silent = [](std::string_view, double) {};

@@ -4,8 +4,8 @@
     benchmarks/record.py BUILD PROGRAM ...
 
 BUILD: a build folder with FELDSPAR_BENCHMARKS=ON, of a commit. PROGRAM: dynamics_benchmark, space_benchmark,
-representative_volume_benchmark, factor_benchmark, explicit_volume_benchmark or contact_models_benchmark. Each gets
-results/PROGRAM-INSTRUCTIONS.json beside this file (with - for _; avx2 or avx512, as the
+representative_volume_benchmark, factor_benchmark, explicit_volume_benchmark, contact_models_benchmark or
+packing_benchmark. Each gets results/PROGRAM-INSTRUCTIONS.json beside this file (with - for _; avx2 or avx512, as the
 build uses): version, compiler flags and processor, and of each benchmark the least processor time of
 three runs with its counters. On a machine that does nothing else.
 """

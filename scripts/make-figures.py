@@ -22,7 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FIGURES = os.path.join(ROOT, "docs", "figures")
 RECORD = os.path.join(FIGURES, "figures.json")
 
-GRANITE = "examples/beishan-granite/results/ensemble.json"
+GRANITE = "examples/beishan-granite/results/ensemble-by-motion.json"
 CONTACT_MODELS = "examples/contact-models/results/"
 PLANE_SAMPLE = "examples/multiscale-beishan/results/beishan.json"
 

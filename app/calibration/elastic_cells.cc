@@ -44,7 +44,7 @@ Input cell_of(const Input& input)
     {
       // Walls leave voids, which a cell has not: at the porosity of a narrow cylinder it would be too loose to come to rest.
       cell.specimen.porosity = std::min(input.specimen.porosity, porosity_in_space);
-      cell.specimen.packed_by_descent = true; // half a minute of dynamics less
+      cell.specimen.packed_by_descent = true; // half a minute less than by motion
     }
   const double present = expected_grains(cell.specimen) / (cell.specimen.width * cell.specimen.height *
                                                            (cell.specimen.dimension == 3 ? cell.specimen.width : 1.0));

@@ -46,7 +46,6 @@ Specimen<dim> body_named(const std::string& body)
 {
   const GenesisMonitor silent = [](std::string_view, double) {};
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   if constexpr (dim == 2)
     return make_specimen<2>(wanted, joint_of(body), {}, 1, silent);
   else

@@ -27,6 +27,7 @@ subsection Specimen
   set Shape = $1
   set Width = $edge mm
   set Height = $edge mm
+  set Packing relaxation = dynamics
   ${2-}
 end
 subsection Flat joint

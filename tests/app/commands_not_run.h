@@ -60,8 +60,6 @@ inline const std::vector<NotRun> commands_not_run{
   {"benchmarks/README.md", "build/release/benchmarks/rve_costs > benchmarks/results/rve-costs.json",
    "measures an idle machine; a minute"},
   {"benchmarks/README.md", "python3 benchmarks/rank_queue.py", "minutes; RankQueue runs a piece of it"},
-  {"benchmarks/README.md", "build/release/benchmarks/static_packings > benchmarks/results/static-packings.json",
-   "measures an idle machine; minutes"},
   {"benchmarks/README.md", "build/release/benchmarks/space_benchmark", "measures an idle machine; minutes"},
   {"benchmarks/README.md", "FELDSPAR_THREADS=2 build/release/benchmarks/space_benchmark",
    "measures an idle machine; minutes"},

@@ -112,6 +112,39 @@ TEST(Example, TheEnsembleIsTheRock)
     EXPECT_LT(test["energy_imbalance_over_work"].get<double>(), 0.01) << test["name"];
 }
 
+TEST(Example, PackingsByDescentAreTheRockOfThoseByMotion)
+{
+  const std::string readme = content(example + "README.md");
+  const auto by_descent = results("ensemble");
+  const auto by_motion = results("ensemble-by-motion");
+  const std::vector<Row> compared{
+    {"porosity", "direct_tension", "porosity", 1.0, 4},
+    {"coordination number far from the walls", "direct_tension", "coordination_number_core", 1.0, 3},
+    {"installation gap over mean radius", "direct_tension", "installation_gap_ratio", 1.0, 4},
+    {"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
+    {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
+    {"strength at 5 MPa [MPa]", "triaxial_compression_5_MPa", "peak_stress_Pa", 1e6, 1},
+    {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
+    {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1},
+    {"Young's modulus, tangent [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa", 1e9, 1},
+    {"Young's modulus, initial [GPa]", "uniaxial_compression", "youngs_modulus_initial_Pa", 1e9, 1}};
+  for (const auto& [name, kind, key, scale, decimals] : compared)
+    {
+      const auto& one = by_motion["ensemble"][kind][key];
+      const auto& other = by_descent["ensemble"][kind][key];
+      ASSERT_EQ(one["n"], 10) << name;
+      ASSERT_EQ(other["n"], 10) << name;
+      const double error = std::hypot(one["standard_error"].get<double>(), other["standard_error"].get<double>());
+      const double difference = (other["mean"].get<double>() - one["mean"].get<double>()) / error;
+      // Two means of ten differ by more in one of a hundred trials (Student's t, 18 degrees of freedom).
+      EXPECT_LT(std::abs(difference), 2.88) << name;
+      const std::string row =
+        fmt::format("| {} | {} | {} | {:.1f} |", name, mean_and_deviation(by_motion, kind, key, scale, decimals),
+                    mean_and_deviation(by_descent, kind, key, scale, decimals), difference);
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+    }
+}
+
 TEST(Example, TheFirstTestAgainGivesTheCommittedResult)
 {
   // The reduced piece of the study that every check runs: tension on the first specimen. Up to its brittle peak the
@@ -509,6 +542,24 @@ TEST(Example, BenchmarksShowTheCommittedFactors)
   shown("602 spheres", 3, 133);
 }
 
+TEST(Example, BenchmarksShowTheCommittedPackings)
+{
+  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
+  const std::string page = content(folder + "README.md");
+  const auto times = nlohmann::json::parse(content(folder + "results/packing-benchmark-avx512.json"))["benchmarks"];
+  for (const auto& [dim, body] : {std::pair(2, "discs between walls"), {3, "spheres in a cylinder"}})
+    {
+      const auto& by_descent = times[fmt::format("by_descent<{}>", dim)];
+      const auto& by_motion = times[fmt::format("by_motion<{}>", dim)];
+      EXPECT_EQ(by_descent["grains"], by_motion["grains"]);
+      const double one = by_descent["processor_time_ns"].get<double>() / 1e9;
+      const double other = by_motion["processor_time_ns"].get<double>() / 1e9;
+      const std::string row = fmt::format("\n| {} {} | {:.2g} | {:.2g} | {:.0f} |\n", by_descent["grains"].get<int>(),
+                                          body, one, other, other / one);
+      EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 TEST(Example, BenchmarksShowTheCommittedSteps)
 {
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
@@ -660,63 +711,6 @@ TEST(Example, TheCylindersReadmeShowsTheCommittedResults)
                         number(confined["shear_share_at_peak"], 0.01, 0)),
             fmt::format("ends at {:.0f} % of the peak", 100.0 * left)})
         EXPECT_NE(readme.find(text), std::string::npos) << "missing: " << text;
-    }
-}
-
-TEST(Example, StaticPackingsAreTheRockOfDynamics)
-{
-  const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/benchmarks/";
-  const std::string readme = content(folder + "README.md");
-  const auto by_descent = nlohmann::json::parse(content(folder + "results/static-packings.json"))["specimens"];
-  const auto by_dynamics = results("ensemble")["tests"];
-  struct Mean
-  {
-    double value = 0.0;
-    double deviation = 0.0;
-  };
-  const auto mean = [](const std::vector<double>& values) {
-    const double n = double(values.size());
-    Mean of_values;
-    for (const double value : values)
-      of_values.value += value / n;
-    for (const double value : values)
-      of_values.deviation += (value - of_values.value) * (value - of_values.value) / (n - 1.0);
-    of_values.deviation = std::sqrt(of_values.deviation);
-    return of_values;
-  };
-  for (const auto& [name, key, kind, key_of_test, scale, decimals] :
-       {std::tuple("porosity", "porosity", "direct_tension", "porosity", 1.0, 4),
-        {"coordination number in the core", "coordination_number_core", "direct_tension", "coordination_number_core",
-         1.0, 3},
-        {"installation gap over mean radius", "installation_gap_ratio", "direct_tension", "installation_gap_ratio", 1.0,
-         4},
-        {"tensile strength [MPa]", "tensile_strength_Pa", "direct_tension", "peak_stress_Pa", 1e6, 2},
-        {"uniaxial compressive strength [MPa]", "uniaxial_compressive_strength_Pa", "uniaxial_compression",
-         "peak_stress_Pa", 1e6, 1},
-        {"Young's modulus, tangent [GPa]", "youngs_modulus_tangent_Pa", "uniaxial_compression",
-         "youngs_modulus_tangent_Pa", 1e9, 1},
-        {"Young's modulus, initial [GPa]", "youngs_modulus_initial_Pa", "uniaxial_compression",
-         "youngs_modulus_initial_Pa", 1e9, 1}})
-    {
-      std::vector<double> one;
-      std::vector<double> other;
-      for (const auto& test : by_dynamics)
-        if (test["kind"] == kind)
-          one.push_back(test[key_of_test].get<double>());
-      for (const auto& specimen : by_descent)
-        other.push_back(specimen[key].get<double>());
-      ASSERT_EQ(one.size(), 10u);
-      ASSERT_EQ(other.size(), 10u);
-      const Mean before = mean(one);
-      const Mean now = mean(other);
-      const double error = std::hypot(before.deviation, now.deviation) / std::sqrt(10.0);
-      const double difference = (now.value - before.value) / error;
-      // Two means of ten differ by more in one of a hundred trials (Student's t, 18 degrees of freedom).
-      EXPECT_LT(std::abs(difference), 2.88) << name;
-      const std::string row = fmt::format("| {} | {:.{}f} ± {:.{}f} | {:.{}f} ± {:.{}f} | {:.1f} |", name,
-                                          before.value / scale, decimals, before.deviation / scale, decimals,
-                                          now.value / scale, decimals, now.deviation / scale, decimals, difference);
-      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
 }
 

@@ -659,7 +659,8 @@ end
 TEST(Lab, MeasuresADiscByItsOwnSize)
 {
   const TemporaryFolder folder;
-  folder.write("rock.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 30 mm\nend\n"
+  folder.write("rock.prm", "subsection Specimen\n  set Width = 20 mm\n  set Height = 30 mm\n"
+                           "  set Packing relaxation = dynamics\nend\n"
                            "subsection Tests\n  set List = brazilian\nend\n"
                            "subsection Seeds\n  set Seeds = 1, 2\nend\n");
   // The disc of the first seed has no grain where it is loaded; it would have been as large.
@@ -797,10 +798,10 @@ TEST(Lab, RefusesAResumeOfWhatIsNoRun)
 TEST(Lab, EndsCleanlyOnInterruptDuringGenesis)
 {
   const TemporaryFolder folder;
-  // Genesis of a thousand grains takes seconds; the test is over at once.
+  // By motion a thousand grains take seconds to come to rest; the test is over at once.
   folder.write(
     "rock.prm",
-    "subsection Specimen\n  set Width = 35 mm\n  set Height = 70 mm\nend\nsubsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");
+    "subsection Specimen\n  set Width = 35 mm\n  set Height = 70 mm\n  set Packing relaxation = dynamics\nend\nsubsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");
   folder.write("interrupt", "\"$@\" &\n"
                             "until [ -e out/run.json ]; do sleep 0.02; done\n"
                             "sleep 0.1\nkill -INT $!\nwait $!\n");

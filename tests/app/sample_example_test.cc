@@ -38,7 +38,7 @@ TEST(Example, TheMultiscaleReadmeShowsTheCommittedResults)
   const std::string folder = std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-beishan/";
   const std::string readme = content(folder + "README.md");
   const auto samples = nlohmann::json::parse(content(folder + "results/beishan.json"));
-  const auto specimens = results_of("beishan-granite", "ensemble");
+  const auto specimens = results_of("beishan-granite", "ensemble-by-motion");
   for (const auto& [name, group] : {std::pair("direct tension", "direct_tension"),
                                     {"uniaxial compression", "uniaxial_compression"},
                                     {"triaxial compression at 20 MPa", "triaxial_compression_20_MPa"}})

@@ -34,9 +34,10 @@ const std::string pull_of_ranks =
   "subsection Sample\n  set Width = 24 mm\n  set Height = 48 mm\n"
   "  set Elements across = 2\n  set Elements along = 4\n  set Realisations = 2\n"
   "  set Tension step = 1e-5\n  set Newton tolerance = 1e-10\nend\n"
-  "subsection Tests\n  set List = direct_tension\n  set Stop strain = 2.2e-4\nend\n";
+  "subsection Tests\n  set List = direct_tension\n  set Stop strain = 2.2e-4\nend\n"
+  "subsection Seeds\n  set Seeds = 4\nend\n"; // much breaks at once
 
-const std::string test_name = "direct_tension_seed_1";
+const std::string test_name = "direct_tension_seed_4";
 
 /// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores.
 std::string mpirun(const unsigned int n_ranks)
@@ -166,7 +167,8 @@ TEST(SeveralRanks, BreakTheSameSegmentsOfCylinders)
                                  elements +
                                  "  set Elements along = 2\n  set Realisations = 1\n  set Tension step = 2e-5\n"
                                  "  set Newton tolerance = 1e-10\nend\n"
-                                 "subsection Tests\n  set List = direct_tension\n  set Stop strain = 1.6e-4\nend\n");
+                                 "subsection Tests\n  set List = direct_tension\n  set Stop strain = 1.6e-4\nend\n"
+                                 "subsection Seeds\n  set Seeds = 4\nend\n");
       expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 1 --force --quiet --threads 1"));
       expect_success(
         run_feldspar(folder.path(), "multiscale pull.prm --output 2 --force --quiet --threads 1", mpirun(2)));

@@ -137,7 +137,6 @@ TEST(Core, WhatLosesItsLastJointToTheBodyIsRemoved)
 SpecimenParameters cylinder(const double porosity)
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.dimension = 3;
   wanted.shape = "cylinder";
   wanted.width = 0.010;

@@ -37,7 +37,7 @@ subsection Specimen
   set Porosity = 0.15
   set Density = 2.65 g/cm^3
   set Packing stress ratio = 4e-4
-  set Packing relaxation = dynamics # the other excludes files, below
+  set Packing relaxation = dynamics
   set Coring = none                # the other needs grains of its own, below
   set Cells across = 1
   set Cells along = 1

@@ -62,7 +62,6 @@ Specimen<Case::dim> small_bonded_specimen()
 {
   constexpr int dim = Case::dim;
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.dimension = dim;
   wanted.shape = dim == 2 ? "box" : "cylinder";
   wanted.width = dim == 2 ? 0.012 : 0.008;

@@ -429,7 +429,7 @@ TYPED_TEST(Networks, FirstBreakIsThatOfTheFullSolution)
       EXPECT_TRUE(network.stays_intact(Voigt<dim>((1.0 - 1e-6) * linear_until * direction))) << direction.transpose();
       EXPECT_FALSE(network.stays_intact(Voigt<dim>((1.0 + 1e-6) * linear_until * direction)));
     }
-  EXPECT_LT(n_touching, 10u);
+  EXPECT_LT(n_touching, 20u); // of 200
 }
 
 TYPED_TEST(Networks, NothingThatIsNoNumberStaysIntact)

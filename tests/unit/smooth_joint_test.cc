@@ -338,7 +338,6 @@ Specimen<2> halves(const SmoothSides& sides, const double width, const double he
                    const double minimum_radius = 6.2e-4)
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.width = width;
   wanted.height = height;
   wanted.minimum_radius = minimum_radius;
@@ -568,7 +567,6 @@ TEST(SmoothPlane, CountsAndPiecesAndRefusals)
 Specimen<2> minerals(const std::uint64_t seed = 1)
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.width = 0.020;
   wanted.height = 0.040;
   FlatJointParameters flat_joint;

@@ -145,7 +145,6 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
 Specimen<3> granite_in_space(const std::string& shape, const double width, const double height)
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.dimension = 3;
   wanted.shape = shape;
   wanted.width = width;
@@ -177,7 +176,6 @@ TEST(SpaceLab, SplitsADiscAlongTheLoad)
 std::vector<std::string> cut_as_said(const double width, const double height)
 {
   SpecimenParameters wanted;
-  wanted.packed_by_descent = true;
   wanted.width = width;
   wanted.height = height;
   FlatJointParameters joint;

@@ -175,11 +175,13 @@ double motion_of_face(const TestOutcome& outcome, const Vector<2>& middle, const
 TEST(ACrackedPlate, OfGrainsExtendsAndOpensAsTheSolidDoes)
 {
   // For the forces a hole ends half a mean diameter behind the line along which it was cut (docs/theory.md §3.1), and so does
-  // this crack: by half a grain longer at each tip, 7 % of its length. Over these seeds the extension is 0.91, 1.00
-  // and 1.05 of the closed form, the opening 0.93, 0.96 and 1.00. Over the forms of a crack as long as its cut they would be
-  // 1.06 to 1.23 and 1.02 to 1.10, over the extension of a crack in an infinite plate 1.11 to 1.28.
+  // this crack: by half a grain longer at each tip, 7 % of its length. Over these seeds the extension is 0.90 to 1.10
+  // of the closed form, 1.00 on average, the opening 0.93 to 1.03. Over the forms of a crack as long as its cut they would be
+  // 1.17 and 1.08 on average, over the extension of a crack in an infinite plate 1.22.
   constexpr double ratio = 0.5;
-  for (const std::uint64_t seed : {1, 2, 3})
+  constexpr unsigned int n_seeds = 4;
+  double mean_extension = 0.0; // over the closed form
+  for (unsigned int seed = 1; seed <= n_seeds; ++seed)
     {
       SCOPED_TRACE(seed);
       const Specimen<2> specimen = strong_plate(seed);
@@ -193,12 +195,14 @@ TEST(ACrackedPlate, OfGrainsExtendsAndOpensAsTheSolidDoes)
       const double a = 0.5 * ratio * width + specimen.report.mean_radius;
       const double modulus = slope(whole.record.curve);
       const double extension = (modulus / slope(outcome.record.curve) - 1.0) * length;
-      EXPECT_NEAR(extension / extension_over_strain(a, width), 1.0, 0.1);
+      EXPECT_NEAR(extension / extension_over_strain(a, width), 1.0, 0.15);
+      mean_extension += extension / extension_over_strain(a, width) / n_seeds;
       const Vector<2> middle = 0.5 * specimen.size;
       const double opening = motion_of_face(outcome, middle, a, 1.0) - motion_of_face(outcome, middle, a, -1.0);
       const double strain = outcome.record.curve.back().axial_stress / modulus;
       EXPECT_NEAR(opening / (strain * opening_over_strain(a, width)), 1.0, 0.1);
     }
+  EXPECT_NEAR(mean_extension, 1.0, 0.05);
 }
 } // namespace
 } // namespace feldspar

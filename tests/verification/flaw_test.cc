@@ -109,16 +109,18 @@ TEST(AHole, CracksFirstAtItsCrownInTension)
   const Vector<2> centre = 0.5 * specimen.size;
   put_in_flaws<2>(specimen, {EllipseHole{centre, {radius, radius}}});
   const TestOutcome outcome = compress(specimen, 4e-4);
-  ASSERT_GE(outcome.record.cracks.size(), 5u);
-  for (std::size_t k = 0; k < 5; ++k)
+  ASSERT_GE(outcome.record.cracks.size(), 10u);
+  unsigned int n_at_crown = 0;
+  for (std::size_t k = 0; k < 10; ++k)
     {
       const Crack& crack = outcome.record.cracks[k];
       EXPECT_EQ(crack.kind, CrackKind::tension);
       const Vector<2> crown = centre + Vector<2>(0.0, std::copysign(radius, crack.centroid[1] - centre[1]));
-      EXPECT_LT(std::hypot(crack.centroid[0] - crown[0], crack.centroid[1] - crown[1]),
-                3.0 * 2.0 * specimen.report.mean_radius);
+      n_at_crown += std::hypot(crack.centroid[0] - crown[0], crack.centroid[1] - crown[1]) <
+                    3.0 * 2.0 * specimen.report.mean_radius;
       EXPECT_LT(stress_at(crack, outcome.record), 20e6);
     }
+  EXPECT_GE(n_at_crown, 9u); // the weakest bond elsewhere may come between them
 }
 
 TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
@@ -163,11 +165,12 @@ TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
 }
 
 /// Of granite with a plane of this angle through its middle, from side to side and without cohesion: the highest axial
-/// stress up to a strain at which all of it slides [Pa], compression positive.
+/// stress up to a strain at which all of it slides [Pa], compression positive. Bonds are so strong that only the plane gives
+/// way.
 double slip_strength(const double width, const double height, const double angle, const double friction_angle,
                      const double pressure)
 {
-  Specimen<2> specimen = granite(width, height, 0.62e-3, 1);
+  Specimen<2> specimen = granite(width, height, 0.62e-3, 1, 10.0);
   const Vector<2> middle = 0.5 * specimen.size;
   const Vector<2> half = 0.5 * width * Vector<2>(1.0, std::tan(angle));
   SmoothSides sides;
@@ -198,8 +201,8 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 TEST(ASmoothPlane, SlipsUnderConfinementAsJaegerSays)
 {
-  // From corner to corner, so that each half has one platen and one side plate to itself. The granite bears 250 MPa and
-  // more at this pressure; without the normal of the plane, faces along the grains would hook as those of a rough flaw do.
+  // From corner to corner, so that each half has one platen and one side plate to itself. Without the normal of the plane,
+  // faces along the grains would hook as those of a rough flaw do.
   const double friction_angle = 30.0 * degree;
   const double pressure = 10e6;
   for (const double angle : {50.0 * degree, 60.0 * degree, 70.0 * degree})

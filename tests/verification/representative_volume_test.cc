@@ -172,10 +172,10 @@ TEST(Granite, BalancesHoldInTriaxialCompressionBeyondThePeak)
 
 TEST(Granite, BalancesHoldInCompressionWithFreeSides)
 {
-  // Columns and wedges slide and turn while nothing holds the sides. Newton's method alone ends at -2.1e-3.
+  // Columns and wedges slide and turn while nothing holds the sides. Newton's method alone does not come so far.
   const auto run = run_axially(granite(2), -3.5e-3, 0.0, 5e-5);
   expect_balances(run.record());
-  EXPECT_GT(run.record().cracks.size(), 1200u);
+  EXPECT_GT(run.record().cracks.size(), 1000u);
 }
 
 TEST(GraniteInSpace, CoordinationAndStiffnessAreThoseOfIndependentPrograms)
@@ -207,7 +207,7 @@ TEST(GraniteInSpace, BalancesHoldAlongATensionPathWithCracks)
 TEST(GraniteInSpace, BalancesHoldInTriaxialCompressionBeyondThePeak)
 {
   // Some fifty spheres: minutes for hundreds.
-  const auto run = run_axially(std::make_shared<const Network<3>>(granite_in_space(1, 0.006)), -9e-3, 20e6, 1e-4);
+  const auto run = run_axially(std::make_shared<const Network<3>>(granite_in_space(1, 0.006)), -1.1e-2, 20e6, 1e-4);
   expect_balances(run.record());
   EXPECT_GT(run.record().cracks.size(), 500u);
   const auto& last = run.record().samples.back();

@@ -201,7 +201,7 @@ TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
     {
       SofteningPoint<2> point(std::make_unique<GrainPoint<2>>(network, Tensor<2>(Tensor<2>::Identity()), tight), scale);
       const Voigt<2> step(-1e-6, 5e-6, 5e-7);
-      constexpr int n_steps = 120;
+      constexpr int n_steps = 140;
       constexpr int n_parts = 8; // of a step, in which bonds are frozen: faces close and slide
       double work = 0.0;
       Voigt<2> stress = Voigt<2>::Zero();
