@@ -28,7 +28,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 RESULTS = os.path.join(HERE, "results")
 PICTURE = os.path.join(RESULTS, "two-flaws.png")
-GRANITE = os.path.join(HERE, "../beishan-granite/results/ensemble.json")
+GRANITE = os.path.join(HERE, "../beishan-granite/results/ensemble-by-motion.json")
 SEGMENTS = 4  # of a face, as in the inputs
 RADIUS = 0.62e-3 * (1 + 1.66) / 2  # mean of the grains [m]
 BRIDGES = (45, 75, 105, 135)  # angles [deg], in the order of the variants behind the intact one

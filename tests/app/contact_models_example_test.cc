@@ -241,7 +241,7 @@ TEST(ContactModels, TheRatioFallsAsClumpsGrow)
 TEST(ContactModels, TheFlatJointIsThatOfTheEnsemble)
 {
   const auto five = study("flat-joint");
-  const auto ten = results_of("beishan-granite", "ensemble");
+  const auto ten = results_of("beishan-granite", "ensemble-by-motion");
   for (const auto& test : five["tests"])
     {
       const double expected = test_of(ten, test["name"])["peak_stress_Pa"].get<double>();

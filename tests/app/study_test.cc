@@ -928,7 +928,7 @@ int exit_code_of_git(const std::string& arguments)
 
 // Without a piece that could be run here, and why.
 const std::map<std::string, std::string> without_piece{
-  {"radius-as-diameter.json", "its packing takes more than a minute"},
+  {"radius-as-diameter.json", "a test of its 7 700 grains takes more than a minute"},
   {"beishan-cylinder.json", "its packing takes more than a minute"},
   {"published-size.json", "core-hours"},
   {"mesh-study.json", "minutes for each of its curves; it keeps figures over the meshes only"},
