@@ -29,9 +29,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 NAME = "uniaxial_compression_seed_1"
 # Eight elements of 12 mm with RVEs of some 75 discs. Tolerances are far below what is compared.
 INPUT = """subsection Specimen
-  set Shape  = periodic
-  set Width  = 14 mm
-  set Height = 14 mm
+  set Shape              = periodic
+  set Width              = 14 mm
+  set Height             = 14 mm
+  set Packing relaxation = dynamics
 end
 subsection Sample
   set Width            = 24 mm

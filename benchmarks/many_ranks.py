@@ -22,9 +22,10 @@ from on_ranks import ENVIRONMENT, committed_version, launcher
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUT = """subsection Specimen
-  set Shape  = periodic
-  set Width  = 25 mm
-  set Height = 25 mm
+  set Shape              = periodic
+  set Width              = 25 mm
+  set Height             = 25 mm
+  set Packing relaxation = dynamics
 end
 subsection Sample
   set Width            = 50 mm

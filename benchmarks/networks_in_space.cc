@@ -17,6 +17,7 @@ int main()
   wanted.shape = "periodic";
   wanted.width = wanted.height = 0.0148;
   wanted.porosity = 0.36;
+  wanted.packed_by_descent = false; // as what it is compared with
   FlatJointParameters joint;
   std::string rows;
   for (const std::uint64_t seed : {1, 2, 3})

@@ -17,6 +17,7 @@ Specimen<dim> specimen()
   SpecimenParameters wanted;
   wanted.shape = "periodic";
   wanted.width = wanted.height = dim == 2 ? 0.0325 : 0.0133;
+  wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;
   if constexpr (dim == 2)
     joint.coordination_number = 4.2;

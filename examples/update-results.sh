@@ -5,7 +5,9 @@
 #
 # FELDSPAR is the built command; without names every study is run. Each EXAMPLE/results/NAME.json is the summary.json of
 # its run: figures, seeds, commit and machine. Where a folder has a study.py, that writes the results that are not listed
-# here. The READMEs take their figures from there, and a test checks that they agree. A build of a changed work tree is
+# here. beishan-granite/results/ensemble-by-motion.json is ensemble.prm with Packing relaxation = dynamics. Inputs that say so
+# had their results made before grains came to rest by descent; whoever makes them anew takes the entry out and mends the README.
+# The READMEs take their figures from there, and a test checks that they agree. A build of a changed work tree is
 # refused: its results could not be made again.
 set -euo pipefail
 feldspar=$(realpath "$1")

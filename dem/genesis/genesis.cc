@@ -159,7 +159,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
         }
       if (k == most_scalings)
         throw InputError(fmt::format("Specimen: no packing at a mean stress of {:.3g} Pa within {} scalings (reached "
-                                     "{:.3g} Pa); another Porosity, Packing stress ratio or seed may do",
+                                     "{:.3g} Pa); Packing relaxation = static, another Porosity, Packing stress ratio or seed may do",
                                      target, most_scalings, stress));
       if (std::abs(error) <= stress_tolerance)
         continue; // only time is missing

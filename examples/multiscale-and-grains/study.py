@@ -604,11 +604,14 @@ def print_kinematics():
     small, finite = {}, {}
     for name in ("sample", "sample-confined", "sample-5-mpa"):
         small |= by_pressure_and_seed(name)
-    for name in ("sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite"):
+    for name in ("sample-finite-uniaxial", "sample-finite-5-mpa", "sample-finite", "sample-finite-later-seeds"):
         finite |= by_pressure_and_seed(name)
     for key in sorted(finite):
         cells = [str(part) for part in key]
-        for one in (small[key], finite[key]):
+        for one in (small.get(key), finite[key]):
+            if one is None:  # not run
+                cells += ["–", "–"]
+                continue
             has_peak = one["peak_stress_Pa"] is not None
             cells.append(f"{(one['peak_stress_Pa'] or one['stress_at_end_Pa']) / 1e6:.0f}")
             cells.append(f"{1e3 * one['strain_at_peak']:.1f}" if has_peak else "no peak")
@@ -622,9 +625,9 @@ def print_kinematics():
         slow.setdefault(round(test["confining_pressure_Pa"] / 1e6), []).append(highest(test))
     for pressure in sorted({key[0] for key in finite}):
         keys = [key for key in finite if key[0] == pressure]
-        ratios = [highest(finite[key]) / highest(small[key]) for key in keys]
+        ratios = [highest(finite[key]) / highest(small[key]) for key in keys if key in small]
         values = [highest(finite[key]) for key in keys]
-        print(f"| {pressure} | {len(keys)} | {shown(values, 0)} | {shown(ratios, 3)} |")
+        print(f"| {pressure} | {len(keys)} | {shown(values, 0)} | {shown(ratios, 3)} ({len(ratios)}) |")
         print(f"from grains at 0.25/s: {difference(values, slow[pressure])}")
     print()
 

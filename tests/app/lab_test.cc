@@ -663,7 +663,7 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
                            "  set Packing relaxation = dynamics\nend\n"
                            "subsection Tests\n  set List = brazilian\nend\n"
                            "subsection Seeds\n  set Seeds = 1, 2\nend\n");
-  // The disc of the first seed has no grain where it is loaded; it would have been as large.
+  // Packed by motion, the disc of the first seed has no grain where it is loaded; it would have been as large.
   EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 2);
   const auto json = summary(folder.path() / "out");
   ASSERT_EQ(json["tests"].size(), 2u);

@@ -952,6 +952,7 @@ const std::map<std::string, std::string> without_piece{
   {"walled-cylinder-33-mm.json", "the cylinder of 13.2 mm has a piece"},
   {"sample-5-mpa.json", "the samples of other seeds under this pressure have a piece"},
   {"sample-finite-uniaxial.json", "the same sample under pressure has a piece"},
+  {"sample-finite-later-seeds.json", "the samples of other seeds under these pressures have a piece"},
   {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"full-size-seed-2.json", "the packing of 49 756 spheres and a test of it take minutes"},
   {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},

@@ -225,7 +225,7 @@ TEST(Clumps, SwingOnTheirJointsWithoutLossAtTheirTimeStep)
     }
   EXPECT_EQ(n_broken, 0u);
   EXPECT_GT(most_stored, 0.5 * put_in);
-  // It falls with the square of the time step: 1.1e-3 here, 2.8e-4 and 6.8e-5 at a half and a quarter of it.
+  // The error of the time steps falls with their square: 1.1e-3 here, 2.8e-4 and 6.8e-5 at a half and a quarter of them.
   EXPECT_LT(std::abs(dynamics.energies().unaccounted()), 1.5e-3 * put_in);
 }
 

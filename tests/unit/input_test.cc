@@ -464,6 +464,9 @@ TEST(Input, GrainsComeToRestByDescentUnlessMotionIsAskedFor)
   EXPECT_TRUE(SpecimenParameters().packed_by_descent);
   EXPECT_FALSE(read_input(folder.write("a.prm", choice + "dynamics\nend\n")).specimen.packed_by_descent);
   EXPECT_NE(error_of("a.prm", choice + "fast\nend\n").find("static or dynamics"), std::string::npos);
+  // An input that states every entry may name grains that are there already.
+  folder.write("grains.txt", "0.002 0.005 0.001\n");
+  EXPECT_NO_THROW(read_input(folder.write("b.prm", choice + "static\n  set Packing file = grains.txt\nend\n")));
 }
 
 TEST(Input, EveryEntryOfClumpsReachesItsMemberOrIsRefusedByName)

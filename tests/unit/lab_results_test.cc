@@ -236,7 +236,7 @@ TEST(Energies, KineticEnergyIsThatOfTheMotionAndTheSteadyStartIsCounted)
       // A steady stretch keeps the energy it was set off with, which is not small beside the work of the first rows.
       const Energies later = record.curve[5].energies;
       EXPECT_NEAR(later.kinetic, set_off, 0.2 * set_off);
-      EXPECT_LT(std::abs(later.unaccounted()), 0.1 * set_off); // all of it, if it were not counted
+      EXPECT_LT(std::abs(later.unaccounted()), 0.1 * set_off); // 0.06; all of it, if it were not counted
     }
 }
 

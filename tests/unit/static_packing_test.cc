@@ -23,7 +23,6 @@ SpecimenParameters static_box(const double width, const double height)
   SpecimenParameters wanted;
   wanted.width = width;
   wanted.height = height;
-  wanted.packed_by_descent = true;
   return wanted;
 }
 

@@ -166,7 +166,8 @@ TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
 
 /// Of granite with a plane of this angle through its middle, from side to side and without cohesion: the highest axial
 /// stress up to a strain at which all of it slides [Pa], compression positive. Bonds are so strong that only the plane gives
-/// way.
+/// way: with those of Table 1 some grains break before a plane of 45 degrees slides, and three of eight packings bear 3 to 5 %
+/// less.
 double slip_strength(const double width, const double height, const double angle, const double friction_angle,
                      const double pressure)
 {
