@@ -158,9 +158,10 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
           break;
         }
       if (k == most_scalings)
-        throw InputError(fmt::format("Specimen: no packing at a mean stress of {:.3g} Pa within {} scalings (reached "
-                                     "{:.3g} Pa); Packing relaxation = static, another Porosity, Packing stress ratio or seed may do",
-                                     target, most_scalings, stress));
+        throw InputError(
+          fmt::format("Specimen: no packing at a mean stress of {:.3g} Pa within {} scalings (reached "
+                      "{:.3g} Pa); Packing relaxation = static, another Porosity, Packing stress ratio or seed may do",
+                      target, most_scalings, stress));
       if (std::abs(error) <= stress_tolerance)
         continue; // only time is missing
       // Near jamming the stress of a packing rises by about its contact modulus per unit of relative radius; one that
