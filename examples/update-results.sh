@@ -16,7 +16,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 ../scripts/provenance.sh "$feldspar"
 studies=("$@")
 ((${#studies[@]})) || studies=(
-  beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study}
+  beishan-granite/{beishan,ensemble,radius-as-diameter,rate-study,platens}
   beishan-cylinder/beishan-cylinder
   contact-models/{flat-joint,parallel-bond,grain-based,clumped,clump-size}
   calibrate-{beishan,beishan-cylinder,lac-du-bonnet,sandstone}/calibrate

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Readers of files from outside under libFuzzer and the sanitizers (clang), one after the other on one core.
+# Readers of files from outside under libFuzzer and the sanitizers (clang), as many at a time as there are cores.
 #
-#   scripts/fuzz.sh                      an hour over all readers
-#   scripts/fuzz.sh SECONDS [READER...]  so long in all, over these readers; in the continuous integration a minute
+#   scripts/fuzz.sh                      an hour of a core over all readers
+#   scripts/fuzz.sh SECONDS [READER...]  so much time of a core over these readers; in the continuous integration a minute
 #
 # Inputs that are new to the code are kept in build/fuzz/corpus/READER, from where a later call goes on. What a reader
 # takes badly is left in build/fuzz/found and shown at the end as base64, for a machine that is gone afterwards; copied to
@@ -30,26 +30,29 @@ mkdir -p build/fuzz/found
 # HDF5 and MPI keep what they have made until the end.
 export TMPDIR=$memory ASAN_OPTIONS=detect_leaks=0
 seconds_each=$(((seconds + ${#readers[@]} - 1) / ${#readers[@]}))
-bad=0
-for reader in "${readers[@]}"; do
+fuzz()
+{
+  local reader=$1 log=build/fuzz/$1.log verdict="nothing found"
   mkdir -p "build/fuzz/corpus/$reader"
-  log=build/fuzz/$reader.log
-  verdict="nothing found"
   FELDSPAR_FUZZED_READER=$reader build/asan/tests/fuzz/fuzz_readers -max_total_time=$seconds_each -seed=$seed \
     -timeout=60 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
-    "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
+    "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 ||
     verdict="FOUND: see $log and build/fuzz/found"
-    bad=1
-  }
+  local inputs
   inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-17s %9s inputs  %s\n' "$reader" "${inputs:-?}" "$verdict"
-  if [[ $verdict == FOUND* ]]; then
+  [[ $verdict == "nothing found" ]] || {
     tail --lines=40 "$log"
     sed -n 's/.*Test unit written to //p' "$log" | while read -r found; do
       printf '%s:\n' "$found"
       base64 "$found"
     done
-  fi
-done
-((!bad)) || echo "seed $seed, of the commit"
-exit $bad
+    return 1
+  }
+}
+export -f fuzz
+export seed seconds_each
+printf '%s\0' "${readers[@]}" | xargs --null --max-args=1 --max-procs="$(nproc)" bash -c 'fuzz "$0"' || {
+  echo "seed $seed, of the commit"
+  exit 1
+}

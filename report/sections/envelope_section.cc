@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -29,6 +30,21 @@ std::string with_symbols(std::string text)
     for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
       text.replace(at, std::string(word).size(), symbol);
   return text;
+}
+
+/// The likely cause of points that rise most steeply up to the first confinement, where platens let the ends widen.
+std::string remark_on_platens(const Series& series, const StrengthData& data)
+{
+  std::string friction = series.made_by.value_of("Tests", "Platen friction");
+  if (!series.tests.empty())
+    for (const VariantSetting& setting : series.tests.front().settings)
+      if (setting.entry == "Tests/Platen friction")
+        friction = setting.value;
+  if (series.kind != SeriesKind::specimens || friction.empty() || std::strtod(friction.c_str(), nullptr) != 0.0 ||
+      !rises_more_steeply_under_confinement(data))
+    return "";
+  return "The platens are smooth, so that a specimen splits early without confinement. Those of a laboratory hold its ends, which "
+         "raises the uniaxial strength most: see Tests/Platen friction.";
 }
 
 std::string text_of(const MohrCoulombFit& fit)
@@ -228,6 +244,8 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
           continue;
         }
       block.paragraphs.push_back(with_symbols(remark(envelopes)));
+      if (const std::string platens = remark_on_platens(findings.all[n], envelopes.data); !platens.empty())
+        block.paragraphs.push_back(platens);
       if (n == 0 && findings.reference)
         if (const std::string printed = remark_on_printed(findings.reference->model); !printed.empty())
           block.paragraphs.push_back(printed);

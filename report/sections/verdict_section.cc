@@ -20,13 +20,11 @@ namespace
 /// The material of the points, as the input names it.
 std::string material_at_points(const Provenance& made_by)
 {
-  const auto found = std::find_if(made_by.input.begin(), made_by.input.end(), [](const InputEntry& one) {
-    return one.section == "Sample" && one.entry == "Material";
-  });
-  if (found == made_by.input.end())
+  const std::string material = made_by.value_of("Sample", "Material");
+  if (material.empty())
     return "";
-  return found->value == "grains" ? " with a representative volume of grains at every point"
-                                  : " of " + found->value + ", without grains";
+  return material == "grains" ? " with a representative volume of grains at every point"
+                              : " of " + material + ", without grains";
 }
 
 /// ✗ 2: tensile strength, Young's modulus

@@ -128,8 +128,8 @@ std::string remark_on_intact_form(const StrengthEnvelopes& envelopes)
                           100.0 * general->quality.root_mean_square / *envelopes.data.uniaxial_compressive_strength);
   return result;
 }
+} // namespace
 
-/// The points rise more steeply after the uniaxial test than before it, which no envelope with a <= 1 can follow.
 bool rises_more_steeply_under_confinement(const StrengthData& data)
 {
   const EnvelopePoint* first = nullptr;
@@ -140,7 +140,6 @@ bool rises_more_steeply_under_confinement(const StrengthData& data)
          (first->sigma_1 - *data.uniaxial_compressive_strength) / first->sigma_3 >
            *data.uniaxial_compressive_strength / *data.tensile_strength;
 }
-} // namespace
 
 const HoekBrownFit* StrengthEnvelopes::representative() const
 {

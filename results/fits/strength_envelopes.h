@@ -36,6 +36,10 @@ std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes);
 /// From this share of the uniaxial strength on an envelope is said to miss its points.
 inline constexpr double largest_miss = 0.1;
 
+/// Whether the points rise more steeply from the uniaxial test to the first confinement than from tension to the uniaxial test,
+/// which no envelope with a <= 1 can follow.
+bool rises_more_steeply_under_confinement(const StrengthData& data);
+
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data);
 
 /// A figure of a fit by its name in result files, which ends in its SI unit.

@@ -1,9 +1,17 @@
 #include "results/runs/run.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace feldspar
 {
+std::string Provenance::value_of(const std::string& section, const std::string& entry) const
+{
+  const auto found = std::find_if(input.begin(), input.end(),
+                                  [&](const InputEntry& one) { return one.section == section && one.entry == entry; });
+  return found == input.end() ? "" : found->value;
+}
+
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
                       std::vector<VariantSetting> settings)
 {

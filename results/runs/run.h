@@ -26,6 +26,9 @@ struct Provenance
   std::vector<InputEntry> input;
   std::string processor;
   unsigned int n_threads = 1;
+
+  /// With its unit; empty where the input is not known or has no such entry.
+  std::string value_of(const std::string& section, const std::string& entry) const;
 };
 
 /// A finished test with its results.

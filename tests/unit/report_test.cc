@@ -767,6 +767,38 @@ TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
   EXPECT_EQ(admissible["Mohr–Coulomb"], "not determined: an interval reaches 0");
 }
 
+TEST(Envelope, OfPointsThatAreSteepestUnderTheFirstPressureNamesSmoothPlatens)
+{
+  const auto says_so = [](const std::string& friction, const double strength_at_10_mpa,
+                          const std::vector<VariantSetting>& settings = {},
+                          const SeriesKind kind = SeriesKind::specimens) {
+    StrengthData data{{}, 160e6, 10e6};
+    for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 160e6), {10e6, strength_at_10_mpa}, {30e6, 480e6}})
+      data.points.push_back({sigma_3, sigma_1});
+    FinishedTest test = compression(1);
+    test.settings = settings;
+    Series series{"rock", kind, {}, {test}, {}};
+    series.made_by.input = {{"Tests", "Platen friction", friction}};
+    const std::vector<Series> all{series};
+    const std::optional<Reference> no_reference;
+    const std::string no_problem;
+    Findings findings{all, all, no_reference, no_problem, true, {}, {fit_strength_envelopes(data)}};
+    PictureBook book;
+    for (const PageBlock& block : envelope_section(findings, book).blocks)
+      for (const std::string& paragraph : block.paragraphs)
+        if (paragraph.find("Tests/Platen friction") != std::string::npos)
+          return true;
+    return false;
+  };
+  // From tension to the uniaxial test the points rise by 160 over 10; up to the first pressure by 18 or by 14 over one.
+  EXPECT_TRUE(says_so("0", 340e6));
+  EXPECT_FALSE(says_so("0", 300e6));
+  EXPECT_FALSE(says_so("0.2", 340e6));
+  EXPECT_FALSE(says_so("0", 340e6, {{"Tests/Platen friction", "0.1"}}));
+  EXPECT_TRUE(says_so("0.2", 340e6, {{"Tests/Platen friction", "0"}}));
+  EXPECT_FALSE(says_so("0", 340e6, {}, SeriesKind::finite_elements)); // its platens are those of Sample/Platens
+}
+
 TEST(PictureBook, NumbersPicturesOfOneName)
 {
   PictureBook book;
