@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fuzzes the readers of files from outside and keeps how many inputs each was given.
 
-    python3 benchmarks/fuzz.py                            # an hour over all readers; writes results/fuzz.json
+    python3 benchmarks/fuzz.py                            # an hour of a core over all readers; writes results/fuzz.json
     python3 benchmarks/fuzz.py 600 rock variants          # ten minutes over these two
     python3 benchmarks/fuzz.py 600 rock --file FILE       # the same into FILE
 

@@ -54,7 +54,7 @@ def main():
         "threads": wanted.threads,
         "times": wanted.times,
         "clock_s": clock,
-        "processor_time_s": processor,
+        "user_time_s": processor,
         "n_grains": summary["tests"][0]["n_grains"],
         "peak_stress_Pa": {test["name"]: test["peak_stress_Pa"] for test in summary["tests"]},
     }
@@ -62,7 +62,7 @@ def main():
     with open(file, "w", encoding="utf-8") as out:
         json.dump(made, out, indent=2)
         out.write("\n")
-    print(f"{clock:.1f} s by the clock, {processor:.1f} s of the processor")
+    print(f"{clock:.1f} s by the clock, {processor:.1f} s of the processor (user)")
 
 
 if __name__ == "__main__":

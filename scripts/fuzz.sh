@@ -34,25 +34,31 @@ fuzz()
 {
   local reader=$1 log=build/fuzz/$1.log verdict="nothing found"
   mkdir -p "build/fuzz/corpus/$reader"
+  rm --force "build/fuzz/$reader.failed"
   FELDSPAR_FUZZED_READER=$reader build/asan/tests/fuzz/fuzz_readers -max_total_time=$seconds_each -seed=$seed \
     -timeout=60 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
-    "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 ||
+    "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
     verdict="FOUND: see $log and build/fuzz/found"
+    touch "build/fuzz/$reader.failed"
+  }
   local inputs
   inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%-17s %9s inputs  %s\n' "$reader" "${inputs:-?}" "$verdict"
-  [[ $verdict == "nothing found" ]] || {
-    tail --lines=40 "$log"
-    sed -n 's/.*Test unit written to //p' "$log" | while read -r found; do
-      printf '%s:\n' "$found"
-      base64 "$found"
-    done
-    return 1
-  }
 }
 export -f fuzz
 export seed seconds_each
-printf '%s\0' "${readers[@]}" | xargs --null --max-args=1 --max-procs="$(nproc)" bash -c 'fuzz "$0"' || {
-  echo "seed $seed, of the commit"
-  exit 1
-}
+printf '%s\0' "${readers[@]}" | xargs --null --max-args=1 --max-procs="$(nproc)" bash -c 'fuzz "$0"'
+
+# One after the other, so that what two readers found does not mix.
+bad=0
+for reader in "${readers[@]}"; do
+  [[ -e build/fuzz/$reader.failed ]] || continue
+  bad=1
+  tail --lines=40 "build/fuzz/$reader.log"
+  sed -n 's/.*Test unit written to //p' "build/fuzz/$reader.log" | while read -r found; do
+    printf '%s:\n' "$found"
+    base64 "$found"
+  done
+done
+((!bad)) || echo "seed $seed, of the commit"
+exit $bad

@@ -43,8 +43,9 @@ std::string remark_on_platens(const Series& series, const StrengthData& data)
   if (series.kind != SeriesKind::specimens || friction.empty() || std::strtod(friction.c_str(), nullptr) != 0.0 ||
       !rises_more_steeply_under_confinement(data))
     return "";
-  return "The platens are smooth, so that a specimen splits early without confinement. Those of a laboratory hold its ends, which "
-         "raises the uniaxial strength most: see Tests/Platen friction.";
+  return "The strengths rise most steeply up to the first confinement. Smooth platens are a likely cause: between them a specimen splits "
+         "early without confinement. The friction of a laboratory's platens raises the uniaxial strength most (Tests/Platen "
+         "friction).";
 }
 
 std::string text_of(const MohrCoulombFit& fit)
