@@ -12,14 +12,12 @@ import json
 import os
 import resource
 import subprocess
-import sys
 import tempfile
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "scripts"))
-compare = __import__("compare-speed")
-INPUT = os.path.join(HERE, "../examples/beishan-granite/beishan.prm")
+import record  # beside this file
+
+INPUT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../examples/beishan-granite/beishan.prm")
 
 
 def run(build, threads):
@@ -43,14 +41,9 @@ def main():
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--times", type=int, default=3)
     wanted = parser.parse_args()
-    made_by = compare.version(wanted.build)
-    if made_by.endswith(".modified"):
-        sys.exit(f"{wanted.build} ({made_by}) is of no commit: commit, build again, and measure with that")
+    record.version_of(wanted.build)
     clock, processor, summary = min((run(wanted.build, wanted.threads) for _ in range(wanted.times)), key=lambda one: one[0])
-    made = {
-        "feldspar_version": made_by,
-        "flags": compare.flags(wanted.build),
-        "processor": compare.processor(),
+    result = {
         "threads": wanted.threads,
         "times": wanted.times,
         "clock_s": clock,
@@ -58,10 +51,7 @@ def main():
         "n_grains": summary["tests"][0]["n_grains"],
         "peak_stress_Pa": {test["name"]: test["peak_stress_Pa"] for test in summary["tests"]},
     }
-    file = os.path.join(HERE, "results", f"nine-tests-{compare.vector_instructions(wanted.build)}.json")
-    with open(file, "w", encoding="utf-8") as out:
-        json.dump(made, out, indent=2)
-        out.write("\n")
+    record.keep(wanted.build, "nine-tests", result)
     print(f"{clock:.1f} s by the clock, {processor:.1f} s of the processor (user)")
 
 

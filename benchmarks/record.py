@@ -26,14 +26,34 @@ def runs(build, program):
     return [one for one in json.loads(out)["benchmarks"] if one["run_type"] == "iteration"]
 
 
+def version_of(build):
+    """The commit of a build; one with changes of its own is refused."""
+    made_by = compare.version(build)
+    if made_by.endswith(".modified"):
+        sys.exit(f"{build} ({made_by}) is of no commit: commit, build again, and measure with that")
+    return made_by
+
+
+def keep(build, name, result):
+    """Writes what a build took to results/NAME-INSTRUCTIONS.json."""
+    made = {
+        "feldspar_version": version_of(build),
+        "flags": compare.flags(build),
+        "processor": compare.processor(),
+        **result,
+    }
+    file = os.path.join(HERE, "results", f"{name}-{compare.vector_instructions(build)}.json")
+    with open(file, "w", encoding="utf-8") as out:
+        json.dump(made, out, indent=2)
+        out.write("\n")
+
+
 def main():
     os.environ.setdefault("FELDSPAR_THREADS", "1")  # as the programs have it
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     build, programs = sys.argv[1], sys.argv[2:]
-    made_by = compare.version(build)
-    if made_by.endswith(".modified"):
-        sys.exit(f"{build} ({made_by}) is of no commit: commit, build again, and measure with that")
+    made_by = version_of(build)
     known = {"name", "run_name", "run_type", "repetitions", "repetition_index", "threads", "iterations", "real_time"}
     known |= {"family_index", "per_family_instance_index", "cpu_time", "time_unit"}
     for program in programs:
@@ -42,9 +62,6 @@ def main():
             if run["run_name"] not in least or run["cpu_time"] < least[run["run_name"]]["cpu_time"]:
                 least[run["run_name"]] = run
         result = {
-            "feldspar_version": made_by,
-            "flags": compare.flags(build),
-            "processor": compare.processor(),
             "threads": os.environ["FELDSPAR_THREADS"],
             "benchmarks": {
                 name: {
@@ -54,11 +71,7 @@ def main():
                 for name, run in least.items()
             },
         }
-        name = f"{program.replace('_', '-')}-{compare.vector_instructions(build)}.json"
-        file = os.path.join(HERE, "results", name)
-        with open(file, "w", encoding="utf-8") as out:
-            json.dump(result, out, indent=2)
-            out.write("\n")
+        keep(build, program.replace("_", "-"), result)
         print(f"{program}: {len(least)} benchmarks by {made_by}")
 
 

@@ -51,7 +51,8 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
     entry::choice(
       "Packing relaxation", &P::packed_by_descent, {{"static", true}, {"dynamics", false}},
       "how the grains come to rest. static: by descent of grains and radii together; dynamics: by damped motion, "
-      "radii scaled in steps between, which takes some twenty times as long. The same seed gives another packing. "
+      "radii scaled in steps between, which takes some twenty times as long in the plane and thirty in space. The same "
+      "seed gives another packing. "
       "Without effect on a Packing file or Specimen file",
       of_rock),
     entry::choice(

@@ -485,6 +485,31 @@ TEST(Example, TheReadmeOfTheCylinderOfLacDuBonnetShowsItsAnswersAtTheLaboratorys
         strengths.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
     return strengths;
   };
+  // Points of both designs, on the same packings: uniaxial strength with friction over that without.
+  const auto strengths_of_points = [&](const std::string& file) {
+    std::map<std::string, double> strengths;
+    std::istringstream design(content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/" + example + "/results/" + file));
+    std::string line;
+    std::getline(design, line);
+    const auto header = cells_of(line);
+    const auto column = [&](const std::string& name) {
+      return std::size_t(std::find(header.begin(), header.end(), name) - header.begin());
+    };
+    while (std::getline(design, line))
+      if (const auto cells = cells_of(line); cells[column("stage")] == "design")
+        strengths[cells[column("point")]] += std::stod(cells[column("uniaxial_compressive_strength_Pa")]);
+    return strengths;
+  };
+  const auto with = strengths_of_points("design.csv"), without = strengths_of_points("smooth-platens-design.csv");
+  std::vector<double> gains;
+  for (const auto& [point, strength] : with)
+    gains.push_back(100.0 * (strength / without.at(point) - 1.0));
+  ASSERT_EQ(gains.size(), 12u);
+  std::sort(gains.begin(), gains.end());
+  const std::string sentence = fmt::format("by {:.0f} to {:.0f} %, the median by {:.0f} %", gains.front(), gains.back(),
+                                           0.5 * (gains[5] + gains[6]));
+  EXPECT_NE(readme.find(sentence), std::string::npos) << "missing: " << sentence;
+
   const auto pressed = results_of(example, "smooth-platens-full-size-triaxial")["tests"];
   const double uniaxial = granite["uniaxial_compressive_strength_MPa"]["mean"];
   for (const int pressure : {5, 10})
