@@ -69,8 +69,11 @@ inline std::vector<Entry<TestParameters>> test_entries()
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
                    of_grains_alike),
-    entry::number("Platen friction", &P::platen_friction, ranges::from_zero,
-                  "coefficient of the platens in compression", of_grains),
+    entry::number(
+      "Platen friction", &P::platen_friction, ranges::from_zero,
+      "coefficient of the platens in compression. 0: smooth, as in the flat-joint paper; those of a laboratory hold the "
+      "ends of a specimen, and raise the uniaxial strength most",
+      of_grains),
     entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
                   "travel times of a wave along the specimen over which the confinement is raised", of_grains),
     entry::choice("Lateral boundary", &P::lateral_boundary,
