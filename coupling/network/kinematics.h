@@ -2,6 +2,9 @@
 
 #include "coupling/network/link.h"
 
+#include <type_traits>
+#include <variant>
+
 /// How the motion of a link follows from those of its grains; docs/theory.md §9.8.
 namespace feldspar
 {
@@ -11,10 +14,29 @@ enum class Kinematics
   finite         ///< normals and branches follow the grains
 };
 
+/// The turns of both grains of a link in space, in its own axes at rest [rad].
+struct OwnTurns
+{
+  Vector<3> of_1 = Vector<3>::Zero(), of_2 = Vector<3>::Zero();
+};
+
+/// Turns in the plane are about one axis: nothing depends on how far they have gone.
+template <int dim>
+using LinkTurns = std::conditional_t<dim == 3, OwnTurns, std::monostate>;
+
+/// How a small motion of a turned link follows from those of its grains.
+template <int dim>
+struct TurnedGradient
+{
+  Tensor<dim> by_way =
+    Tensor<dim>::Identity(); ///< displacement components, by the way of the second centre from the first
+  LinkTurns<dim> turns;
+};
+
 /// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance
-/// of the centres; the slip is the angle by which the branch has turned, times its length at rest, less the turns of the
-/// grains times their arms. In the plane a rigid rotation of both grains is no motion. In space it is a false slip of half
-/// the product of its twist and its tilt.
+/// of the centres; the slip is the angle by which the branch has turned, times its length at rest, less the angles by which
+/// the grains have turned its normal, times their arms; the turn is that of the second grain from the first. A rigid rotation
+/// of both grains is no motion; in space to the second order of their turns.
 template <int dim>
 class TurnedLink
 {
@@ -25,19 +47,21 @@ public:
   /// Since rest [m, rad].
   const Motion<dim>& motion() const { return its_motion; }
 
-  /// Of the displacement components of the motion, by the way of the second centre from the first in the axes at rest.
-  Tensor<dim> gradient() const;
+  TurnedGradient<dim> gradient() const { return {gradient_by_way(), turns}; }
 
-  /// What forces of the link, conjugate to its motion, add to its stiffness against the same way because they turn with the
-  /// branch [N/m]. Symmetric; to first order in the angle of the branch.
+  /// What forces of the link, conjugate to its motion, add to its stiffness against the way of the second centre because they
+  /// turn with the branch [N/m]. Symmetric; to first order in the angle of the branch.
   Tensor<dim> stiffness(const Motion<dim>& forces) const;
 
 private:
+  Tensor<dim> gradient_by_way() const;
+
   double length_at_rest;
   Vector<dim> end; ///< of the branch, in the axes at rest [m]
   double length;
   double slope;        ///< the angle of the branch over its way across the normal at rest, ψ/ρ [1/m]
   double slope_change; ///< (d(ψ/ρ)/dρ)/ρ [1/m³]
+  LinkTurns<dim> turns;
   Motion<dim> its_motion;
 };
 
@@ -45,17 +69,18 @@ private:
 template <int dim>
 struct LinkTurn
 {
-  Tensor<dim> gradient = Tensor<dim>::Identity();
+  TurnedGradient<dim> gradient;
   Tensor<dim> stiffness = Tensor<dim>::Zero(); ///< TurnedLink::stiffness() [N/m]
+  Motion<dim> forces = Motion<dim>::Zero();    ///< of the link: against turns they are stiff as well [N, N m]
 };
 
 /// Small motion of a turned link.
 template <int dim>
-Motion<dim> link_motion(const Link<dim>& link, const Tensor<dim>& gradient, const Unknowns& unknowns);
+Motion<dim> link_motion(const Link<dim>& link, const TurnedGradient<dim>& gradient, const Unknowns& unknowns);
 
 /// Adds what the forces of a turned link do: the transpose.
 template <int dim>
-void add_forces(const Link<dim>& link, const Tensor<dim>& gradient, const Motion<dim>& forces, Unknowns& sum);
+void add_forces(const Link<dim>& link, const TurnedGradient<dim>& gradient, const Motion<dim>& forces, Unknowns& sum);
 
 /// Adds the forces that a small motion makes, or several do, by the stiffness of the link and that of its turning.
 template <int dim, typename Columns>

@@ -30,7 +30,7 @@ struct LinkForces
   {
     Vector<dim> own = values[k].template head<dim>();
     if (!turns.empty())
-      own = turns[k].gradient.transpose() * own;
+      own = turns[k].gradient.by_way.transpose() * own;
     return link.axes.transpose() * own;
   }
 };

@@ -148,7 +148,7 @@ Balance<dim> NetworkHistory<dim>::balance(const Unknowns& at, Balance<dim> resul
     const Link<dim>& link = links[k];
     if (turned)
       {
-        result.turns[k] = {turned->gradient(), turned->stiffness(forces)};
+        result.turns[k] = {turned->gradient(), turned->stiffness(forces), forces};
         add_forces(link, result.turns[k].gradient, forces, result.forces);
       }
     else

@@ -104,7 +104,7 @@ public:
     if (history.is_finite())
       {
         const Link<dim>& turning = history.network().links()[link];
-        const Tensor<dim> gradient = TurnedLink<dim>(turning, way.position(share)).gradient();
+        const TurnedGradient<dim> gradient = TurnedLink<dim>(turning, way.position(share)).gradient();
         of_grains = link_motion(turning, gradient, way.of_grains);
         of_strain = link_motion(turning, gradient, way.of_strain);
       }

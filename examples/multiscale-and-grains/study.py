@@ -128,6 +128,11 @@ for across, along in MESHES[1:]:
         ),
     )
 RATES_OF_50_MM = (("Compression", 1.0), ("Tension", 0.164))
+CONFINED_CYLINDER = (
+    "Tests/List = triaxial_compression",
+    "Tests/Confinements = 10, 40 MPa",
+    "Tests/Stop stress over peak = 0.9",
+)
 for width in WIDTHS_MM:
     one_gap = ("Variants/Entry = none", "Variants/Values = none", *at_width(width, *RATES_OF_50_MM))
     EXPERIMENTS[f"laboratory-{width}-mm"] = Experiment("lab", "laboratory", (one_gap,))
@@ -137,9 +142,13 @@ for sides, coring in (("cored", "sides only"), ("walled", "none")):
         EXPERIMENTS[f"{sides}-cylinder-{diameter:g}-mm"] = Experiment(
             "lab", "cylinder", ((*body, *at_width(diameter, *RATES_OF_50_MM)),)
         )
-    if sides == "cored":  # that between walls is examples/beishan-cylinder/full-size.prm
-        entries = (*body, *at_width(50, *RATES_OF_50_MM), "Seeds/Seeds = 1")
-        EXPERIMENTS["cored-cylinder-50-mm"] = Experiment("lab", "cylinder", (entries,))
+    if sides == "cored":  # that of 50 mm between walls is examples/beishan-cylinder/full-size.prm
+        one = (*body, *at_width(50, *RATES_OF_50_MM), "Seeds/Seeds = 1")
+        EXPERIMENTS["cored-cylinder-50-mm"] = Experiment("lab", "cylinder", (one,))
+        EXPERIMENTS["cored-cylinder-50-mm-confined"] = Experiment("lab", "cylinder", ((*one, *CONFINED_CYLINDER),))
+        for diameter in DIAMETERS_MM:
+            three = (*body, *at_width(diameter, *RATES_OF_50_MM), *CONFINED_CYLINDER)
+            EXPERIMENTS[f"cored-cylinder-{diameter:g}-mm-confined"] = Experiment("lab", "cylinder", (three,))
 for opening in OPENINGS_UM:
     EXPERIMENTS[f"softening-{opening}-um"] = Experiment(
         "multiscale", "softening", ((f"Softening flat joint/Softening opening = {opening} um",),)

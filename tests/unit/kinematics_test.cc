@@ -88,17 +88,22 @@ TYPED_TEST(TurnedLinks, AreStiffenedByTheForcesThatTurnWithThem)
   const double angle = 0.01;
   const Unknowns here = moved(network, link, angle);
   const Motion<dim> forces = Motion<dim>::LinSpaced(1.0, 2.0);
-  const Tensor<dim> stiffness = TurnedLink<dim>(link, here).stiffness(forces);
-  for (int c = 0; c < dim; ++c)
+  const auto on_grains = [&](const Unknowns& position) {
+    Unknowns sum = Unknowns::Zero(network.n_unknowns());
+    add_forces(link, TurnedLink<dim>(link, position).gradient(), forces, sum);
+    return sum;
+  };
+  const TurnedLink<dim> place(link, here);
+  const LinkTurn<dim> turn{place.gradient(), place.stiffness(forces), forces};
+  for (const Eigen::Index i : unknowns_of(network, link))
     {
-      const double step = 1e-6 * link.branch.norm();
-      Unknowns change = Unknowns::Zero(network.n_unknowns());
-      change.template segment<dim>(n_motions<dim> * Eigen::Index(link.grain_2)) = step * link.axes.row(c).transpose();
-      const Vector<dim> difference =
-        (TurnedLink<dim>(link, here + change).gradient() - TurnedLink<dim>(link, here - change).gradient())
-          .transpose() *
-        forces.template head<dim>() / (2.0 * step);
-      EXPECT_LT((difference - stiffness.col(c)).norm(), 3.0 * angle * angle * stiffness.norm());
+      const double step = 1e-6 * (i % n_motions<dim> < dim ? link.branch.norm() : 1.0);
+      const Unknowns change = step * Unknowns::Unit(network.n_unknowns(), i);
+      const Unknowns difference = (on_grains(here + change) - on_grains(here - change)) / 2.0;
+      Unknowns stiffened = Unknowns::Zero(network.n_unknowns());
+      add_forces_of_motion<dim, Unknowns>(link, turn, JointStiffness<dim>::Zero(), change, stiffened);
+      // Beside terms of the square of the angle, round-off of sums of some newtons.
+      EXPECT_LT((difference - stiffened).norm(), 3.0 * angle * angle * difference.norm() + 1e-15) << i;
     }
 }
 
@@ -109,7 +114,9 @@ TYPED_TEST(TurnedLinks, AreThoseOfSmallStrainsInTheLimit)
   const Link<dim>& link = network.links()[4];
   const auto error = [&](const double size) {
     const Unknowns here = moved(network, link, size);
-    return (TurnedLink<dim>(link, here).motion() - link_motion(link, here)).norm() / (size * link.branch.norm());
+    Motion<dim> difference = TurnedLink<dim>(link, here).motion() - link_motion(link, here);
+    difference.template head<dim>() /= link.branch.norm();
+    return difference.norm() / size;
   };
   EXPECT_NEAR(error(1e-4) / error(1e-3), 0.1, 0.01); // of the order of the strain
   EXPECT_LT(error(1e-6), 1e-5);
@@ -126,6 +133,49 @@ TEST(TurnedLink, IsNotMovedByARigidRotationInThePlane)
   position[3 * Eigen::Index(link.grain_1) + 2] = position[3 * Eigen::Index(link.grain_2) + 2] = angle;
   EXPECT_LT(TurnedLink<2>(link, position).motion().norm(), 1e-15);
   EXPECT_GT(link_motion(link, position).norm(), 0.04 * link.branch.norm()); // (1 - cos 0.3) of the branch
+}
+
+/// Where a rotation takes two grains in space, after a turn of the second by itself.
+Unknowns rotated(const Network<3>& network, const Link<3>& link, const Vector<3>& turn, const Vector<3>& of_second)
+{
+  const auto rotation = [](const Vector<3>& vector) { return Eigen::AngleAxisd(vector.norm(), vector.normalized()); };
+  const Eigen::AngleAxisd second(rotation(turn) * Eigen::Quaterniond(rotation(of_second)));
+  Unknowns position = Unknowns::Zero(network.n_unknowns());
+  position.segment<3>(6 * Eigen::Index(link.grain_2)) = rotation(turn) * link.branch - link.branch;
+  position.segment<3>(6 * Eigen::Index(link.grain_1) + 3) = turn;
+  position.segment<3>(6 * Eigen::Index(link.grain_2) + 3) = second.angle() * second.axis();
+  return position;
+}
+
+TEST(TurnedLink, IsNotMovedInSpaceByARigidRotationToItsSecondOrder)
+{
+  const Network<3> network(periodic_specimen<3>());
+  const Link<3>& link = network.links()[1];
+  const auto false_motion = [&](const double angle) { // with a twist and both tilts
+    const Vector<3> turn = angle * link.axes.transpose() * Vector<3>(1.0, 0.7, -0.4);
+    return TurnedLink<3>(link, rotated(network, link, turn, 1e-9 * Vector<3>::UnitX())).motion();
+  };
+  const double length = link.branch.norm();
+  // A sixth of the third power of the turns, and no more than the product of three of them.
+  for (const double angle : {0.02, 0.2})
+    EXPECT_LT(false_motion(angle).head<3>().norm(), 0.5 * std::pow(angle, 3) * length) << angle;
+  EXPECT_NEAR(false_motion(0.1).head<3>().norm() / false_motion(0.05).head<3>().norm(), 8.0, 0.5);
+  EXPECT_LT(false_motion(0.2).tail<3>().norm(), 2e-9); // of the turn of 1e-9
+}
+
+TEST(TurnedLink, KeepsItsBendAndTwistInARigidRotationInSpace)
+{
+  const Network<3> network(periodic_specimen<3>());
+  const Link<3>& link = network.links()[1];
+  const Vector<3> bent = link.axes.transpose() * Vector<3>(2e-3, -1e-3, 3e-3);
+  const auto lost = [&](const double angle) {
+    const Vector<3> turn = angle * link.axes.transpose() * Vector<3>(1.0, 0.7, -0.4);
+    const Motion<3> motion = TurnedLink<3>(link, rotated(network, link, turn, bent)).motion();
+    return (motion.tail<3>() - link.axes * bent).norm() / bent.norm();
+  };
+  // A difference of rotation vectors would lose half of the angle.
+  EXPECT_LT(lost(0.05), 0.05 * 0.05);
+  EXPECT_LT(lost(0.2), 0.2 * 0.2);
 }
 
 /// A path of compression, its sides held.
