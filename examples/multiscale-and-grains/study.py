@@ -559,6 +559,35 @@ def print_sizes():
     print()
 
 
+PRESSURES_OF_CYLINDERS_MPA = (10, 40)
+CONFINED_CYLINDERS = (  # label, width [mm], results at each pressure
+    ("walled cylinder", 20, 2 * ("../../beishan-cylinder/results/beishan-cylinder",)),
+    ("walled cylinder", 50, [f"../../beishan-cylinder/results/full-size-triaxial-{p}" for p in PRESSURES_OF_CYLINDERS_MPA]),
+    *(
+        ("cylinder cut free at its sides", diameter, 2 * (f"cored-cylinder-{diameter:g}-mm-confined",))
+        for diameter in (*DIAMETERS_MM, 50)
+    ),
+)
+
+
+def print_confined_cylinders():
+    """Cylinders of several sizes, of one gap, between walls and cut free at their sides, under pressure."""
+    at = [f"σ_1 at {pressure} MPa [MPa] | at a strain of [1e-3]" for pressure in PRESSURES_OF_CYLINDERS_MPA]
+    print(f"| body | width [mm] | specimens | {' | '.join(at)} |\n|---|---|---|---|---|---|---|")
+    for label, width, names in CONFINED_CYLINDERS:
+        cells = []
+        for name, pressure in zip(names, PRESSURES_OF_CYLINDERS_MPA):
+            tests = [
+                test for test in tests_of(name, "triaxial_compression") if test["confining_pressure_Pa"] == 1e6 * pressure
+            ]
+            cells += [
+                shown([test["peak_stress_Pa"] / 1e6 for test in tests], 0),
+                shown([test["strain_at_peak"] * 1e3 for test in tests], 1),
+            ]
+        print(f"| {label} | {width:g} | {len(tests)} | {' | '.join(cells)} |")
+    print()
+
+
 def print_confined():
     """Strengths under pressure beside those without; where a sample has no peak, what it bore at the end."""
     print(
@@ -904,6 +933,7 @@ def main():
     print_first_cracks()
     print_dealings()
     print_sizes()
+    print_confined_cylinders()
     print_confined()
     print_kinematics()
     print_softening()

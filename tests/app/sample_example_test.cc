@@ -456,6 +456,49 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
     }
 }
 
+// The same cylinders under pressure.
+TEST(Example, TheReadmeOfSampleAndGrainsShowsCylindersUnderPressure)
+{
+  const std::string readme = content(std::string(FELDSPAR_SOURCE_DIR) + "/examples/multiscale-and-grains/README.md");
+  struct Body
+  {
+    const char *label, *width, *example, *at_10_mpa, *at_40_mpa;
+  };
+  const char* const grains = "multiscale-and-grains";
+  for (const Body& body :
+       {Body{"walled cylinder", "20", "beishan-cylinder", "beishan-cylinder", "beishan-cylinder"},
+        {"walled cylinder", "50", "beishan-cylinder", "full-size-triaxial-10", "full-size-triaxial-40"},
+        {"cylinder cut free at its sides", "13.2", grains, "cored-cylinder-13.2-mm-confined",
+         "cored-cylinder-13.2-mm-confined"},
+        {"cylinder cut free at its sides", "20", grains, "cored-cylinder-20-mm-confined",
+         "cored-cylinder-20-mm-confined"},
+        {"cylinder cut free at its sides", "50", grains, "cored-cylinder-50-mm-confined",
+         "cored-cylinder-50-mm-confined"}})
+    {
+      std::string cells;
+      std::size_t n_specimens = 0;
+      for (const auto& [pressure, study] : {std::pair(10e6, body.at_10_mpa), {40e6, body.at_40_mpa}})
+        {
+          std::vector<double> strengths, strains;
+          const auto tests = results_of(body.example, study)["tests"];
+          for (const auto& test : tests)
+            if (test["kind"] == "triaxial_compression" && test["confining_pressure_Pa"] == pressure)
+              {
+                strengths.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
+                strains.push_back(test["strain_at_peak"].get<double>() * 1e3);
+              }
+          const auto shown = [](const std::vector<double>& values, const int decimals) {
+            return values.size() == 1 ? fmt::format("{:.{}f}", values.front(), decimals)
+                                      : mean_and_deviation(values, decimals);
+          };
+          n_specimens = strengths.size();
+          cells += fmt::format(" {} | {} |", shown(strengths, 0), shown(strains, 1));
+        }
+      const std::string row = fmt::format("\n| {} | {} | {} |{}\n", body.label, body.width, n_specimens, cells);
+      EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
+    }
+}
+
 // A line over 1/diameter by least squares, the standard error of where it ends, and where it puts one more cylinder.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsACylinderWithoutSurface)
 {
