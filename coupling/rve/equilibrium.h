@@ -78,6 +78,9 @@ public:
   /// Strain, stress and motions at the present position, without history.
   NetworkState<dim> provisional_state() const;
 
+  /// Whether nothing is broken, softened or pressed together that was apart at rest.
+  bool is_intact() const { return history.active().empty() && here().balance.touches.empty(); }
+
   const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }
   Voigt<dim> stress() const { return here().balance.stress; }
   double unbalanced_ratio() const { return here().balance.unbalanced_ratio; }

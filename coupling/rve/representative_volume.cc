@@ -80,6 +80,9 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       trial.n_loosened += overloads.size();
       may_break = options.bonds != Bonds::break_once;
     }
+  // Until something has happened a network responds as at rest, even where turned contacts have kept a bond from breaking.
+  if (current.intact && trial.in_equilibrium && equilibrium.is_intact())
+    return intact_trial(intact_strain(control), options.with_tangent);
   if (options.with_tangent && trial.in_equilibrium)
     {
       const std::uint64_t states = equilibrium.states_of_tangent();

@@ -236,6 +236,34 @@ TYPED_TEST(TurnedLinks, BeginWithTheEnergyOfTheIntactNetworkAsWork)
   EXPECT_EQ(equilibrium.state().work.boundary, stored);
 }
 
+// Near the first break turned contacts may hold where those of small strains break: a state in which nothing is broken is
+// that of the intact network, whichever kinematics found it.
+TYPED_TEST(TurnedLinks, LeaveAnIntactNetworkItsStress)
+{
+  constexpr int dim = TypeParam::value;
+  EquilibriumParameters parameters;
+  parameters.kinematics = Kinematics::finite;
+  std::size_t n_on_the_brink = 0;
+  for (const std::uint64_t seed : {1, 2, 3})
+    {
+      const RepresentativeVolume<dim> rve = small_rve<dim>(seed, parameters);
+      for (const double sign : {1.0, -1.0})
+        {
+          const double first = rve.network().first_break(axial<dim>(sign)).factor;
+          for (int k = -20; k < 200; ++k)
+            {
+              const Voigt<dim> strain = axial<dim>(sign * first * (1.0 + 1e-5 * k));
+              const auto trial = rve.trial(strain);
+              if (!trial.state.intact)
+                break;
+              n_on_the_brink += k > 0;
+              EXPECT_EQ(trial.state.stress, Voigt<dim>(rve.network().intact_stiffness() * strain));
+            }
+        }
+    }
+  EXPECT_GT(n_on_the_brink, 0u);
+}
+
 // Of grains ten thousand times as stiff all strains are ten thousand times as small, and so is what turning does.
 TYPED_TEST(TurnedLinks, MakeNoDifferenceToStiffGrains)
 {
