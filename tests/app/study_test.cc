@@ -967,6 +967,8 @@ const std::map<std::string, std::string> without_piece{
   {"free-sides-3d-13.3-mm-cell.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-box.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-cell.json", "packings of spheres take minutes"},
+  {"compression-finite.json", "the section in small strains has a piece, and both are the same until something breaks"},
+  {"compression-whole-confined.json", "the whole cylinder without pressure has a piece; half an hour each"},
   {"compression-fine.json", "the section of larger cells has a piece; minutes"},
   {"published-compression.json", "8 192 cells; minutes"},
   {"cored-cylinder-20-mm-confined.json", "the cylinder of 13.2 mm has a piece"},

@@ -197,8 +197,14 @@ TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
   EquilibriumParameters tight;
   tight.event_tolerance = tight.final_tolerance = 1e-10;
   const auto network = std::make_shared<const Network<2>>(periodic_specimen());
-  for (const double scale : {1.0, 0.5, 0.2})
+  for (const auto& [kinematics, scale] : {std::pair(Kinematics::small_strains, 1.0),
+                                          {Kinematics::small_strains, 0.5},
+                                          {Kinematics::small_strains, 0.2},
+                                          {Kinematics::finite, 1.0},
+                                          {Kinematics::finite, 0.5},
+                                          {Kinematics::finite, 0.2}})
     {
+      tight.kinematics = kinematics;
       SofteningPoint<2> point(std::make_unique<GrainPoint<2>>(network, Tensor<2>(Tensor<2>::Identity()), tight), scale);
       const Voigt<2> step(-1e-6, 5e-6, 5e-7);
       constexpr int n_steps = 140;
@@ -222,7 +228,9 @@ TEST(ScaledSoftening, EnergiesOfAPieceAreTheWorkDoneOnIt)
       const auto energies = *point.energies();
       const double lost = energies.slip + energies.released + energies.settled;
       EXPECT_GT(lost, 0.5 * work) << scale;
-      EXPECT_NEAR(energies.stored + lost, work, 1e-6 * work) << scale;
+      // At the first break finite kinematics take the stored energy for the work so far; it differs by a share of the order
+      // of the strain, 1e-4 here (docs/theory.md §9.8).
+      EXPECT_NEAR(energies.stored + lost, work, (kinematics == Kinematics::finite ? 1e-4 : 1e-6) * work) << scale;
     }
 }
 
