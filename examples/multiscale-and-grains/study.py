@@ -128,6 +128,7 @@ for across, along in MESHES[1:]:
         ),
     )
 RATES_OF_50_MM = (("Compression", 1.0), ("Tension", 0.164))
+CONFINED_DIAMETERS_MM = DIAMETERS_MM[:2]
 CONFINED_CYLINDER = (
     "Tests/List = triaxial_compression",
     "Tests/Confinements = 10, 40 MPa",
@@ -146,7 +147,7 @@ for sides, coring in (("cored", "sides only"), ("walled", "none")):
         one = (*body, *at_width(50, *RATES_OF_50_MM), "Seeds/Seeds = 1")
         EXPERIMENTS["cored-cylinder-50-mm"] = Experiment("lab", "cylinder", (one,))
         EXPERIMENTS["cored-cylinder-50-mm-confined"] = Experiment("lab", "cylinder", ((*one, *CONFINED_CYLINDER),))
-        for diameter in DIAMETERS_MM:
+        for diameter in CONFINED_DIAMETERS_MM:
             three = (*body, *at_width(diameter, *RATES_OF_50_MM), *CONFINED_CYLINDER)
             EXPERIMENTS[f"cored-cylinder-{diameter:g}-mm-confined"] = Experiment("lab", "cylinder", (three,))
 for opening in OPENINGS_UM:
@@ -565,7 +566,7 @@ CONFINED_CYLINDERS = (  # label, width [mm], results at each pressure
     ("walled cylinder", 50, [f"../../beishan-cylinder/results/full-size-triaxial-{p}" for p in PRESSURES_OF_CYLINDERS_MPA]),
     *(
         ("cylinder cut free at its sides", diameter, 2 * (f"cored-cylinder-{diameter:g}-mm-confined",))
-        for diameter in (*DIAMETERS_MM, 50)
+        for diameter in (*CONFINED_DIAMETERS_MM, 50)
     ),
 )
 

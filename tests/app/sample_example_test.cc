@@ -456,6 +456,45 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsSpecimensOfSeveralSizes)
     }
 }
 
+/// With a straight line through them by least squares.
+class PointsOfALine
+{
+public:
+  void add(const double at, const double value)
+  {
+    x.push_back(at);
+    y.push_back(value);
+  }
+  double at(const double place) const { return mean(y) + slope() * (place - mean(x)); }
+  /// Of the line at a place; with of_one = 1 that of one more point there.
+  double deviation(const double place, const double of_one) const
+  {
+    const double n = double(x.size());
+    double errors = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      errors += std::pow(y[k] - at(x[k]), 2);
+    return std::sqrt(errors / (n - 2.0) * (of_one + 1.0 / n + std::pow(place - mean(x), 2) / squares()));
+  }
+
+private:
+  double squares() const
+  {
+    double sum = 0.0;
+    for (const double value : x)
+      sum += std::pow(value - mean(x), 2);
+    return sum;
+  }
+  double slope() const
+  {
+    double products = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      products += (x[k] - mean(x)) * (y[k] - mean(y));
+    return products / squares();
+  }
+
+  std::vector<double> x, y;
+};
+
 // The same cylinders under pressure.
 TEST(Example, TheReadmeOfSampleAndGrainsShowsCylindersUnderPressure)
 {
@@ -497,6 +536,21 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsCylindersUnderPressure)
       const std::string row = fmt::format("\n| {} | {} | {} |{}\n", body.label, body.width, n_specimens, cells);
       EXPECT_NE(readme.find(row), std::string::npos) << "missing: " << row;
     }
+
+  // By a line over 1/diameter, where that is nothing.
+  const auto without_surface = [](const double pressure) {
+    PointsOfALine points;
+    for (const char* const diameter : {"13.2", "20", "50"})
+      {
+        const auto study = results_of("multiscale-and-grains", fmt::format("cored-cylinder-{}-mm-confined", diameter));
+        for (const auto& test : study["tests"])
+          if (test["confining_pressure_Pa"] == pressure)
+            points.add(1.0 / std::stod(diameter), test["peak_stress_Pa"].get<double>() / 1e6);
+      }
+    return fmt::format("{:.0f} ± {:.0f} MPa", points.at(0.0), points.deviation(0.0, 0.0));
+  };
+  const std::string line = without_surface(10e6) + " at 10 MPa and " + without_surface(40e6) + " at 40 MPa";
+  EXPECT_NE(readme.find(line), std::string::npos) << "missing: " << line;
 }
 
 // A line over 1/diameter by least squares, the standard error of where it ends, and where it puts one more cylinder.
@@ -508,40 +562,23 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsACylinderWithoutSurface)
     std::string without_surface, at_50_mm, measured;
   };
   const auto by_the_line = [](const std::string& kind, const int decimals) {
-    std::vector<double> x, y;
+    PointsOfALine points;
     for (const char* const diameter : {"13.2", "20", "33"})
       {
         const auto study = results_of("multiscale-and-grains", fmt::format("cored-cylinder-{}-mm", diameter));
         for (const auto& test : study["tests"])
           if (test["kind"] == kind)
-            {
-              x.push_back(1.0 / std::stod(diameter));
-              y.push_back(test["peak_stress_Pa"].get<double>() / 1e6);
-            }
+            points.add(1.0 / std::stod(diameter), test["peak_stress_Pa"].get<double>() / 1e6);
       }
-    const double n = double(x.size());
-    double squares = 0.0, products = 0.0, errors = 0.0;
-    for (std::size_t k = 0; k < x.size(); ++k)
-      {
-        squares += std::pow(x[k] - mean(x), 2);
-        products += (x[k] - mean(x)) * (y[k] - mean(y));
-      }
-    const double slope = products / squares;
-    const auto on_the_line = [&](const double at) { return mean(y) + slope * (at - mean(x)); };
-    for (std::size_t k = 0; k < x.size(); ++k)
-      errors += std::pow(y[k] - on_the_line(x[k]), 2);
-    // Of the line, and of one more cylinder beside it.
-    const auto deviation = [&](const double at, const double of_one) {
-      return std::sqrt(errors / (n - 2.0) * (of_one + 1.0 / n + std::pow(at - mean(x), 2) / squares));
-    };
     double measured = 0.0;
     const auto large = results_of("multiscale-and-grains", "cored-cylinder-50-mm");
     for (const auto& test : large["tests"])
       if (test["kind"] == kind)
         measured = test["peak_stress_Pa"].get<double>() / 1e6;
-    EXPECT_LT(std::abs(measured - on_the_line(1.0 / 50.0)), deviation(1.0 / 50.0, 1.0)) << kind; // as the page says
+    EXPECT_LT(std::abs(measured - points.at(1.0 / 50.0)), points.deviation(1.0 / 50.0, 1.0))
+      << kind; // as the page says
     const auto shown = [&](const double at, const double of_one) {
-      return fmt::format("{:.{}f} ± {:.{}f} MPa", on_the_line(at), decimals, deviation(at, of_one), decimals);
+      return fmt::format("{:.{}f} ± {:.{}f} MPa", points.at(at), decimals, points.deviation(at, of_one), decimals);
     };
     return Found{shown(0.0, 0.0), shown(1.0 / 50.0, 1.0), fmt::format("{:.{}f}", measured, decimals)};
   };
