@@ -6,15 +6,8 @@ namespace feldspar
 {
 namespace
 {
-/// The turns of both grains of a link in space, or changes of them, in its own axes.
 template <typename Columns>
-struct Turns
-{
-  RowsOf<3, Columns> of_1, of_2;
-};
-
-template <typename Columns>
-Turns<Columns> own_turns(const Link<3>& link, const Columns& unknowns)
+OwnTurns<Columns> own_turns(const Link<3>& link, const Columns& unknowns)
 {
   const auto own = [&](const std::uint32_t grain) -> RowsOf<3, Columns> {
     return link.axes * unknowns.template middleRows<3>(n_motions<3> * Eigen::Index(grain) + 3);
@@ -29,7 +22,7 @@ Tensor<3> cross(const Vector<3>& left)
   return result;
 }
 
-/// By how much faster the normal of a grain that has turned turns towards t_1 and t_2 than φ × n, at the end of the grain's arm.
+/// Change of ½ a φ_n (φ_1, φ_2), the slips that a turn takes beyond a φ × n, by the turn [m/rad]; [slips × turn].
 Eigen::Matrix<double, 2, 3> more_slip(const double arm, const Vector<3>& turn)
 {
   Eigen::Matrix<double, 2, 3> result;
@@ -37,7 +30,7 @@ Eigen::Matrix<double, 2, 3> more_slip(const double arm, const Vector<3>& turn)
   return 0.5 * arm * result;
 }
 
-/// Its transpose times a force, as a matrix on the turn.
+/// Change of its transpose times the forces, by the turn [N m/rad]; symmetric.
 Tensor<3> stiffness_of_more_slip(const double arm, const Motion<3>& forces)
 {
   Tensor<3> result;
@@ -48,7 +41,7 @@ Tensor<3> stiffness_of_more_slip(const double arm, const Motion<3>& forces)
 /// A motion that turns make beyond motion_by_turns() once the grains have turned: the slips, then the turn of grain 2 from
 /// grain 1 in the axes of the latter, φ_2 - φ_1 - ½ φ_1 × φ_2. To first order in `at`.
 template <typename Columns>
-void add_more_motion(const Link<3>& link, const OwnTurns& at, const Turns<Columns>& change,
+void add_more_motion(const Link<3>& link, const OwnTurns<Unknowns>& at, const OwnTurns<Columns>& change,
                      RowsOf<n_motions<3>, Columns>& motion)
 {
   motion.template middleRows<2>(1) -=
@@ -65,7 +58,7 @@ void add_own_couples(const Link<3>& link, const RowsOf<3, Columns>& on_1, const 
 
 /// The transpose of add_more_motion().
 template <typename Columns>
-void add_more_couples(const Link<3>& link, const OwnTurns& at, const RowsOf<n_motions<3>, Columns>& forces,
+void add_more_couples(const Link<3>& link, const OwnTurns<Unknowns>& at, const RowsOf<n_motions<3>, Columns>& forces,
                       Columns& sum)
 {
   const auto slip = forces.template middleRows<2>(1);
@@ -76,7 +69,7 @@ void add_more_couples(const Link<3>& link, const OwnTurns& at, const RowsOf<n_mo
 
 /// How the couples of these forces change with the turns.
 template <typename Columns>
-void add_change_of_couples(const Link<3>& link, const Motion<3>& forces, const Turns<Columns>& change, Columns& sum)
+void add_change_of_couples(const Link<3>& link, const Motion<3>& forces, const OwnTurns<Columns>& change, Columns& sum)
 {
   const Tensor<3> by_couple = 0.5 * cross(forces.tail<3>());
   add_own_couples<Columns>(link, by_couple * change.of_2 - stiffness_of_more_slip(link.arm_1, forces) * change.of_1,
@@ -114,10 +107,9 @@ TurnedLink<dim>::TurnedLink(const Link<dim>& link, const Unknowns& position)
   its_motion.template segment<dim - 1>(1) += length_at_rest * slope * end.template tail<dim - 1>();
   if constexpr (dim == 3)
     {
-      const Turns<Unknowns> own = own_turns(link, position);
-      turns = {own.of_1, own.of_2};
-      add_more_motion<Unknowns>(link, {0.5 * own.of_1, 0.5 * own.of_2}, own,
-                                its_motion); // of second order in the turns
+      turns = own_turns(link, position);
+      // Of a form of second order the value is its change by the turns at half of them.
+      add_more_motion<Unknowns>(link, {0.5 * turns.of_1, 0.5 * turns.of_2}, turns, its_motion);
     }
 }
 
@@ -189,7 +181,7 @@ void add_forces_of_motion(const Link<dim>& link, const LinkTurn<dim>& turn, cons
   of_link.template topRows<dim>() += turn.gradient.by_way * of_centres;
   if constexpr (dim == 3)
     {
-      const Turns<Columns> of_turns = own_turns(link, motion);
+      const OwnTurns<Columns> of_turns = own_turns(link, motion);
       add_more_motion(link, turn.gradient.turns, of_turns, of_link);
       add_change_of_couples(link, turn.forces, of_turns, sum);
     }

@@ -14,23 +14,24 @@ enum class Kinematics
   finite         ///< normals and branches follow the grains
 };
 
-/// The turns of both grains of a link in space, in its own axes at rest [rad].
+/// The turns of both grains of a link in space, or changes of them, in its own axes at rest [rad].
+template <typename Columns>
 struct OwnTurns
 {
-  Vector<3> of_1 = Vector<3>::Zero(), of_2 = Vector<3>::Zero();
+  RowsOf<3, Columns> of_1 = RowsOf<3, Columns>::Zero(), of_2 = RowsOf<3, Columns>::Zero();
 };
 
 /// Turns in the plane are about one axis: nothing depends on how far they have gone.
 template <int dim>
-using LinkTurns = std::conditional_t<dim == 3, OwnTurns, std::monostate>;
+using LinkTurns = std::conditional_t<dim == 3, OwnTurns<Unknowns>, std::monostate>;
 
 /// How a small motion of a turned link follows from those of its grains.
 template <int dim>
 struct TurnedGradient
 {
   Tensor<dim> by_way =
-    Tensor<dim>::Identity(); ///< displacement components, by the way of the second centre from the first
-  LinkTurns<dim> turns;
+    Tensor<dim>::Identity(); ///< of its displacements, by the way of the second centre from the first
+  LinkTurns<dim> turns;      ///< at which it holds
 };
 
 /// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance
@@ -71,7 +72,7 @@ struct LinkTurn
 {
   TurnedGradient<dim> gradient;
   Tensor<dim> stiffness = Tensor<dim>::Zero(); ///< TurnedLink::stiffness() [N/m]
-  Motion<dim> forces = Motion<dim>::Zero();    ///< of the link: against turns they are stiff as well [N, N m]
+  Motion<dim> forces = Motion<dim>::Zero();    ///< of the link: its couples change with the turns [N, N m]
 };
 
 /// Small motion of a turned link.

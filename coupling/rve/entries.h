@@ -27,9 +27,9 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
       "number of steps, about, in which a bond of a softening flat joint softens from one equilibrium to the next",
       varies),
     entry::choice(
-      "Kinematics", &P::kinematics, {{"finite", Kinematics::finite}, {"small strains", Kinematics::small_strains}},
-      "finite: the contacts of an RVE turn with their grains from the first break on; small strains: they keep the "
-      "directions that they have at rest; explicit dynamics always turn them",
+      "Kinematics", &P::kinematics, {{"small strains", Kinematics::small_strains}, {"finite", Kinematics::finite}},
+      "small strains: the contacts of an RVE keep the directions that they have at rest; finite: they turn with their "
+      "grains from the first break on; explicit dynamics always turn them",
       varies),
     entry::integer("Most iterations", &P::most_iterations, {'[', 1.0, 1e6, ']'},
                    "by Newton's method in search of one equilibrium, before damped motion brings it nearer", varies)};

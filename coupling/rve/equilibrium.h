@@ -78,7 +78,8 @@ public:
   /// Strain, stress and motions at the present position, without history.
   NetworkState<dim> provisional_state() const;
 
-  /// Whether nothing is broken, softened or pressed together that was apart at rest.
+  /// Whether nothing is broken, softened or pressed together that was apart at rest; never of faces that are not linear while
+  /// bonded.
   bool is_intact() const { return history.active().empty() && here().balance.touches.empty(); }
 
   const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }

@@ -19,7 +19,7 @@ struct EquilibriumParameters
   double event_tolerance = 1e-3; ///< largest unbalanced over mean contact force, between events
   double final_tolerance = 1e-6; ///< of the stress that is handed out
   BreakRule break_rule = BreakRule::near_worst;
-  Kinematics kinematics = Kinematics::finite;
+  Kinematics kinematics = Kinematics::small_strains;
   unsigned int softening_steps = 32; ///< in which a bond softens, about; docs/theory.md §9.3
   unsigned int most_iterations = 10; ///< by Newton's method, before damped motion brings it nearer
 };

@@ -80,9 +80,13 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       trial.n_loosened += overloads.size();
       may_break = options.bonds != Bonds::break_once;
     }
-  // Until something has happened a network responds as at rest, even where turned contacts have kept a bond from breaking.
+  // Until something has happened a network responds as the intact one, also where bonds hold only because contacts turn.
   if (current.intact && trial.in_equilibrium && equilibrium.is_intact())
-    return intact_trial(intact_strain(control), options.with_tangent);
+    {
+      Trial<dim> intact = intact_trial(intact_strain(control), options.with_tangent);
+      intact.factorised = equilibrium.last_factorised();
+      return intact;
+    }
   if (options.with_tangent && trial.in_equilibrium)
     {
       const std::uint64_t states = equilibrium.states_of_tangent();

@@ -129,9 +129,10 @@ for across, along in MESHES[1:]:
     )
 RATES_OF_50_MM = (("Compression", 1.0), ("Tension", 0.164))
 CONFINED_DIAMETERS_MM = DIAMETERS_MM[:2]
+PRESSURES_OF_CYLINDERS_MPA = (10, 40)
 CONFINED_CYLINDER = (
     "Tests/List = triaxial_compression",
-    "Tests/Confinements = 10, 40 MPa",
+    f"Tests/Confinements = {', '.join(map(str, PRESSURES_OF_CYLINDERS_MPA))} MPa",
     "Tests/Stop stress over peak = 0.9",
 )
 for width in WIDTHS_MM:
@@ -560,7 +561,6 @@ def print_sizes():
     print()
 
 
-PRESSURES_OF_CYLINDERS_MPA = (10, 40)
 CONFINED_CYLINDERS = (  # label, width [mm], results at each pressure
     ("walled cylinder", 20, 2 * ("../../beishan-cylinder/results/beishan-cylinder",)),
     ("walled cylinder", 50, [f"../../beishan-cylinder/results/full-size-triaxial-{p}" for p in PRESSURES_OF_CYLINDERS_MPA]),

@@ -158,7 +158,7 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
 TEST(Multiscale, FollowsALoadingTable)
 {
   TemporaryFolder folder;
-  folder.write("cycles.csv", "axial_strain,axial_stress_Pa\n0.0016,\n,1e6\n0.0019,\n,1e6\n,900e6\n");
+  folder.write("cycles.csv", "axial_strain,axial_stress_Pa\n0.0016,\n,1e6\n0.0022,\n,1e6\n,900e6\n");
   folder.write("cycles.prm", input("  set Compression step = 1e-4\n",
                                    "  set List = own_loading\n  set Loading table = cycles.csv\n"));
   const auto run = run_feldspar(folder.path(), "multiscale cycles.prm --output run");

@@ -967,6 +967,7 @@ const std::map<std::string, std::string> without_piece{
   {"free-sides-3d-13.3-mm-cell.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-box.json", "packings of spheres take minutes"},
   {"free-sides-3d-20-mm-cell.json", "packings of spheres take minutes"},
+  {"beishan-finite.json", "the samples in small strains have a piece, and all are the same until something breaks"},
   {"compression-finite.json", "the section in small strains has a piece, and both are the same until something breaks"},
   {"compression-whole-confined.json", "the whole cylinder without pressure has a piece; half an hour each"},
   {"compression-fine.json", "the section of larger cells has a piece; minutes"},

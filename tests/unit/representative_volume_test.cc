@@ -78,9 +78,7 @@ TYPED_TEST(Rves, IntactResponseIsThatOfTheCascade)
 {
   constexpr int dim = TypeParam::value;
   // An RVE told that it is not intact relaxes its grains one by one.
-  EquilibriumParameters parameters = sharp;
-  parameters.kinematics = Kinematics::small_strains;
-  RepresentativeVolume<dim> rve = small_rve<dim>(1, parameters);
+  RepresentativeVolume<dim> rve = small_rve<dim>(1, sharp);
   const Voigt<dim> strain = uneven<dim>(5e-5);
   const auto closed_form = rve.trial(strain);
   NetworkState<dim> state;
@@ -124,8 +122,7 @@ TYPED_TEST(Rves, TangentIsThatOfADirectSolution)
         {
           if (pressed)
             strain_to(rve, pressing(rve), 10);
-          // The direct solution is that of links as they lie at rest.
-          Equilibrium<dim> equilibrium(rve.network(), rve.state(), {.kinematics = Kinematics::small_strains});
+          Equilibrium<dim> equilibrium(rve.network(), rve.state(), sharp);
           const DirectSolution<dim> direct(rve.network(), equilibrium.link_tangents());
           const Stiffness<dim> tangent = equilibrium.tangent();
           EXPECT_LT(relative(tangent, direct.stiffness), 1e-8);
