@@ -29,9 +29,8 @@ using LinkTurns = std::conditional_t<dim == 3, OwnTurns<Unknowns>, std::monostat
 template <int dim>
 struct TurnedGradient
 {
-  Tensor<dim> by_way =
-    Tensor<dim>::Identity(); ///< of its displacements, by the way of the second centre from the first
-  LinkTurns<dim> turns;      ///< at which it holds
+  Tensor<dim> by_way = Tensor<dim>::Identity(); ///< of its displacements, by way_of_centres()
+  LinkTurns<dim> turns;                         ///< at which it holds
 };
 
 /// A link whose branch has turned and stretched with its grains. The displacement along n is the growth of the distance

@@ -156,7 +156,8 @@ TEST(TurnedLink, IsNotMovedInSpaceByARigidRotationToItsSecondOrder)
     return TurnedLink<3>(link, rotated(network, link, turn, 1e-9 * Vector<3>::UnitX())).motion();
   };
   const double length = link.branch.norm();
-  // A sixth of the third power of the turns, and no more than the product of three of them.
+  // By the series a sixth of products of three turns, which are some 1.3 times the angle together: half of its third power
+  // bounds them and what follows.
   for (const double angle : {0.02, 0.2})
     EXPECT_LT(false_motion(angle).head<3>().norm(), 0.5 * std::pow(angle, 3) * length) << angle;
   EXPECT_NEAR(false_motion(0.1).head<3>().norm() / false_motion(0.05).head<3>().norm(), 8.0, 0.5);
