@@ -23,7 +23,7 @@ studies=("$@")
   flawed-granite/{flaw,closed-flaw,flaw-length}
   toughness/{toughness,large-plate,softening,softening-strength,in-plane,in-space}
   direct-shear/{smooth-plane,intact,stiff-rock}
-  rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,kinematics,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
+  rve-beishan/{tension,break-rules,explicit-tension,uniaxial,triaxial-20,triaxial-60,kinematics,kinematics-free-sides,tension-3d,uniaxial-3d,triaxial-20-3d,triaxial-60-3d}
   multiscale-beishan/{beishan,demo}
   multiscale-beishan-cylinder/{tension,cylinder,compression}
 )

@@ -244,6 +244,24 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
                         mean_and_deviation(figures[1], 3), figures[1].size()));
     }
 
+  // Where the highest stress lies without pressure.
+  const auto shows_peaks_of = [&](const std::string& name, const auto& tests, const auto& belongs) {
+    std::vector<double> stresses, strains;
+    for (const auto& test : tests)
+      if (test["kind"] == "uniaxial_compression" && belongs(test))
+        {
+          stresses.push_back(highest_of(test));
+          strains.push_back(1e3 * test["strain_at_peak"].template get<double>());
+        }
+    ASSERT_EQ(stresses.size(), 10u) << name;
+    shown(fmt::format("| {} | {} | {} |", name, mean_and_deviation(stresses, 0), mean_and_deviation(strains, 2)));
+  };
+  const auto rates = committed("rate");
+  shows_peaks_of("grains, 0.25/s", rates["tests"],
+                 [](const auto& test) { return test["variant"] == "Tests/Compression strain rate = 0.25 1/s"; });
+  shows_peaks_of("sample, small strains", small, [](const auto&) { return true; });
+  shows_peaks_of("sample, contacts turn", finite, [](const auto&) { return true; });
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {

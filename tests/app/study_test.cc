@@ -961,6 +961,7 @@ const std::map<std::string, std::string> without_piece{
   {"rate.json", "the same specimens in tension have a piece; those at its highest rate are compared with them"},
   {"angles-compression.json", "the same cells in tension have a piece; the path of a pressed one takes minutes"},
   {"kinematics.json", "each path takes half a minute; the same cells under 60 MPa have a piece"},
+  {"kinematics-free-sides.json", "a quarter of a minute for each cell; cells of 16 mm with free sides have a piece"},
   {"free-sides-2d-32.5-mm-box.json", "the box of 16 mm has a piece"},
   {"free-sides-2d-32.5-mm-cell.json", "the cell of 16 mm has a piece"},
   {"free-sides-3d-13.3-mm-box.json", "packings of spheres take minutes"},
