@@ -6,16 +6,19 @@ that takes some two minutes of a core, a build ten times as long. Warnings are e
                                               compiled a part
 """
 import concurrent.futures
+import functools
 import json
 import os
 import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 
-def reading(command):
-    """The command that compiles a unit, without its output, its sanitizers and precompiled headers."""
+def reading(command, folder):
+    """The command that compiles a unit, without its output, its sanitizers and what else only code needs. Headers that it has
+    precompiled are those of precompiled(), in `folder`."""
     words = shlex.split(command)
     words = words[next(k for k, word in enumerate(words) if re.search(r"clang\+\+[^/]*$", word)):]
     kept = []
@@ -25,12 +28,16 @@ def reading(command):
             skip -= 1
         elif word in ("-o", "-MT", "-MF"):
             skip = 1
-        elif word == "-Xclang" and words[k + 1] == "-include-pch":
-            skip = 3
+        elif word.endswith(".pch"):
+            kept.append(in_folder(word, folder))
         elif word != "-MD" and not re.match(r"-f(no-)?sanitize", word):
             kept.append(word)
     long_page = "-Wno-overlength-strings"  # the page's template is one string
-    return kept + ["-fsyntax-only", "-Werror", long_page]
+    return kept + ["-Werror", long_page]
+
+
+def in_folder(path, folder):
+    return os.path.join(folder, os.path.abspath(path).replace("/", "_"))
 
 
 def output_of(command):
@@ -38,8 +45,18 @@ def output_of(command):
     return words[words.index("-o") + 1]
 
 
-def read(entry):
-    done = subprocess.run(reading(entry["command"]), cwd=entry["directory"], capture_output=True, text=True,
+def is_of_headers(entry):
+    return output_of(entry["command"]).endswith(".pch")
+
+
+def read(entry, folder):
+    """Headers come out precompiled, of other units nothing."""
+    if is_of_headers(entry):
+        path = os.path.join(entry["directory"], output_of(entry["command"]))
+        made = ["-o", in_folder(path, folder)]
+    else:
+        made = ["-fsyntax-only"]
+    done = subprocess.run(reading(entry["command"], folder) + made, cwd=entry["directory"], capture_output=True, text=True,
                           errors="replace")
     return done.returncode, done.stderr
 
@@ -50,8 +67,11 @@ def main(build, built):
     left = [unit for unit in units if not os.path.exists(os.path.join(built, output_of(unit["command"])))]
     if not left:
         sys.exit(f"{build}: no unit is left to be read")
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as readers:
-        results = list(readers.map(read, left))
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as readers:
+        results = []
+        for of_headers in (True, False):
+            units = [unit for unit in left if is_of_headers(unit) == of_headers]
+            results += readers.map(functools.partial(read, folder=folder), units)
     for code, words in results:
         if code != 0:
             print(words, file=sys.stderr)
