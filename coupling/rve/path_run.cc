@@ -161,9 +161,15 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
   if (!trial.in_equilibrium)
     {
       if (cuts == parameters.most_cuts)
-        path_record.failure =
-          fmt::format("no equilibrium was found at {}; the path ends before it, at {}",
-                      describe(control_at(position + increment)), describe(strain_control<dim>(body.state().strain)));
+        {
+          const std::string end =
+            trial.came_apart()
+              ? fmt::format(": in the search the cell came apart, to strains beyond {:g}", largest_strain)
+              : "";
+          path_record.failure = fmt::format("no equilibrium was found at {}{}; the path ends before it, at {}",
+                                            describe(control_at(position + increment)), end,
+                                            describe(strain_control<dim>(body.state().strain)));
+        }
       else
         ++cuts;
       return;
