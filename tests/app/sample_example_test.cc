@@ -262,6 +262,26 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
   shows_peaks_of("sample, small strains", small, [](const auto&) { return true; });
   shows_peaks_of("sample, contacts turn", finite, [](const auto&) { return true; });
 
+  // Before the peak under pressure.
+  for (const int pressure : {5, 20, 60})
+    for (const auto& [name, tests] : {std::pair("grains, 0.25/s", slow_grains_under_pressure["tests"]),
+                                      std::pair("sample, small strains", nlohmann::json(small)),
+                                      std::pair("sample, contacts turn", nlohmann::json(finite))})
+      {
+        std::map<std::string, std::vector<double>> figures;
+        for (const auto& test : tests)
+          if (std::lround(test["confining_pressure_Pa"].get<double>() / 1e6) == pressure)
+            for (const char* const key :
+                 {"crack_initiation_stress_Pa", "crack_damage_stress_Pa", "poissons_ratio_secant"})
+              if (test[key].is_number())
+                figures[key].push_back(test[key].get<double>() / (std::string(key).ends_with("_Pa") ? 1e6 : 1.0));
+        shown(fmt::format(
+          "| {} | {} | {} ({}) | {} ({}) | {} |", pressure, name,
+          mean_and_deviation(figures["crack_initiation_stress_Pa"], 0), figures["crack_initiation_stress_Pa"].size(),
+          mean_and_deviation(figures["crack_damage_stress_Pa"], 0), figures["crack_damage_stress_Pa"].size(),
+          mean_and_deviation(figures["poissons_ratio_secant"], 3)));
+      }
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {
