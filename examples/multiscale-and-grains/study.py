@@ -53,6 +53,7 @@ OPENINGS_UM = (0, 1, 2, 5)  # over which bonds soften
 MESHES = ((2, 4), (3, 6), (4, 8))  # elements across and along
 SLOW = "Tests/Compression strain rate = 0.25 1/s"
 TURNING = "Representative volume/Kinematics = finite"  # contacts turn with their grains
+PULLED = ("Strain path/Direction = free, 1, free", "Strain path/Size = 5e-4", "Strain path/Largest step = 2e-6")
 
 
 def under(pressures, *entries):
@@ -97,6 +98,9 @@ EXPERIMENTS = {
     "same-cells-grains": Experiment("lab", "same-cells-grains"),
     "same-cells-sample": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2)),
     "same-cells-sample-turned": Experiment("multiscale", "same-cells-sample", with_seeds(1, 2, TURNED)),
+    "one-box": Experiment("lab", "one-box"),
+    "one-cell-compression": Experiment("rve", "one-cell"),
+    "one-cell-tension": Experiment("rve", "one-cell", (PULLED,)),
     "angles-tension": Experiment("rve", "angles-tension"),
     "angles-compression": Experiment("rve", "angles-compression"),
     "sample-unturned": Experiment("multiscale", "sample", with_seeds(1, 5, UNTURNED)),
@@ -401,6 +405,10 @@ def crushed_at(rate):
     return {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests}
 
 
+def slow_tests():
+    return tests_of("rate", "uniaxial_compression", "= 0.25 1/s")
+
+
 def print_rates():
     print("| rate [1/s] | UCS [MPa] | over that at 1/s, seed by seed |\n|---|---|---|")
     fast = crushed_at("1")
@@ -670,6 +678,37 @@ def print_kinematics():
         print(f"from grains at 0.25/s: {difference(values, slow[pressure])}")
     print()
 
+    grains = {(0, seed): test for seed, test in enumerate(slow_tests())}
+    for test in (results("confined-slow") or {"tests": ()})["tests"]:
+        grains[round(test["confining_pressure_Pa"] / 1e6), test["seed"]] = test
+    bodies = {"grains, 0.25/s": grains, "sample, small strains": small, "sample, contacts turn": finite}
+    print("| without pressure | highest σ_1 [MPa] | at a strain of [1e-3] |\n|---|---|---|")
+    for name, tests in bodies.items():
+        pressed = [test for (pressure, _), test in tests.items() if pressure == 0]
+        strains = [1e3 * test["strain_at_peak"] for test in pressed]
+        print(f"| {name} | {shown([highest(test) for test in pressed], 0)} | {shown(strains, 2)} |")
+    print("\n| pressure [MPa] | body | σ_ci [MPa] | σ_cd [MPa] | ν at half of the peak |\n|---|---|---|---|---|")
+    for pressure in PRESSURES_MPA:
+        of_grains = {}
+        for name, tests in bodies.items():
+            cells, differences = [], []
+            for key, scale, decimals in (
+                ("crack_initiation_stress_Pa", 1e6, 0),
+                ("crack_damage_stress_Pa", 1e6, 0),
+                ("poissons_ratio_secant", 1.0, 3),
+            ):
+                values = [
+                    test[key] / scale for (at, _), test in tests.items() if at == pressure and test[key] is not None
+                ]
+                of_grains.setdefault(key, values)
+                count = f" ({len(values)})" if decimals == 0 else ""
+                cells.append(shown(values, decimals) + count)
+                differences.append(difference(values, of_grains[key]))
+            print(f"| {pressure} | {name} | {' | '.join(cells)} |")
+            if tests is not grains:
+                print(f"from grains at 0.25/s: {', '.join(differences)}")
+    print()
+
 
 def print_meshes():
     """One seed on each mesh; four points an element, cells of one size."""
@@ -827,6 +866,23 @@ def print_boundaries():
     print()
 
 
+def print_one_cell():
+    """A minimal kinematic cell beside a body of the same packing that is cut free on all sides."""
+    print("| packings | | cell [MPa] | body [MPa] | cell over body, packing by packing |\n|---|---|---|---|---|")
+    for kind, way, key, sign in (
+        ("direct_tension", "tension", "highest_stress", 1e-6),
+        ("uniaxial_compression", "compression", "lowest_stress", -1e-6),
+    ):
+        body = {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests_of("one-box", kind)}
+        rves = (results(f"one-cell-{way}") or {"rves": ()})["rves"]
+        cell = {rve["seed"]: sign * rve[key]["yy"]["stress_Pa"] for rve in rves}
+        ratios = [cell[seed] / body[seed] for seed in cell]
+        decimals = 1 if way == "tension" else 0
+        values = (shown(list(cell.values()), decimals), shown(list(body.values()), decimals), shown(ratios, 2))
+        print(f"| {len(cell)} | {kind.replace('_', ' ')} | {' | '.join(values)} |")
+    print()
+
+
 def print_softening():
     """The sample of bonds that soften beside grains of examples/toughness, a row an opening."""
     path = os.path.join(HERE, "../toughness/results/softening-strength.json")
@@ -940,6 +996,7 @@ def main():
     print_softening()
     print_meshes()
     print_same_cells()
+    print_one_cell()
     print_angles()
     print_weak_cells()
     print_boundaries()

@@ -282,6 +282,28 @@ TEST(Example, TheReadmeOfSampleAndGrainsShowsTheCommittedResults)
           mean_and_deviation(figures["poissons_ratio_secant"], 3)));
       }
 
+  // A minimal kinematic cell beside a body of the same packing.
+  const auto body = committed("one-box");
+  for (const auto& [kind, name, key, sign, decimals] :
+       {std::tuple("direct tension", "one-cell-tension", "highest_stress", 1e-6, 1),
+        {"uniaxial compression", "one-cell-compression", "lowest_stress", -1e-6, 0}})
+    {
+      std::map<unsigned, double> of_body;
+      for (const auto& test : body["tests"])
+        if (std::string words = test["kind"]; std::ranges::replace(words, '_', ' '), words == kind)
+          of_body[test["seed"]] = test["peak_stress_Pa"].get<double>() / 1e6;
+      std::vector<double> of_cell, all_of_body, shares;
+      const auto cells = committed(name);
+      for (const auto& rve : cells["rves"])
+        {
+          of_cell.push_back(sign * rve[key]["yy"]["stress_Pa"].get<double>());
+          all_of_body.push_back(of_body.at(rve["seed"]));
+          shares.push_back(of_cell.back() / all_of_body.back());
+        }
+      shown(fmt::format("| {} | {} | {} | {} | {} |", of_cell.size(), kind, mean_and_deviation(of_cell, decimals),
+                        mean_and_deviation(all_of_body, decimals), mean_and_deviation(shares, 2)));
+    }
+
   const auto tension = committed("angles-tension");
   for (const int angle : {0, 15, 30, 45, 60, 75, 90})
     {

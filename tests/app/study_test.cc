@@ -334,6 +334,18 @@ const std::vector<Piece> pieces{
    {hardly_strained},
    Extent::begun},
 
+  {"BodyOfOneCellInTension",
+   "lab",
+   "multiscale-and-grains/one-box.prm",
+   {"multiscale-and-grains/results/one-box.json"},
+   {{"Tests", "List", "direct_tension"}, first_seed}},
+  {"MinimalKinematicCellBegun",
+   "rve",
+   "multiscale-and-grains/one-cell.prm",
+   {"multiscale-and-grains/results/one-cell-compression.json", "multiscale-and-grains/results/one-cell-tension.json"},
+   {first_seed, hardly_strained},
+   Extent::begun},
+
   {"SampleInTension",
    "multiscale",
    "multiscale-beishan/demo.prm",
