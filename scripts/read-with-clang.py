@@ -18,7 +18,7 @@ import tempfile
 
 def reading(command, folder):
     """The command that compiles a unit, without its output, its sanitizers and what else only code needs. Headers that it has
-    precompiled are those of precompiled(), in `folder`."""
+    precompiled are those that read() has left in `folder`."""
     words = shlex.split(command)
     words = words[next(k for k, word in enumerate(words) if re.search(r"clang\+\+[^/]*$", word)):]
     kept = []
@@ -64,14 +64,18 @@ def read(entry, folder):
 def main(build, built):
     with open(os.path.join(build, "compile_commands.json")) as file:
         units = json.load(file)
-    left = [unit for unit in units if not os.path.exists(os.path.join(built, output_of(unit["command"])))]
-    if not left:
+    left = [
+        unit
+        for unit in units
+        if is_of_headers(unit) or not os.path.exists(os.path.join(built, output_of(unit["command"])))
+    ]
+    if all(is_of_headers(unit) for unit in left):
         sys.exit(f"{build}: no unit is left to be read")
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as readers:
         results = []
         for of_headers in (True, False):
-            units = [unit for unit in left if is_of_headers(unit) == of_headers]
-            results += readers.map(functools.partial(read, folder=folder), units)
+            of_kind = [unit for unit in left if is_of_headers(unit) == of_headers]
+            results += readers.map(functools.partial(read, folder=folder), of_kind)
     for code, words in results:
         if code != 0:
             print(words, file=sys.stderr)

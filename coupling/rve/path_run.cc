@@ -162,10 +162,9 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
     {
       if (cuts == parameters.most_cuts)
         {
+          const bool has_strained_far = trial.state.strain.cwiseAbs().maxCoeff() > largest_strain;
           const std::string end =
-            trial.came_apart()
-              ? fmt::format(": in the search the cell came apart, to strains beyond {:g}", largest_strain)
-              : "";
+            has_strained_far ? fmt::format(": in the search the cell strained by more than {:g}", largest_strain) : "";
           path_record.failure = fmt::format("no equilibrium was found at {}{}; the path ends before it, at {}",
                                             describe(control_at(position + increment)), end,
                                             describe(strain_control<dim>(body.state().strain)));

@@ -31,9 +31,6 @@ struct Trial
   double unbalanced_ratio = 0.0;       ///< largest unbalanced over mean contact force
   /// The factor of its last linear solution.
   KeptFactor<dim> factorised;
-
-  /// Whether nothing was found because its grains moved apart until a strain was larger than any that is taken.
-  bool came_apart() const { return !in_equilibrium && state.strain.cwiseAbs().maxCoeff() > largest_strain; }
 };
 
 enum class Bonds

@@ -678,7 +678,7 @@ def print_kinematics():
         print(f"from grains at 0.25/s: {difference(values, slow[pressure])}")
     print()
 
-    grains = {(0, seed): test for seed, test in enumerate(slow_tests())}
+    grains = {(0, test["seed"]): test for test in slow_tests()}
     for test in (results("confined-slow") or {"tests": ()})["tests"]:
         grains[round(test["confining_pressure_Pa"] / 1e6), test["seed"]] = test
     bodies = {"grains, 0.25/s": grains, "sample, small strains": small, "sample, contacts turn": finite}
@@ -876,7 +876,7 @@ def print_one_cell():
         body = {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests_of("one-box", kind)}
         rves = (results(f"one-cell-{way}") or {"rves": ()})["rves"]
         cell = {rve["seed"]: sign * rve[key]["yy"]["stress_Pa"] for rve in rves}
-        ratios = [cell[seed] / body[seed] for seed in cell]
+        ratios = [cell[seed] / body[seed] for seed in cell if seed in body]
         decimals = 1 if way == "tension" else 0
         values = (shown(list(cell.values()), decimals), shown(list(body.values()), decimals), shown(ratios, 2))
         print(f"| {len(cell)} | {kind.replace('_', ' ')} | {' | '.join(values)} |")

@@ -202,7 +202,7 @@ TEST(Example, TheRvesReadmeShowsWhereCellsWithFreeSidesEnd)
     std::map<unsigned, double> ended_at; ///< [1e-3], of the others
   };
   std::map<std::string, Pressed> cells;
-  std::size_t n_ended = 0, n_came_apart = 0;
+  std::size_t n_moved_apart = 0, n_widened = 0;
   for (const auto& rve : rves_of("kinematics-free-sides"))
     {
       const auto& entries = rve["variant_values"];
@@ -222,8 +222,9 @@ TEST(Example, TheRvesReadmeShowsWhereCellsWithFreeSidesEnd)
       else
         {
           ended_at[rve["seed"]] = -1e3 * rve["at_end"]["strain_yy"].get<double>();
-          ++n_ended;
-          n_came_apart += why.find("the cell came apart") != std::string::npos;
+          EXPECT_NE(why.find("0.1; the path ends"), std::string::npos) << why; // strained beyond what is taken
+          const bool was_wide = std::abs(rve["at_end"]["strain_xx"].get<double>()) > 0.0999;
+          ++(was_wide ? n_widened : n_moved_apart);
         }
     }
   ASSERT_EQ(cells.size(), 6u);
@@ -234,8 +235,8 @@ TEST(Example, TheRvesReadmeShowsWhereCellsWithFreeSidesEnd)
                                           of.left.empty() ? "–" : mean_and_deviation(of.left, 0));
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
-  EXPECT_EQ(n_came_apart, n_ended);
-  const std::string ends = fmt::format("All {} that ended came apart", n_ended);
+  const std::string ends =
+    fmt::format("Of the {} that ended {} moved apart in the search", n_moved_apart + n_widened, n_moved_apart);
   EXPECT_NE(readme.find(ends), std::string::npos) << "missing: " << ends;
 
   // Where finite kinematics end, explicit dynamics have had their highest stress; the seeds are 1 to 20.
@@ -245,7 +246,8 @@ TEST(Example, TheRvesReadmeShowsWhereCellsWithFreeSidesEnd)
       const auto& failed_at = cells[fmt::format("explicit, {} steps per 1e-3", rate)].at;
       const auto n_before = std::count_if(ended_at.begin(), ended_at.end(),
                                           [&](const auto& end) { return failed_at.at(end.first - 1) < end.second; });
-      const std::string sentence = fmt::format("In {} of the {} that came apart", n_before, ended_at.size());
+      const std::string sentence =
+        fmt::format("In {} of the {} that ended along their edges", n_before, ended_at.size());
       EXPECT_NE(readme.find(sentence), std::string::npos) << "missing: " << sentence;
     }
 }
