@@ -1,6 +1,5 @@
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -31,21 +30,28 @@ inline bool stays_on_this_thread(const std::size_t n)
   return n_blocks(n) <= few_blocks;
 }
 
+/// Calls work(block, begin, end) for every block of 0 … n: `in_a_row` blocks one after the other by the same thread.
+template <typename Work>
+void for_each_run_of_blocks(const std::size_t n, const std::size_t in_a_row, Work&& work)
+{
+  const auto run = [&](const std::size_t from, const std::size_t to) {
+    for (std::size_t block = from; block < to; ++block)
+      work(block, block * block_size, std::min(n, (block + 1) * block_size));
+  };
+  const std::size_t n_all = n_blocks(n);
+  if (stays_on_this_thread(n))
+    run(0, n_all);
+  else
+    oneapi::tbb::parallel_for(std::size_t(0), (n_all + in_a_row - 1) / in_a_row,
+                              [&](const std::size_t k) { run(k * in_a_row, std::min(n_all, (k + 1) * in_a_row)); });
+}
+
 /// Calls work(block, begin, end) for every block of 0 … n.
 template <typename Work>
 void for_each_block(const std::size_t n, Work&& work)
 {
-  const auto one = [&](const std::size_t block) {
-    work(block, block * block_size, std::min(n, (block + 1) * block_size));
-  };
-  if (stays_on_this_thread(n))
-    for (std::size_t block = 0; block < n_blocks(n); ++block)
-      one(block);
-  else
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n_blocks(n), 4), [&](const auto& range) {
-      for (std::size_t block = range.begin(); block != range.end(); ++block)
-        one(block);
-    });
+  constexpr std::size_t in_a_row = 4;
+  for_each_run_of_blocks(n, in_a_row, work);
 }
 
 /// Thrown by work that was left because the run is to end.

@@ -1,7 +1,6 @@
 #include "dem/dynamics/dynamics.h"
 
-#include "base/parallel.h"
-#include "base/simd.h"
+#include "dem/dynamics/motion.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -112,11 +112,11 @@ std::vector<Break> Dynamics<dim>::step()
     choose_time_step();
 
   add_boundary_work(dt, 0.5);
-  integrate();
+  const double farthest_way = integrate();
   wall_set.move(dt);
   if (body.periodic)
     images.move(dt, body.grains);
-  auto breaks = update_contacts(dt);
+  auto breaks = update_contacts(dt, farthest_way);
   add_boundary_work(dt, 0.5);
   for (const auto& event : breaks)
     ledger.released += event.released_energy;
@@ -154,7 +154,7 @@ void Dynamics<dim>::start()
   find_contacts();
   check();
   zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
-  update_contacts(0.0);
+  update_contacts(0.0, 0.0);
   check();
   choose_time_step();
   check();
@@ -181,7 +181,7 @@ void Dynamics<dim>::index_joints()
   for (std::size_t i = 0; i < images.n_own(); ++i)
     std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],
               [&](const std::uint32_t a, const std::uint32_t b) { return number_and_end(a) < number_and_end(b); });
-  sum_order = SumOrder(joints_of);
+  sum_order = SumOrder(joints_of, joints.size());
   sweep_memory = SweepMemory<dim>(joints);
 }
 
@@ -296,50 +296,24 @@ Circumstances Dynamics<dim>::circumstances() const
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
 
+/// Returns how far a grain has gone at most [m]; endless where that is not known, of images and of members of groups.
 template <int dim>
-void Dynamics<dim>::integrate()
+double Dynamics<dim>::integrate()
 {
-  auto& grains = bodies();
-  const double kick = 0.5 * (previous_dt + dt);
-  // Of a pack of neighbouring grains or groups, or of one.
-  const auto advance = [&]<typename Real>(Real, const std::size_t i, const Real& force,
-                                          const std::vector<double>& inertia, std::vector<double>& velocity) {
-    const Real old_velocity = simd::load<Real>(&velocity[i]);
-    const Real is_free = simd::load<Real>(&grips.freedom()[i]);
-    const Real damping_force = -parameters.damping * simd::absolute(force) * simd::sign(old_velocity);
-    const Real change = kick * (force + damping_force) * (1.0 / simd::load<Real>(&inertia[i]));
-    const Real free_velocity = old_velocity + change;
-    const Real work = 0.5 * damping_force * (previous_dt * old_velocity + dt * free_velocity);
-    simd::store(old_velocity + is_free * change, &velocity[i]);
-    simd::store(simd::load<Real>(&ledger.damping_work[i]) - is_free * work, &ledger.damping_work[i]);
-  };
-  const auto advance_all = [&]<typename Real>(Real real, const std::size_t i) {
-    for (int c = 0; c < dim; ++c)
-      {
-        const Real weight = simd::load<Real>(&grains.mass[i]) * gravity[c];
-        advance(real, i, simd::load<Real>(&grains.force[c][i]) + weight, grains.mass, grains.velocity[c]);
-        const Real way = dt * simd::load<Real>(&grains.velocity[c][i]);
-        simd::store(simd::load<Real>(&grains.position[c][i]) + way, &grains.position[c][i]);
-      }
-    for (int c = 0; c < n_rotations<dim>; ++c)
-      advance(real, i, simd::load<Real>(&grains.couple[c][i]), grains.moment_of_inertia, grains.spin[c]);
-  };
-  for_each_block(n_bodies(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    std::size_t i = begin;
-    for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
-      advance_all(simd::Pack(), i);
-    for (; i < end; ++i)
-      advance_all(double(), i);
-  });
+  const double farthest_way = move_bodies(bodies(), n_bodies(), {previous_dt, dt, parameters.damping, gravity},
+                                          grips.freedom(), ledger.damping_work);
   groups.carry_members(body.grains, dt);
+  return body.periodic || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }
 
 template <int dim>
-std::vector<Break> Dynamics<dim>::update_contacts(const double step)
+std::vector<Break> Dynamics<dim>::update_contacts(const double step, const double farthest_way)
 {
-  auto breaks = sweep_joints(body.joints, body.grains, step, sweep_memory);
+  auto breaks =
+    sweep_joints(body.joints, body.grains, step, sweep_memory,
+                 {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
   joint_groups.note(breaks, body.joints);
-  contact_made = touches.update(body.grains, body.particle_contact.friction, step) || contact_made;
+  contact_made = touches.update(body.grains, body.particle_contact.friction, step, farthest_way) || contact_made;
   sum_forces(body, sum_order, touches);
   if (!body.smooth_joints.empty())
     {

@@ -126,8 +126,8 @@ private:
   void find_contacts();
   void choose_time_step();
   Circumstances circumstances() const;
-  void integrate();
-  std::vector<Break> update_contacts(double dt);
+  double integrate();
+  std::vector<Break> update_contacts(double dt, double farthest_way);
   void add_boundary_work(double dt, double share);
 
   Specimen<dim> body;

@@ -95,25 +95,77 @@ void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_
 }
 } // namespace
 
-SumOrder::SumOrder(const Incidence& joints_of)
-  : grain(joints_of.first.size() - 1)
+namespace
 {
-  // As many as keep their responses in the cache while they are gone through in this order.
-  constexpr std::size_t n_neighbours = 64;
+/// Sets the grains of these places to the sums over their joints.
+template <int dim>
+void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size_t begin, const std::size_t end)
+{
+  auto& grains = body.grains;
+  for (std::size_t place = begin; place < end; ++place)
+    {
+      const std::uint32_t i = order.grain[place];
+      const auto [force, couple] = load_from_joints(body.joints, order, place);
+      for (int c = 0; c < dim; ++c)
+        grains.force[c][i] = force[c];
+      for (int c = 0; c < n_rotations<dim>; ++c)
+        grains.couple[c][i] = couple[c];
+    }
+}
+
+/// Of joints, that one thread sweeps: as many as leave some runs for each thread. Sums do not depend on it.
+std::size_t blocks_in_a_row(const std::size_t n_joints)
+{
+  constexpr std::size_t runs_per_thread = 8, fewest_blocks = 4;
+  const std::size_t n_threads = stays_on_this_thread(n_joints) ? 1 : number_of_threads();
+  const std::size_t n = n_blocks(n_joints);
+  return n_threads == 1 ? std::max<std::size_t>(n, 1) : std::max(fewest_blocks, n / (runs_per_thread * n_threads));
+}
+} // namespace
+
+SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
+  : blocks_in_a_row(feldspar::blocks_in_a_row(n_joints))
+{
+  const std::size_t n_grains = joints_of.first.size() - 1;
   const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
   const auto entries_of = [&](const std::uint32_t i) {
     return std::span(joints_of.entries).subspan(joints_of.first[i], joints_of.first[i + 1] - joints_of.first[i]);
   };
+
+  const std::size_t after_all = n_blocks(n_joints);
+  std::vector<std::uint32_t> behind(n_grains, std::uint32_t(after_all)); // which block each grain is summed
+  first_behind.assign(after_all + 2, 0);
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    {
+      if (const auto entries = entries_of(i); !entries.empty())
+        {
+          const auto [least, largest] = std::minmax_element(entries.begin(), entries.end());
+          const std::size_t first = *least / 2 / block_size, last = *largest / 2 / block_size;
+          if (first / blocks_in_a_row == last / blocks_in_a_row)
+            behind[i] = std::uint32_t(last);
+        }
+      ++first_behind[behind[i] + 1];
+    }
+  std::partial_sum(first_behind.begin(), first_behind.end(), first_behind.begin());
+  grain.resize(n_grains);
+  auto next = first_behind;
+  for (std::uint32_t i = 0; i < n_grains; ++i)
+    grain[next[behind[i]]++] = i;
+
+  // As many as keep their responses in the cache while they are gone through in this order.
+  constexpr std::uint32_t n_neighbours = 64;
   const auto counts = [&](const std::uint32_t i) {
     const auto entries = entries_of(i);
     const auto n_as_two = std::count_if(entries.begin(), entries.end(), is_second);
     return std::pair(std::size_t(n_as_two), entries.size());
   };
-  std::iota(grain.begin(), grain.end(), 0);
-  for (std::size_t begin = 0; begin < grain.size(); begin += n_neighbours)
-    std::stable_sort(grain.begin() + std::ptrdiff_t(begin),
-                     grain.begin() + std::ptrdiff_t(std::min(begin + n_neighbours, grain.size())),
-                     [&](const std::uint32_t a, const std::uint32_t b) { return counts(a) < counts(b); });
+  for (std::size_t block = 0; block <= after_all; ++block)
+    for (std::uint32_t begin = first_behind[block]; begin < first_behind[block + 1]; begin += n_neighbours)
+      std::stable_sort(grain.begin() + begin,
+                       grain.begin() + std::min(begin + n_neighbours, first_behind[block + 1]),
+                       [&](const std::uint32_t a, const std::uint32_t b) { return counts(a) < counts(b); });
+  first_behind.pop_back();
+
   for (const std::uint32_t i : grain)
     {
       const auto entries = entries_of(i);
@@ -130,41 +182,44 @@ SumOrder::SumOrder(const Incidence& joints_of)
 }
 
 template <int dim>
+void sum_forces_behind(const std::size_t block, Specimen<dim>& body, const SumOrder& order)
+{
+  sum_over_joints(body, order, order.first_behind[block], order.first_behind[block + 1]);
+}
+
+template <int dim>
 void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches)
 {
   auto& grains = body.grains;
-  const auto& joints = body.joints;
-  const std::size_t n_grains = order.grain.size();
-  const Incidence& touches_of = touches.incidence();
+  const std::size_t n_grains = order.grain.size(), first_left = order.first_behind.back();
+  for_each_block(n_grains - first_left, [&](std::size_t, const std::size_t begin, const std::size_t end) {
+    sum_over_joints(body, order, first_left + begin, first_left + end);
+  });
+
   // To each grain come its touches by their numbers, whether it is grains or touches that are gone through. Only grains can be
   // shared out to threads.
   constexpr std::size_t grains_per_touch = 8;
-  const bool by_touches = stays_on_this_thread(n_grains) || grains_per_touch * touches.touching().size() < n_grains;
+  if (stays_on_this_thread(n_grains) || grains_per_touch * touches.touching().size() < n_grains)
+    {
+      for (const std::uint32_t k : touches.touching())
+        {
+          const Touch<dim>& touch = touches.list()[k];
+          add_touch(touch, false, touch.grain_1, grains);
+          add_touch(touch, true, touches.owner_2(k), grains);
+        }
+      return;
+    }
+  const Incidence& touches_of = touches.incidence();
   for_each_block(n_grains, [&](std::size_t, const std::size_t begin, const std::size_t end) {
-    for (std::size_t place = begin; place < end; ++place)
-      {
-        const std::uint32_t i = order.grain[place];
-        const auto [force, couple] = load_from_joints(joints, order, place);
-        for (int c = 0; c < dim; ++c)
-          grains.force[c][i] = force[c];
-        for (int c = 0; c < n_rotations<dim>; ++c)
-          grains.couple[c][i] = couple[c];
-        if (by_touches)
-          continue;
-        for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
-          if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
-            add_touch(touches.list()[entry / 2], entry % 2, i, grains);
-      }
+    for (std::size_t i = begin; i < end; ++i)
+      for (auto e = touches_of.first[i]; e < touches_of.first[i + 1]; ++e)
+        if (const std::uint32_t entry = touches_of.entries[e]; touches.is_touching(entry / 2))
+          add_touch(touches.list()[entry / 2], entry % 2, std::uint32_t(i), grains);
   });
-  if (by_touches)
-    for (const std::uint32_t k : touches.touching())
-      {
-        const Touch<dim>& touch = touches.list()[k];
-        add_touch(touch, false, touch.grain_1, grains);
-        add_touch(touch, true, touches.owner_2(k), grains);
-      }
 }
 
+template void sum_forces_behind<2>(std::size_t, Specimen<2>&, const SumOrder&);
+template void sum_forces_behind<3>(std::size_t, Specimen<3>&, const SumOrder&);
 template void sum_forces<2>(Specimen<2>&, const SumOrder&, const Touches<2>&);
 template void sum_forces<3>(Specimen<3>&, const SumOrder&, const Touches<3>&);
 } // namespace feldspar

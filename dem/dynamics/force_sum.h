@@ -9,22 +9,29 @@
 
 namespace feldspar
 {
-/// The way of a sum over the joints of each grain: grains one after the other, of each the joints in which it is grain 2,
-/// then those in which it is grain 1, each kind by the joint's number. Neighbouring grains with as many joints follow
-/// each other, so that a processor foresees how long the loops are.
+/// The way of a sum over the joints of each grain: of each the joints in which it is grain 2, then those in which it is
+/// grain 1, each kind by the joint's number. A grain is summed behind the block of joints (base/parallel.h) that ends its own, while
+/// the processor has their responses at hand; one whose joints different threads may sweep, after all of them. Neighbouring grains
+/// with as many joints follow each other, so that a processor foresees how long the loops are.
 struct SumOrder
 {
   SumOrder() = default;
-  explicit SumOrder(const Incidence& joints_of);
+  SumOrder(const Incidence& joints_of, std::size_t n_joints);
 
+  std::size_t blocks_in_a_row = 1;         ///< of joints, that one thread sweeps
+  std::vector<std::uint32_t> first_behind; ///< place of the first grain behind each block, and of those after all
   std::vector<std::uint32_t> grain;
   std::vector<std::uint32_t> first_as_two; ///< of each grain among the joints; [n_grains + 1]
   std::vector<std::uint32_t> first_as_one; ///< [n_grains]
   std::vector<std::uint32_t> joint;
 };
 
-/// Sets force and couple of all grains of the order to the sums over their joints and touches: in the order of the contacts
-/// whatever the number of threads.
+/// Sets force and couple of the grains behind a block of joints to the sums over their joints.
+template <int dim>
+void sum_forces_behind(std::size_t block, Specimen<dim>& body, const SumOrder& order);
+
+/// Sets force and couple of the other grains of the order to the sums over their joints, and adds the touches to all: in the order of
+/// the contacts whatever the number of threads.
 template <int dim>
 void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches);
 } // namespace feldspar

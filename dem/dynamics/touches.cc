@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 namespace feldspar
@@ -25,6 +26,9 @@ Touch<dim> make_touch(const Specimen<dim>& body, const std::uint32_t grain_1, co
 
 namespace
 {
+/// Of the distance of two grains: the sum of the ways of 10⁸ steps is less wrong.
+constexpr double share_for_rounding = 1e-6;
+
 /// Whether a smooth plane lies between them, along which they pass over one another, or they are of one rigid body.
 template <int dim>
 bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
@@ -62,6 +66,9 @@ void Touches<dim>::number(const Images<dim>& images)
   looks.clear();
   touching_ones.assign(touches.size(), 0);
   n_touching = 0;
+  touching_ones_are_known = false;
+  way_gone = 0.0;
+  apart_until.assign(touches.size(), 0.0);
   for (const auto& touch : touches)
     looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
 }
@@ -123,12 +130,17 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
 }
 
 template <int dim>
-bool Touches<dim>::update(const Grains<dim>& grains, const double friction, const double dt)
+bool Touches<dim>::update(const Grains<dim>& grains, const double friction, const double dt, const double farthest_way)
 {
-  bool contact_made = false;
+  bool contact_made = false, contact_changed = !touching_ones_are_known;
+  // Several threads may say so.
+  const auto say = [](bool& what) { std::atomic_ref(what).store(true, std::memory_order_relaxed); };
+  way_gone += farthest_way;
   for_each_block(touches.size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       {
+        if (way_gone < apart_until[k])
+          continue;
         Look& look = looks[k];
         std::array<double, dim> centre_1, centre_2;
         double squared = 0.0;
@@ -140,8 +152,14 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
           }
         const bool was_touching = look.touching;
         look.touching = squared < look.zero_distance * look.zero_distance;
+        if (look.touching)
+          apart_until[k] = 0.0;
+        else // both may go the way
+          apart_until[k] = way_gone + 0.5 * (std::sqrt(squared) - (1.0 + share_for_rounding) * look.zero_distance);
         if (!was_touching && !look.touching)
           continue; // as it was; most of those that are kept in mind never touch
+        if (was_touching != look.touching)
+          say(contact_changed);
         Touch<dim>& touch = touches[k];
         touch.touching = look.touching;
         if (!look.touching)
@@ -177,7 +195,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         const auto response = linear_contact::update<dim, double>(touch.stiffness, friction, touch.shear_force,
                                                                   touch.zero_distance - touch.frame.distance, slip);
         if (!was_touching)
-          std::atomic_ref(contact_made).store(true, std::memory_order_relaxed); // several threads may say so
+          say(contact_made);
         touch.normal_force = response.normal_force;
         touch.shear_force = response.shear_force;
         touch.slip_energy += response.slip_energy;
@@ -185,6 +203,9 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
                                         response.shear_force, std::array<double, n_rotations<dim>>{});
       }
   });
+  if (!contact_changed)
+    return contact_made;
+  touching_ones_are_known = true;
   n_touching = 0;
   for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which touch cannot be foretold
     {

@@ -63,8 +63,9 @@ public:
   void number(const Images<dim>& images);
   void clear() { *this = {}; }
 
-  /// Carries all over a step [s]; whether a pair has come to touch.
-  bool update(const Grains<dim>& grains, double friction, double dt);
+  /// Carries all over a step [s], in which no grain has gone farther than `farthest_way` [m]; whether a pair has come to
+  /// touch.
+  bool update(const Grains<dim>& grains, double friction, double dt, double farthest_way);
 
   /// `sum` with what the touches store and have dissipated.
   Energies added_to(Energies sum) const;
@@ -91,6 +92,9 @@ private:
 
   std::vector<Touch<dim>> touches;
   std::vector<Look> looks;                  ///< of each touch
+  double way_gone = 0.0;                    ///< by a grain at most, since number() [m]
+  std::vector<double> apart_until;          ///< way_gone up to which the grains of each touch cannot meet [m]
+  bool touching_ones_are_known = false;
   std::vector<std::uint32_t> touching_ones; ///< the first n_touching hold
   std::size_t n_touching = 0;
   Incidence contacts_of;

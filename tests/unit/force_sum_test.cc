@@ -39,9 +39,9 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
   Touches<dim> touches;
   EnergyLedger ledger(n_own);
   touches.search(body, images, no_joints, skin, ZeroForce::at_touch, ledger, [] {});
-  touches.update(body.grains, friction, 0.0);
-  touches.update(body.grains, friction, 1e-3);
-  sum_forces(body, SumOrder(no_joints), touches);
+  touches.update(body.grains, friction, 0.0, 0.0);
+  touches.update(body.grains, friction, 1e-3, 0.0);
+  sum_forces(body, SumOrder(no_joints, 0), touches);
 
   Components<dim> force;
   Components<n_rotations<dim>> couple;

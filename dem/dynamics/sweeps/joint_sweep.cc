@@ -31,9 +31,9 @@ SweepMemory<dim>::SweepMemory(const Joints<dim>& joints)
 
 template <int dim>
 std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, const double dt,
-                                SweepMemory<dim>& memory)
+                                SweepMemory<dim>& memory, const BehindSweep& behind)
 {
-  return std::visit([&](const auto& law) { return sweep_joints(law, joints, grains, dt, memory); }, joints.law);
+  return std::visit([&](const auto& law) { return sweep_joints(law, joints, grains, dt, memory, behind); }, joints.law);
 }
 
 template <int dim>
@@ -63,8 +63,8 @@ double dissipated_by_bonds(const Joints<dim>& joints, const std::size_t j)
 
 template struct SweepMemory<2>;
 template struct SweepMemory<3>;
-template std::vector<Break> sweep_joints<2>(Joints<2>&, const Grains<2>&, double, SweepMemory<2>&);
-template std::vector<Break> sweep_joints<3>(Joints<3>&, const Grains<3>&, double, SweepMemory<3>&);
+template std::vector<Break> sweep_joints<2>(Joints<2>&, const Grains<2>&, double, SweepMemory<2>&, const BehindSweep&);
+template std::vector<Break> sweep_joints<3>(Joints<3>&, const Grains<3>&, double, SweepMemory<3>&, const BehindSweep&);
 template std::array<double, 1> shear_stress<2>(const Joints<2>&, unsigned int, std::size_t);
 template std::array<double, 2> shear_stress<3>(const Joints<3>&, unsigned int, std::size_t);
 template bool has_face<2>(const Joints<2>&, std::size_t);

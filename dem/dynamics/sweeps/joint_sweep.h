@@ -4,7 +4,9 @@
 #include "dem/storage/joints.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -41,11 +43,21 @@ struct SweepMemory
   std::vector<double, PageAllocator<double>> grain_records;
 };
 
+/// Work behind a sweep, while the processor still has the responses of the joints at hand.
+struct BehindSweep
+{
+  /// Of joints (base/parallel.h), gone through one after the other by the same thread.
+  std::size_t blocks_in_a_row = 4;
+  /// Called when a block of joints has its responses.
+  std::function<void(std::size_t block)> work = [](std::size_t) {};
+};
+
 /// Carries every joint over one step of dt [s]: reads the grains' positions (at its end) and spins (at its middle),
 /// updates the segments and leaves forces and couples in the joints. Breaks come by the numbers of joint and segment,
 /// whatever the number of threads.
 template <int dim>
-std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt, SweepMemory<dim>& memory);
+std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, double dt, SweepMemory<dim>& memory,
+                                const BehindSweep& behind = {});
 
 /// The same with nothing kept from step to step.
 template <int dim>

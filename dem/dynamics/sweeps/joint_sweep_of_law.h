@@ -354,17 +354,19 @@ void record_grains(const Grains<dim>& grains, const double dt, SweepMemory<dim>&
 /// sweep_joints() with the law known.
 template <int dim, JointLaw<dim> Law>
 std::vector<Break> sweep_joints(const Law& law, Joints<dim>& joints, const Grains<dim>& grains, const double dt,
-                                SweepMemory<dim>& memory)
+                                SweepMemory<dim>& memory, const BehindSweep& behind = {})
 {
   joint_sweep::record_grains(grains, dt, memory);
   std::vector<std::vector<Break>> breaks(n_blocks(joints.size()));
-  for_each_block(joints.size(), [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
+  const auto sweep = [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
     std::size_t j = begin;
     for (; j + simd::width<simd::Pack> <= end; j += simd::width<simd::Pack>)
       joint_sweep::update_joint<simd::Pack>(law, joints, memory, j, breaks[block]);
     for (; j < end; ++j)
       joint_sweep::update_joint<double>(law, joints, memory, j, breaks[block]);
-  });
+    behind.work(block);
+  };
+  for_each_run_of_blocks(joints.size(), behind.blocks_in_a_row, sweep);
 
   std::vector<Break> all;
   for (const auto& of_block : breaks)

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "base/vector.h"
+#include "dem/storage/grains.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace feldspar
+{
+/// What all bodies share in a step of their motion.
+template <int dim>
+struct MotionStep
+{
+  double previous_dt;  ///< [s]
+  double dt;           ///< [s]
+  double damping;      ///< α of local damping
+  Vector<dim> gravity; ///< [m/s²]
+};
+
+/// Moves the first `n_bodies` grains or groups over a step by their forces and couples: kicks their velocities and spins
+/// over half of the step before and half of this one, and carries their centres; docs/theory.md §2.1. `freedom`: a factor
+/// of what moves each; `damping_work`: grows by what damping dissipates at each [J]. Returns the longest way that one has
+/// gone [m].
+template <int dim>
+double move_bodies(Grains<dim>& bodies, std::size_t n_bodies, const MotionStep<dim>& step,
+                   const std::vector<double>& freedom, std::vector<double>& damping_work);
+} // namespace feldspar
