@@ -91,8 +91,11 @@ struct StoredSegments
     return joints.segment_state.at(0, first) + (i * n_rows + row) * pack_width;
   }
 
+  /// Of segments that are all broken without strengths, which nothing asks for.
   Bond<Real> bond(const unsigned int i) const
   {
+    if (!simd::any(simd::load<Real>(state_row(i, dim - 1)) > 0.5))
+      return {Real(0.0), Real(0.0), joints.friction_slope};
     const double* const strength = joints.tensile_strength.pack(i, first);
     return {simd::load<Real>(strength), simd::load<Real>(strength + pack_width), joints.friction_slope};
   }
