@@ -1,6 +1,6 @@
 #include "dem/dynamics/dynamics.h"
 
-#include "dem/dynamics/motion.h"
+#include "dem/dynamics/sweeps/motion.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
@@ -309,9 +309,9 @@ double Dynamics<dim>::integrate()
 template <int dim>
 std::vector<Break> Dynamics<dim>::update_contacts(const double step, const double farthest_way)
 {
-  auto breaks =
-    sweep_joints(body.joints, body.grains, step, sweep_memory,
-                 {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
+  auto breaks = sweep_joints(
+    body.joints, body.grains, step, sweep_memory,
+    {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
   joint_groups.note(breaks, body.joints);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step, farthest_way) || contact_made;
   sum_forces(body, sum_order, touches);

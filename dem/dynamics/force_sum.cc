@@ -161,8 +161,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
   };
   for (std::size_t block = 0; block <= after_all; ++block)
     for (std::uint32_t begin = first_behind[block]; begin < first_behind[block + 1]; begin += n_neighbours)
-      std::stable_sort(grain.begin() + begin,
-                       grain.begin() + std::min(begin + n_neighbours, first_behind[block + 1]),
+      std::stable_sort(grain.begin() + begin, grain.begin() + std::min(begin + n_neighbours, first_behind[block + 1]),
                        [&](const std::uint32_t a, const std::uint32_t b) { return counts(a) < counts(b); });
   first_behind.pop_back();
 

@@ -91,9 +91,9 @@ private:
   auto find(const GrainPair& pair) const;
 
   std::vector<Touch<dim>> touches;
-  std::vector<Look> looks;                  ///< of each touch
-  double way_gone = 0.0;                    ///< by a grain at most, since number() [m]
-  std::vector<double> apart_until;          ///< way_gone up to which the grains of each touch cannot meet [m]
+  std::vector<Look> looks;         ///< of each touch
+  double way_gone = 0.0;           ///< by a grain at most, since number() [m]
+  std::vector<double> apart_until; ///< way_gone up to which the grains of each touch cannot meet [m]
   bool touching_ones_are_known = false;
   std::vector<std::uint32_t> touching_ones; ///< the first n_touching hold
   std::size_t n_touching = 0;

@@ -2,9 +2,11 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "dem/dynamics/sweeps/joint_sweep.h"
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
 #include <vector>
@@ -93,6 +95,72 @@ TEST(ForceSum, OfTouchesGoesByTheirNumbersInSmallBodiesAndInLarge)
   ASSERT_FALSE(stays_on_this_thread(10000));
   expect_touches_by_their_numbers<2>(100);
   expect_touches_by_their_numbers<3>(22);
+}
+
+/// Jointed discs or spheres on a lattice, some of which turn.
+template <int dim>
+Specimen<dim> jointed_lattice(const std::size_t n_across)
+{
+  constexpr double radius = 1e-3;
+  const auto n = std::size_t(std::lround(std::pow(double(n_across), dim)));
+  Random random(1, RandomStream::positions);
+  Components<dim> positions;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0, rest = i; c < dim; ++c, rest /= n_across)
+      positions[c].push_back((double(rest % n_across) + random.uniform(-0.01, 0.01)) * 2.0 * radius);
+  auto body = placed_specimen<dim>(std::vector<double>(n, radius), positions);
+  FlatJointParameters flat_joint;
+  flat_joint.coordination_number = 2.0 * double(dim) * (1.0 - 1.0 / double(n_across)); // the next neighbours
+  install_joints(body, flat_joint);
+  for (auto& spins : body.grains.spin)
+    for (double& spin : spins)
+      spin = random.uniform(-1.0, 1.0);
+  return body;
+}
+
+template <int dim>
+void expect_sums_behind_the_sweep(const std::size_t n_across)
+{
+  auto body = jointed_lattice<dim>(n_across);
+  auto& joints = body.joints;
+  const std::size_t n = joints.size();
+  ASSERT_FALSE(stays_on_this_thread(n));
+  const Incidence joints_of = incidence(
+    body.grains.size(), n, [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
+    [](const std::uint32_t grain) { return grain; });
+
+  auto expected = body;
+  sweep_joints(expected.joints, expected.grains, 1e-3);
+  for (std::size_t i = 0; i < body.grains.size(); ++i)
+    {
+      Vector<dim> one = Vector<dim>::Zero(), two = Vector<dim>::Zero();
+      for (auto e = joints_of.first[i]; e < joints_of.first[i + 1]; ++e)
+        (joints_of.entries[e] % 2 == 1 ? two : one) += at<dim>(expected.joints.force, joints_of.entries[e] / 2);
+      set<dim>(expected.grains.force, i, two - one);
+    }
+
+  for (const std::size_t n_threads : {1, 2})
+    {
+      const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, n_threads);
+      auto summed = body;
+      const SumOrder order(joints_of, n);
+      // One thread sums all grains behind their joints, several leave some that have joints in the runs of two of them.
+      const std::size_t n_left = summed.grains.size() - order.first_behind.back();
+      const bool by_several = number_of_threads() > 1;
+      EXPECT_GE(n_left, by_several ? 1u : 0u);
+      EXPECT_LE(n_left, by_several ? summed.grains.size() / 2 : 0u);
+      SweepMemory<dim> memory(summed.joints);
+      sweep_joints(summed.joints, summed.grains, 1e-3, memory,
+                   {order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, summed, order); }});
+      sum_forces(summed, order, Touches<dim>());
+      EXPECT_EQ(summed.grains.force, expected.grains.force) << n_threads << " threads";
+    }
+}
+
+TEST(ForceSum, BehindTheSweepIsThatAfterItToTheLastBit)
+{
+  expect_sums_behind_the_sweep<2>(80);
+  expect_sums_behind_the_sweep<3>(20);
 }
 } // namespace
 } // namespace feldspar

@@ -1,4 +1,4 @@
-#include "dem/dynamics/motion.h"
+#include "dem/dynamics/sweeps/motion.h"
 
 #include "base/parallel.h"
 #include "base/simd.h"
