@@ -125,8 +125,8 @@ void check(const StrainPathParameters& path)
                                  path.largest_step, path.size, most_increments));
   for (const auto& component : path.direction)
     if (component && std::abs(path.size * *component) > largest_strain)
-      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; the kinematics are "
-                                   "those of small strains, at most {:g}",
+      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; a cell takes strains of at "
+                                   "most {:g}",
                                    *component, path.size * *component, largest_strain));
 }
 

@@ -131,7 +131,7 @@ std::vector<SpecimenReport> Rock::reports() const
 
 namespace
 {
-/// Geometrically linear RVEs bear any pressure: beyond small strains that means nothing.
+/// An RVE bears any pressure: of grains that are pressed into each other so far that means nothing.
 template <int dim>
 void check_confinement(const double pressure, const char* const entry, const Network<dim>& network)
 {
@@ -139,8 +139,8 @@ void check_confinement(const double pressure, const char* const entry, const Net
   const Voigt<dim> all_round = stress_voigt<dim>(-pressure * Tensor<dim>::Identity());
   const Voigt<dim> strain = network.intact_stiffness().partialPivLu().solve(all_round);
   if (const double size = strain.cwiseAbs().maxCoeff(); size > largest)
-    throw InputError(fmt::format("{}: {:g} MPa would strain the intact RVE by {:.2g} %; small strains end "
-                                 "at {:g} %, which is {:.0f} MPa",
+    throw InputError(fmt::format("{}: {:g} MPa would strain the intact RVE by {:.2g} %; a pressure may strain "
+                                 "it by {:g} % at most, which is {:.0f} MPa",
                                  entry, pressure / 1e6, 100.0 * size, 100.0 * largest,
                                  pressure * largest / size / 1e6));
 }

@@ -332,7 +332,7 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve", small_cell, "", "bad.prm: Strain path/File: is missing");
   expect(
     "rve", small_cell + "subsection Strain path\n  set Direction = 5, 0, 0\n  set Size = 0.1\nend\n", "",
-    "bad.prm: Strain path/Size: times 5 of Direction is a strain of 0.5; the kinematics are those of small strains");
+    "bad.prm: Strain path/Size: times 5 of Direction is a strain of 0.5; a cell takes strains of at most 0.1");
   expect("rve", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set File = path.csv\nend\n",
          "", "bad.prm: Strain path/Direction: excludes File");
   expect("rve", small_cell_in_space + free_sides, "",
