@@ -127,7 +127,7 @@ check_other_compiler()
 
 demo()
 {
-  say "packages and build, a specimen of grains broken, the rest of the build, a sample: some fifteen minutes on two cores"
+  say "packages and build, a specimen of grains broken, the rest of the build, a sample: some eight minutes on two fast cores, up to three times as long on slow ones"
   need_packages "${build_packages[@]}"
   build_release feldspar # without the finite elements, whose headers are half of a build
   local feldspar=build/release/app/feldspar

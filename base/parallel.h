@@ -23,7 +23,10 @@ inline constexpr std::size_t block_size = 1024;
 
 inline std::size_t n_blocks(const std::size_t n) { return (n + block_size - 1) / block_size; }
 
-/// Whether for_each_block() does a job of this size on this thread alone. Small jobs are not handed out, which costs more.
+/// Blocks that a thread works on one after the other, at least.
+inline constexpr std::size_t fewest_blocks_in_a_row = 4;
+
+/// Whether for_each_block() and for_each_run_of_blocks() do a job of this size on this thread alone. Small jobs are not handed out, which costs more.
 inline bool stays_on_this_thread(const std::size_t n)
 {
   constexpr std::size_t few_blocks = 8;
@@ -50,8 +53,7 @@ void for_each_run_of_blocks(const std::size_t n, const std::size_t in_a_row, Wor
 template <typename Work>
 void for_each_block(const std::size_t n, Work&& work)
 {
-  constexpr std::size_t in_a_row = 4;
-  for_each_run_of_blocks(n, in_a_row, work);
+  for_each_run_of_blocks(n, fewest_blocks_in_a_row, work);
 }
 
 /// Thrown by work that was left because the run is to end.

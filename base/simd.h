@@ -63,6 +63,8 @@ Real magnitude(const std::array<Real, 2>& v)
 inline double larger(const double a, const double b) { return a < b ? b : a; }
 inline Pack larger(const Pack& a, const Pack& b) { return select(a < b, b, a); }
 
+inline double largest_lane(const Pack& value) { return std::experimental::hmax(value); }
+
 inline double smaller(const double a, const double b) { return b < a ? b : a; }
 inline Pack smaller(const Pack& a, const Pack& b) { return select(b < a, b, a); }
 

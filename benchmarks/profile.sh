@@ -26,9 +26,9 @@ for part in 10%-20% 85%-95%; do
     awk '/^ +[0-9.]+%/ {
            kind = "other"
            if (/update_joint|sweep_joints|flat_joint/) kind = "sweep over joints"
-           if (/sum_forces/) kind = "sum of forces"
-           if (/integrate/) kind = "integration"
-           if (/update_touches|linear_contact|press_walls/) kind = "contacts without a face, walls"
+           if (/sum_forces|sum_over_joints/) kind = "sum of forces"
+           if (/move_bodies|move_one/) kind = "motion of grains"
+           if (/Touches<.>::update|linear_contact|Walls<.>::press/) kind = "contacts without a face, walls"
            if (/contacts_may_be_missed|find_contacts|pairs_within|CellGrid|torn|ncidence|choose_time_step/)
              kind = "search for contacts, time step"
            if (/energies|joint_energy|StrainGauge|unbalanced|force_across/) kind = "rows of the curve"

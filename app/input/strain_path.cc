@@ -94,10 +94,8 @@ std::vector<PathLeg<dim>> legs_from_file(const std::string& file)
         {
           const double value = table.number(std::size_t(k));
           if (!control.stress_given[k] && std::abs(value) > largest_strain)
-            throw InputError(fmt::format("{}: point {}: strain_{} = {}: must lie in [-{}, {}]; the RVE is one of small "
-                                         "strains",
-                                         file, legs.size() + 1, voigt_name<dim>(k), value, largest_strain,
-                                         largest_strain));
+            throw InputError(fmt::format("{}: point {}: strain_{} = {}: must lie in [-{}, {}]", file, legs.size() + 1,
+                                         voigt_name<dim>(k), value, largest_strain, largest_strain));
           (control.stress_given[k] ? control.stress[k] : control.strain[k]) =
             control.stress_given[k] ? value : engineering<dim>(k) * value;
         }
@@ -125,8 +123,8 @@ void check(const StrainPathParameters& path)
                                  path.largest_step, path.size, most_increments));
   for (const auto& component : path.direction)
     if (component && std::abs(path.size * *component) > largest_strain)
-      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; a cell takes strains of at "
-                                   "most {:g}",
+      throw InputError(fmt::format("Strain path/Size: times {:g} of Direction is a strain of {:g}; a cell "
+                                   "takes strains of at most {:g}",
                                    *component, path.size * *component, largest_strain));
 }
 

@@ -131,7 +131,7 @@ std::vector<SpecimenReport> Rock::reports() const
 
 namespace
 {
-/// An RVE bears any pressure: of grains that are pressed into each other so far that means nothing.
+/// An RVE bears any pressure, even one that presses its grains into each other so far that the result means nothing.
 template <int dim>
 void check_confinement(const double pressure, const char* const entry, const Network<dim>& network)
 {

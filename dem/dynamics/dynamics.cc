@@ -296,7 +296,8 @@ Circumstances Dynamics<dim>::circumstances() const
           *std::min_element(body.grains.radius.begin(), body.grains.radius.end())};
 }
 
-/// Returns how far a grain has gone at most [m]; endless where that is not known, of images and of members of groups.
+/// Returns how far a grain has gone at most [m]: infinite in a periodic body, whose images move with the cell too, and with rigid
+/// groups, whose members turn.
 template <int dim>
 double Dynamics<dim>::integrate()
 {
@@ -314,7 +315,7 @@ std::vector<Break> Dynamics<dim>::update_contacts(const double step, const doubl
     {sum_order.blocks_in_a_row, [&](const std::size_t block) { sum_forces_behind(block, body, sum_order); }});
   joint_groups.note(breaks, body.joints);
   contact_made = touches.update(body.grains, body.particle_contact.friction, step, farthest_way) || contact_made;
-  sum_forces(body, sum_order, touches);
+  sum_remaining_forces(body, sum_order, touches);
   if (!body.smooth_joints.empty())
     {
       const auto smooth_breaks = sweep_smooth_joints(body, step);

@@ -93,10 +93,7 @@ void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_
   for (int c = 0; c < n_rotations<dim>; ++c)
     grains.couple[c][grain] += (as_second ? touch.on_grains.couple_2 : touch.on_grains.couple_1)[c];
 }
-} // namespace
 
-namespace
-{
 /// Sets the grains of these places to the sums over their joints.
 template <int dim>
 void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size_t begin, const std::size_t end)
@@ -114,17 +111,18 @@ void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size
 }
 
 /// Of joints, that one thread sweeps: as many as leave some runs for each thread. Sums do not depend on it.
-std::size_t blocks_in_a_row(const std::size_t n_joints)
+std::size_t blocks_for_one_thread(const std::size_t n_joints)
 {
-  constexpr std::size_t runs_per_thread = 8, fewest_blocks = 4;
+  constexpr std::size_t runs_per_thread = 8;
   const std::size_t n_threads = stays_on_this_thread(n_joints) ? 1 : number_of_threads();
   const std::size_t n = n_blocks(n_joints);
-  return n_threads == 1 ? std::max<std::size_t>(n, 1) : std::max(fewest_blocks, n / (runs_per_thread * n_threads));
+  return n_threads == 1 ? std::max<std::size_t>(n, 1)
+                        : std::max(fewest_blocks_in_a_row, n / (runs_per_thread * n_threads));
 }
 } // namespace
 
 SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
-  : blocks_in_a_row(feldspar::blocks_in_a_row(n_joints))
+  : blocks_in_a_row(blocks_for_one_thread(n_joints))
 {
   const std::size_t n_grains = joints_of.first.size() - 1;
   const auto is_second = [](const std::uint32_t entry) { return entry % 2 == 1; };
@@ -187,7 +185,7 @@ void sum_forces_behind(const std::size_t block, Specimen<dim>& body, const SumOr
 }
 
 template <int dim>
-void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches)
+void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches)
 {
   auto& grains = body.grains;
   const std::size_t n_grains = order.grain.size(), first_left = order.first_behind.back();
@@ -219,6 +217,6 @@ void sum_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& 
 
 template void sum_forces_behind<2>(std::size_t, Specimen<2>&, const SumOrder&);
 template void sum_forces_behind<3>(std::size_t, Specimen<3>&, const SumOrder&);
-template void sum_forces<2>(Specimen<2>&, const SumOrder&, const Touches<2>&);
-template void sum_forces<3>(Specimen<3>&, const SumOrder&, const Touches<3>&);
+template void sum_remaining_forces<2>(Specimen<2>&, const SumOrder&, const Touches<2>&);
+template void sum_remaining_forces<3>(Specimen<3>&, const SumOrder&, const Touches<3>&);
 } // namespace feldspar

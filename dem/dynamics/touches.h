@@ -63,8 +63,8 @@ public:
   void number(const Images<dim>& images);
   void clear() { *this = {}; }
 
-  /// Carries all over a step [s], in which no grain has gone farther than `farthest_way` [m]; whether a pair has come to
-  /// touch.
+  /// Carries all over a step [s]; whether a pair has come to touch. No grain or image may have gone farther than
+  /// `farthest_way` [m] since the last update() or number(); infinite where that is not known.
   bool update(const Grains<dim>& grains, double friction, double dt, double farthest_way);
 
   /// `sum` with what the touches store and have dissipated.
@@ -78,7 +78,7 @@ public:
   }
 
 private:
-  /// What a step has to know of a pair that does not press, as most do not: kept together and small, while a Touch takes
+  /// What a step has to know of a pair that may have come to touch and most often has not: kept together and small, while a Touch takes
   /// lines of the cache.
   struct Look
   {
@@ -89,11 +89,13 @@ private:
   };
 
   auto find(const GrainPair& pair) const;
+  void forget_ways();
 
   std::vector<Touch<dim>> touches;
   std::vector<Look> looks;         ///< of each touch
   double way_gone = 0.0;           ///< by a grain at most, since number() [m]
   std::vector<double> apart_until; ///< way_gone up to which the grains of each touch cannot meet [m]
+  std::size_t n_updates = 0;       ///< in which way_gone has grown
   bool touching_ones_are_known = false;
   std::vector<std::uint32_t> touching_ones; ///< the first n_touching hold
   std::size_t n_touching = 0;

@@ -326,13 +326,12 @@ TEST(Rve, TellsAMistakeInOneLineAndLeavesNothing)
   expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,inf,0\n",
          "path.csv:2: strain_yy: \"inf\" is not a decimal number");
   expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy\n0,0.2,0\n",
-         "path.csv: point 1: strain_yy = 0.2: must lie in [-0.1, 0.1]");
+         "path.csv: point 1: strain_yy = 0.2: must lie in [-0.1, 0.1]\n");
   expect("rve", small_cell + along_file, "strain_xx,strain_yy,strain_xy,stress_yy_Pa\n0,0,0,0\n",
          "path.csv:1: strain_yy and stress_yy_Pa are both given");
   expect("rve", small_cell, "", "bad.prm: Strain path/File: is missing");
-  expect(
-    "rve", small_cell + "subsection Strain path\n  set Direction = 5, 0, 0\n  set Size = 0.1\nend\n", "",
-    "bad.prm: Strain path/Size: times 5 of Direction is a strain of 0.5; a cell takes strains of at most 0.1");
+  expect("rve", small_cell + "subsection Strain path\n  set Direction = 5, 0, 0\n  set Size = 0.1\nend\n", "",
+         "bad.prm: Strain path/Size: times 5 of Direction is a strain of 0.5; a cell takes strains of at most 0.1");
   expect("rve", small_cell + "subsection Strain path\n  set Direction = free, 1, free\n  set File = path.csv\nend\n",
          "", "bad.prm: Strain path/Direction: excludes File");
   expect("rve", small_cell_in_space + free_sides, "",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/page_allocator.h"
+#include "base/parallel.h"
 #include "dem/storage/joints.h"
 
 #include <array>
@@ -47,7 +48,7 @@ struct SweepMemory
 struct BehindSweep
 {
   /// Of joints (base/parallel.h), gone through one after the other by the same thread.
-  std::size_t blocks_in_a_row = 4;
+  std::size_t blocks_in_a_row = fewest_blocks_in_a_row;
   /// Called when a block of joints has its responses.
   std::function<void(std::size_t block)> work = [](std::size_t) {};
 };

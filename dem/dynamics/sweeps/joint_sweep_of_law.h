@@ -91,7 +91,7 @@ struct StoredSegments
     return joints.segment_state.at(0, first) + (i * n_rows + row) * pack_width;
   }
 
-  /// Of segments that are all broken without strengths, which nothing asks for.
+  /// Strengths of nothing where all segments are broken: laws use them only where bonded, and reading them costs memory.
   Bond<Real> bond(const unsigned int i) const
   {
     if (!simd::any(simd::load<Real>(state_row(i, dim - 1)) > 0.5))

@@ -12,8 +12,8 @@ namespace
 {
 /// Moves a body, or the pack of bodies that begins at i. Returns the square of the way of each [m²].
 template <typename Real, int dim>
-[[gnu::flatten]] Real move(Grains<dim>& bodies, const std::size_t i, const MotionStep<dim>& step,
-                           const std::vector<double>& freedom, std::vector<double>& damping_work)
+[[gnu::flatten]] Real move_one(Grains<dim>& bodies, const std::size_t i, const MotionStep<dim>& step,
+                               const std::vector<double>& freedom, std::vector<double>& damping_work)
 {
   const double kick = 0.5 * (step.previous_dt + step.dt);
   const Real is_free = simd::load<Real>(&freedom[i]);
@@ -58,10 +58,10 @@ double move_bodies(Grains<dim>& bodies, const std::size_t n_bodies, const Motion
     std::size_t i = begin;
     simd::Pack of_packs = 0.0;
     for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
-      of_packs = simd::larger(move<simd::Pack>(bodies, i, step, freedom, damping_work), of_packs);
-    double longest = std::experimental::hmax(of_packs);
+      of_packs = simd::larger(of_packs, move_one<simd::Pack>(bodies, i, step, freedom, damping_work));
+    double longest = simd::largest_lane(of_packs);
     for (; i < end; ++i)
-      longest = simd::larger(move<double>(bodies, i, step, freedom, damping_work), longest);
+      longest = simd::larger(longest, move_one<double>(bodies, i, step, freedom, damping_work));
     squared_ways[block] = longest;
   });
   return squared_ways.empty() ? 0.0 : std::sqrt(*std::max_element(squared_ways.begin(), squared_ways.end()));
