@@ -26,7 +26,8 @@ inline std::size_t n_blocks(const std::size_t n) { return (n + block_size - 1) /
 /// Blocks that a thread works on one after the other, at least.
 inline constexpr std::size_t fewest_blocks_in_a_row = 4;
 
-/// Whether for_each_block() and for_each_run_of_blocks() do a job of this size on this thread alone. Small jobs are not handed out, which costs more.
+/// Whether for_each_block() and for_each_run_of_blocks() do a job of this size on this thread alone. Small jobs are not handed
+/// out, which costs more.
 inline bool stays_on_this_thread(const std::size_t n)
 {
   constexpr std::size_t few_blocks = 8;

@@ -10,9 +10,9 @@
 namespace feldspar
 {
 /// The way of a sum over the joints of each grain: of each the joints in which it is grain 2, then those in which it is
-/// grain 1, each kind by the joint's number. A grain is summed behind the block of joints (base/parallel.h) that ends its own, while
-/// the processor has their responses at hand; one whose joints different threads may sweep, after all of them. Neighbouring grains
-/// with as many joints follow each other, so that a processor foresees how long the loops are.
+/// grain 1, each kind by the joint's number. A grain is summed behind the block of joints (base/parallel.h) that ends its
+/// own, while the processor has their responses at hand; one whose joints different threads may sweep, after all of them.
+/// Neighbouring grains with as many joints follow each other, so that a processor foresees how long the loops are.
 struct SumOrder
 {
   SumOrder() = default;

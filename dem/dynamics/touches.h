@@ -78,8 +78,8 @@ public:
   }
 
 private:
-  /// What a step has to know of a pair that may have come to touch and most often has not: kept together and small, while a Touch takes
-  /// lines of the cache.
+  /// What a step has to know of a pair that may have come to touch and most often has not: kept together and small,
+  /// while a Touch takes lines of the cache.
   struct Look
   {
     std::uint32_t grain_1, grain_2;
