@@ -29,7 +29,7 @@ namespace
 /// Positions round in each step, by 1e-16 of the size of the body. The share of the distance of two grains that is spared for it
 /// covers as many steps in a body of 10 000 grains across.
 constexpr double share_for_rounding = 1e-6;
-constexpr std::size_t most_steps_that_round = 1'000'000;
+constexpr std::size_t most_steps_that_round = 100'000;
 
 /// Whether a smooth plane lies between them, along which they pass over one another, or they are of one rigid body.
 template <int dim>
