@@ -1,5 +1,6 @@
 #include "results/statistics.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include <cmath>
@@ -10,6 +11,15 @@ double student_factor_95(const std::size_t degrees_of_freedom)
 {
   const boost::math::students_t student{double(degrees_of_freedom)};
   return boost::math::quantile(boost::math::complement(student, 0.5 * (1.0 - 0.95)));
+}
+
+Interval deviation_interval_95(const std::size_t n)
+{
+  const double freedom = double(n - 1);
+  const boost::math::chi_squared squares{freedom};
+  const double tail = 0.5 * (1.0 - 0.95);
+  return {std::sqrt(freedom / boost::math::quantile(boost::math::complement(squares, tail))),
+          std::sqrt(freedom / boost::math::quantile(squares, tail))};
 }
 
 std::optional<Statistics> statistics(const std::vector<double>& values)

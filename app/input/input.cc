@@ -22,32 +22,26 @@ namespace feldspar
 {
 namespace
 {
-/// The defaults of three dimensions, for entries that are not given.
+/// The porosity in space where none is given.
 void settle_dimension(Input& input, const GivenEntries& values)
 {
-  if (input.specimen.dimension == 2)
-    return;
-  if (!values.has("Specimen", "Porosity"))
+  if (input.specimen.dimension == 3 && !values.has("Specimen", "Porosity"))
     input.specimen.porosity = porosity_in_space;
-  for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
-    const std::string section = section_of(law);
-    if (!values.has(section, "Coordination number") && !values.has(section, "Installation gap ratio"))
-      joint.installation_gap_ratio = 0.05;
-  });
 }
 
-/// The gap that gets a joint follows from exactly one of two entries; naming the one takes the other's default away.
+/// One of two entries says which pairs get a joint; a coordination number takes the place of the default gap.
 void settle_installation(Input& input, const GivenEntries& values)
 {
   for_each_joint_section(input, [&](const std::string_view law, auto& joint) {
     const std::string section = section_of(law);
-    if (joint.installation_gap_ratio && !values.has(section, "Coordination number"))
-      joint.coordination_number.reset();
+    if (joint.coordination_number && !values.has(section, "Installation gap ratio"))
+      joint.installation_gap_ratio.reset();
     if (joint.installation_gap_ratio && joint.coordination_number)
       throw values.error(section, "Installation gap ratio",
                          "excludes Coordination number, which is given too; keep one of them");
     if (!joint.installation_gap_ratio && !joint.coordination_number)
-      throw values.error(section, "Coordination number", "is needed when Installation gap ratio is none");
+      throw values.error(section, "Installation gap ratio",
+                         "leaves the joints undetermined; give a gap, or Coordination number");
   });
 }
 

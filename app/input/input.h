@@ -74,10 +74,9 @@ struct Input
 
   SpecimenParameters specimen;
   FlawParameters flaws;
-  FlatJointParameters flat_joint{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
-  ParallelBondParameters parallel_bond{.installation_gap_ratio = std::nullopt, .coordination_number = 4.2};
-  SofteningFlatJointParameters softening_flat_joint{
-    {.installation_gap_ratio = std::nullopt, .coordination_number = 4.2}};
+  FlatJointParameters flat_joint;
+  ParallelBondParameters parallel_bond;
+  SofteningFlatJointParameters softening_flat_joint;
   ParticleContactParameters particle_contact;
   SmoothJointParameters smooth_joint;
   MineralGrainParameters mineral_grains;

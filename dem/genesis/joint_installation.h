@@ -70,7 +70,7 @@ template <int dim, typename Parameters>
 std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted, const std::size_t n_grains,
                             const double mean_radius, const std::string& section)
 {
-  if (wanted.installation_gap_ratio)
+  if (!wanted.coordination_number)
     return std::size_t(std::partition_point(gaps.begin(), gaps.end(),
                                             [&](const PairGap<dim>& entry) {
                                               return entry.gap <= *wanted.installation_gap_ratio * mean_radius;
@@ -148,9 +148,9 @@ void install_joints(
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
   const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12), check);
   const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius, section_of(Law::name));
-  specimen.report.installation_gap_ratio = wanted.installation_gap_ratio ? *wanted.installation_gap_ratio
-                                           : n > 0                       ? gaps[n - 1].gap / mean_radius
-                                                                         : 0.0;
+  specimen.report.installation_gap_ratio = !wanted.coordination_number ? *wanted.installation_gap_ratio
+                                           : n > 0                     ? gaps[n - 1].gap / mean_radius
+                                                                       : 0.0;
 
   std::vector<PairGap<dim>> pairs(gaps.begin(), gaps.begin() + std::ptrdiff_t(n));
   std::sort(pairs.begin(), pairs.end(), [](const PairGap<dim>& a, const PairGap<dim>& b) {

@@ -13,22 +13,23 @@ template <typename P>
 std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock)
 {
   // Over a gap of a mean radius lie other grains.
-  for (const Entry<P>& entry :
-       {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::fraction,
-                                  "largest gap that gets a joint, over the mean radius; instead of Coordination number",
-                                  of_rock),
-        entry::optional_number<P>(
-          "Coordination number", &P::coordination_number, ranges::above_zero,
-          "mean number of joints of a grain, from which the gap follows; the default holds in two "
-          "dimensions unless Installation gap ratio is given; in three that is 0.05 instead",
-          of_rock),
-        entry::number<P>("Gapped fraction", &P::gapped_fraction, ranges::fraction,
-                         "share of the joints without bonds and with an initial gap", of_rock),
-        entry::number<P>("Slit fraction", &P::slit_fraction, ranges::fraction,
-                         "share of the joints without bonds whose faces touch; with Gapped fraction at most 1",
-                         of_rock),
-        entry::quantity<P>("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero,
-                           "of the gapped joints", of_rock)})
+  for (
+    const Entry<P>& entry :
+    {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::fraction,
+                               "largest gap that gets a joint, over the mean radius; none where Coordination number is "
+                               "given",
+                               of_rock),
+     entry::optional_number<P>(
+       "Coordination number", &P::coordination_number, ranges::above_zero,
+       "mean number of joints of a grain, instead of Installation gap ratio, which follows from it. Walls take joints: "
+       "with one number small, walled and periodic bodies are different rocks",
+       of_rock),
+     entry::number<P>("Gapped fraction", &P::gapped_fraction, ranges::fraction,
+                      "share of the joints without bonds and with an initial gap", of_rock),
+     entry::number<P>("Slit fraction", &P::slit_fraction, ranges::fraction,
+                      "share of the joints without bonds whose faces touch; with Gapped fraction at most 1", of_rock),
+     entry::quantity<P>("Initial gap", &P::initial_gap, Measure::length, "mm", ranges::from_zero,
+                        "of the gapped joints", of_rock)})
     entries.push_back(entry);
   return entries;
 }

@@ -4,8 +4,7 @@
 #include <optional>
 
 /// Parameters of contacts, in SI units and radians, tension positive. Default-constructed values are the defaults of the
-/// input, except for the number of joints: neither the installation gap ratio nor the coordination number is set, and one
-/// of them must be. An input that gives neither means z = 4.2 in the plane and a gap ratio of 0.05 in space.
+/// input.
 namespace feldspar
 {
 enum class StrengthDraw
@@ -30,11 +29,11 @@ struct FlatJointParameters
   double bond_cohesion_deviation = 40e6;                        ///< [Pa]
   double bond_friction_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
   StrengthDraw strength_draw = StrengthDraw::per_segment;
-  std::optional<double> installation_gap_ratio; ///< largest gap that gets a joint, over the mean radius
-  std::optional<double> coordination_number;    ///< z = 2 joints/grains; the gap follows
-  double gapped_fraction = 0.0;                 ///< share of joints without bonds and with an initial gap
-  double slit_fraction = 0.0;                   ///< share of joints without bonds whose faces touch
-  double initial_gap = 0.0;                     ///< g_0 of the gapped joints [m]
+  std::optional<double> installation_gap_ratio = 0.05; ///< largest gap that gets a joint, over the mean radius
+  std::optional<double> coordination_number;           ///< z = 2 joints/grains; instead of the gap, which follows
+  double gapped_fraction = 0.0;                        ///< share of joints without bonds and with an initial gap
+  double slit_fraction = 0.0;                          ///< share of joints without bonds whose faces touch
+  double initial_gap = 0.0;                            ///< g_0 of the gapped joints [m]
 };
 
 /// The same faces, whose bonds soften beyond their strength.
@@ -46,16 +45,16 @@ struct SofteningFlatJointParameters : FlatJointParameters
 /// The bonds between the grains; the linear contact beside each is that of ParticleContactParameters.
 struct ParallelBondParameters
 {
-  double modulus = 80e9;                         ///< E_b [Pa]; k_n = E_b/(R1+R2)
-  double stiffness_ratio = 1.25;                 ///< κ_b = k_n/k_s
-  double radius_multiplier = 1.0;                ///< λ; R̄ = λ min(R1, R2)
-  double moment_contribution = 1.0;              ///< β, share of the moments that counts for breaking
-  double bond_tensile_strength = 100e6;          ///< [Pa]
-  double bond_tensile_strength_deviation = 10e6; ///< [Pa]
-  double bond_cohesion = 100e6;                  ///< [Pa]
-  double bond_cohesion_deviation = 10e6;         ///< [Pa]
-  double bond_friction_angle = 0.0;              ///< [rad]
-  std::optional<double> installation_gap_ratio;  ///< as of the flat joint, and all below
+  double modulus = 80e9;                               ///< E_b [Pa]; k_n = E_b/(R1+R2)
+  double stiffness_ratio = 1.25;                       ///< κ_b = k_n/k_s
+  double radius_multiplier = 1.0;                      ///< λ; R̄ = λ min(R1, R2)
+  double moment_contribution = 1.0;                    ///< β, share of the moments that counts for breaking
+  double bond_tensile_strength = 100e6;                ///< [Pa]
+  double bond_tensile_strength_deviation = 10e6;       ///< [Pa]
+  double bond_cohesion = 100e6;                        ///< [Pa]
+  double bond_cohesion_deviation = 10e6;               ///< [Pa]
+  double bond_friction_angle = 0.0;                    ///< [rad]
+  std::optional<double> installation_gap_ratio = 0.05; ///< as of the flat joint, and all below
   std::optional<double> coordination_number;
   double gapped_fraction = 0.0;
   double slit_fraction = 0.0;

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace feldspar
@@ -79,14 +81,30 @@ std::string as_text(const ComparisonRow& row)
 {
   return row.ours ? fmt::format("{} (n = {})", mean_and_deviation(*row.ours, 1.0, row.decimals), row.ours->n) : none;
 }
+
+/// A sentence on how sure the standard deviations are, by the fewest specimens of any; empty where no result has one.
+std::string deviation_note(const Findings& findings, const std::vector<std::size_t>& compared)
+{
+  std::optional<std::size_t> fewest;
+  for (const std::size_t k : compared)
+    for (const auto& row : findings.comparisons[k])
+      if (row.ours && row.ours->standard_deviation && (!fewest || row.ours->n < *fewest))
+        fewest = row.ours->n;
+  if (!fewest)
+    return "";
+  const Interval over_shown = deviation_interval_95(*fewest);
+  return fmt::format(
+    "; of {} specimens it is itself uncertain: with 95 % the rock's is {:.2f} to {:.2f} times as large", *fewest,
+    over_shown.low, over_shown.high);
+}
 } // namespace
 
 Table comparison_of_many(const Findings& findings)
 {
   const std::vector<std::size_t> compared = compared_series(findings);
   Table table{"comparison",
-              "Model and rock. ± is the standard deviation over the seeds. Range: does our mean lie in that of the "
-              "experiments?",
+              "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) +
+                ". Range: does our mean lie in that of the experiments?",
               {"series"},
               {},
               comparison_frame(findings)};
@@ -143,8 +161,9 @@ Table comparison_table(const Findings& findings)
 
   Table table{
     "comparison",
-    "Model and rock. ± is the standard deviation over the seeds; the interval is that of the mean, 95 %, by "
-    "Student's t, from three specimens on and where it does not reach 0. Range: does our mean lie in that of the experiments?",
+    "Model and rock. ± is the standard deviation over the seeds" + deviation_note(findings, compared) +
+      ". The interval is that of the mean, 95 %, by Student's t, from three specimens on and where it does not reach 0. "
+      "Range: does our mean lie in that of the experiments?",
     {"property"},
     {},
     comparison_frame(findings)};

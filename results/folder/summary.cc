@@ -43,6 +43,9 @@ Json as_json(const Statistics& over_seeds)
       json["standard_deviation"] = *over_seeds.standard_deviation;
       json["standard_error"] = *over_seeds.standard_error;
       json["mean_confidence_95"] = *over_seeds.confidence_95;
+      const Interval of_deviation = deviation_interval_95(over_seeds.n);
+      json["standard_deviation_low_95"] = of_deviation.low * *over_seeds.standard_deviation;
+      json["standard_deviation_high_95"] = of_deviation.high * *over_seeds.standard_deviation;
     }
   return json;
 }

@@ -246,8 +246,8 @@ TEST(Input, AnEmptyFileMeansTheDefaults)
   const Input input = read_input(folder.write("empty.prm", "# nothing\n"));
   for (const Parameter& parameter : parameter_table())
     EXPECT_EQ(parameter.write(input), parameter.default_text()) << parameter.name();
-  EXPECT_EQ(input.flat_joint.coordination_number, 4.2);
-  EXPECT_EQ(input.flat_joint.installation_gap_ratio, std::nullopt);
+  EXPECT_EQ(input.flat_joint.coordination_number, std::nullopt);
+  EXPECT_EQ(input.flat_joint.installation_gap_ratio, 0.05);
 }
 
 TEST(Input, ADefaultWrittenOutIsTheDefault)
@@ -800,7 +800,7 @@ end
   EXPECT_EQ(both[0].input.specimen.joint_law, "flat joint");
   EXPECT_EQ(both[1].input.specimen.joint_law, "parallel bond");
   EXPECT_EQ(both[0].input.flat_joint.n_segments, 3u);
-  EXPECT_EQ(both[0].input.flat_joint.coordination_number, 4.2);
+  EXPECT_EQ(both[0].input.flat_joint.installation_gap_ratio, 0.05);
   EXPECT_EQ(both[1].input.parallel_bond.bond_cohesion, 70e6);
   EXPECT_EQ(both[1].input.parallel_bond.coordination_number, std::nullopt);
   // Each is told with its own section alone, and without smooth joints and the form of clumps, which neither has.
@@ -1024,7 +1024,17 @@ TEST(Input, TheInstallationGapFollowsFromOneEntry)
   EXPECT_NE(error_of("a.prm", "subsection Flat joint\n"
                               "set Installation gap ratio = 0.1\nset Coordination number = 4.2\nend"),
             "");
-  EXPECT_NE(error_of_entry("Flat joint", "Coordination number = none"), "");
+  const Input by_number =
+    read_input(folder.write("a.prm", "subsection Flat joint\nset Coordination number = 4.2\nend"));
+  EXPECT_EQ(by_number.flat_joint.installation_gap_ratio, std::nullopt);
+  EXPECT_EQ(by_number.flat_joint.coordination_number, 4.2);
+  // What files of before the gap was the default say, and `best.prm` of calibrations.
+  EXPECT_EQ(error_of("a.prm", "subsection Flat joint\n"
+                              "set Installation gap ratio = none\nset Coordination number = 4.2\nend"),
+            "");
+  EXPECT_EQ(error_of_entry("Flat joint", "Installation gap ratio = none"),
+            "a.prm:2: Flat joint/Installation gap ratio = none: leaves the joints undetermined; give a gap, or "
+            "Coordination number");
 }
 
 TEST(Input, FractionsAddUpToOneAtMost)

@@ -66,6 +66,18 @@ TEST(Statistics, AreThoseOfTheTextbook)
   EXPECT_FALSE(statistics({}));
 }
 
+TEST(Statistics, AStandardDeviationOfFewValuesHasAWideIntervalOfItsOwn)
+{
+  // sqrt((n - 1) / q) with the quantiles q of chi-squared at 0.975 and 0.025 from tables: 19.023 and 2.700 for nine degrees
+  // of freedom, 7.378 and 0.05064 for two; their last digits are 1e-4 of them.
+  const Interval of_ten = deviation_interval_95(10);
+  EXPECT_NEAR(of_ten.low, std::sqrt(9.0 / 19.023), 2e-4);
+  EXPECT_NEAR(of_ten.high, std::sqrt(9.0 / 2.700), 5e-4);
+  const Interval of_three = deviation_interval_95(3);
+  EXPECT_NEAR(of_three.low, std::sqrt(2.0 / 7.378), 2e-4);
+  EXPECT_NEAR(of_three.high, std::sqrt(2.0 / 0.05064), 2e-3);
+}
+
 /// A test in compression, a row each 1e-4 of strain: 60 GPa to 120 MPa, then down to 30 MPa.
 FinishedTest compression(const std::uint64_t seed, const double scale = 1.0)
 {
