@@ -86,13 +86,13 @@ TargetOutcome tested(Random& random, const double mean, const double scatter, co
   return outcome;
 }
 
-// A mean just beyond the tolerance is the worst case. At 5 % with 2000 draws the rate has a standard deviation of 0.5 %, and
+// A mean just beyond the tolerance is the worst case. At 5 % with 1000 draws the rate has a standard deviation of 0.7 %, and
 // six times fifteen rates may exceed it by three and a half of those. "Error and one standard error within the tolerance"
 // calls 21 to 23 % reached where packings suffice, two standard errors more than half.
 TEST(TargetVerdict, CallsAtMostOneInTwentyFalselyReachedOnKnownScatter)
 {
   constexpr double tolerance = 0.05;
-  constexpr int n_draws = 2000;
+  constexpr int n_draws = 1000;
   Random random(57, RandomStream::strengths);
   double largest_rate = 0.0;
   double largest_of_one_error = 0.0;
@@ -110,8 +110,8 @@ TEST(TargetVerdict, CallsAtMostOneInTwentyFalselyReachedOnKnownScatter)
             n_missed += verdict == TargetVerdict::missed;
             n_by_one_error += std::abs(beyond.deviation()) + *beyond.reached->standard_error / 100.0 <= tolerance;
           }
-        EXPECT_LE(n_reached, 0.067 * n_draws) << scatter << ", " << most;
-        EXPECT_LE(n_missed, 0.067 * n_draws) << scatter << ", " << most;
+        EXPECT_LE(n_reached, 0.075 * n_draws) << scatter << ", " << most;
+        EXPECT_LE(n_missed, 0.075 * n_draws) << scatter << ", " << most;
         largest_rate = std::max(largest_rate, double(n_reached) / n_draws);
         largest_of_one_error = std::max(largest_of_one_error, double(n_by_one_error) / n_draws);
       }
