@@ -1,11 +1,16 @@
 #include "base/seal.h"
 
 #include "base/fingerprint.h"
+#include "base/input_error.h"
+#include "base/whole_file.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <system_error>
 
 namespace feldspar
@@ -61,6 +66,29 @@ std::string seal_of(const std::string_view content)
   Fingerprint print;
   add(print, content);
   return seal(content.size(), print);
+}
+
+void write_sealed(const std::filesystem::path& file, const std::string_view content)
+{
+  write_whole_file(file, std::string(content) + seal_of(content));
+}
+
+std::optional<std::string> read_sealed(const std::filesystem::path& file)
+{
+  if (!std::filesystem::exists(file))
+    return std::nullopt;
+  const Seal seal = examine_seal(file);
+  if (seal == Seal::broken)
+    throw InputError(
+      fmt::format("{}: damaged: content and checksum do not agree; remove this file and resume the run, which "
+                  "computes anew what it kept",
+                  file.string()));
+  if (seal == Seal::none)
+    return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  std::string content(std::istreambuf_iterator<char>(in), {});
+  content.resize(content.size() - seal_size);
+  return content;
 }
 
 Seal examine_seal(const std::filesystem::path& path)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,13 @@ enum class Seal
   broken,
   none ///< of an older version or of another program
 };
+
+/// Writes a small file of text with its seal, whole or not at all; `content` holds the notice. Throws OutputError.
+void write_sealed(const std::filesystem::path& file, std::string_view content);
+
+/// The content of a file that write_sealed() wrote; none where there is no file, or one without a seal, which is of an older
+/// version. Throws InputError for a file whose content or seal was changed or cut.
+std::optional<std::string> read_sealed(const std::filesystem::path& file);
 
 /// Reads the whole file once, a piece at a time. A file that cannot be read is broken.
 Seal examine_seal(const std::filesystem::path& file);

@@ -40,10 +40,25 @@ Json as_json(const TargetOutcome& outcome, const Response& response, const doubl
       json["standard_error_reason"] = "it was not tested on two packings or more; `reached` is the prediction";
     }
   json["n_packings"] = outcome.reached ? outcome.reached->n : 0;
+  if (outcome.reached && outcome.reached->confidence_95)
+    {
+      json["lower_95"] = outcome.reached->mean - *outcome.reached->confidence_95;
+      json["upper_95"] = outcome.reached->mean + *outcome.reached->confidence_95;
+    }
   if (outcome.reached && outcome.reached->standard_deviation)
     json["standard_deviation_over_packings"] = *outcome.reached->standard_deviation;
   json["deviation"] = outcome.deviation();
   json["within_tolerance"] = std::abs(outcome.deviation()) <= tolerance;
+  const TargetVerdict verdict = verdict_on(outcome, tolerance);
+  json["verdict"] = name(verdict);
+  if (verdict == TargetVerdict::not_decided)
+    {
+      const auto needed = packings_to_decide(mean_of(outcome, response.title), tolerance);
+      json["packings_needed"] = needed ? Json(*needed) : Json();
+      if (!needed)
+        json["packings_needed_reason"] =
+          outcome.reached && outcome.reached->n > 1 ? "more than 10000" : "fewer than two packings gave the figure";
+    }
   return json;
 }
 
@@ -106,7 +121,8 @@ void write_calibration(const Provenance& made_by, const CalibrationOutcome& outc
 {
   Json json = as_json(made_by);
   json["rock"] = outcome.rock;
-  json["has_reached"] = outcome.has_reached;
+  json["verdict"] = name(outcome.verdict);
+  json["has_reached"] = outcome.verdict == TargetVerdict::reached;
   json["statement"] = outcome.statement;
   json["tolerance"] = outcome.tolerance;
   json["targets"] = Json::object();
@@ -165,7 +181,8 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
   const bool was_tested =
     std::any_of(outcome.targets.begin(), outcome.targets.end(), [](const auto& target) { return target.reached; });
   std::string text;
-  text += fmt::format("{:44} {:>10} {:>19} {:>10}\n", "", "target", was_tested ? "reached" : "predicted", "deviation");
+  text += fmt::format("{:44} {:>10} {:>19} {:>10}  {}\n", "", "target", was_tested ? "reached" : "predicted",
+                      "deviation", "verdict");
   for (const TargetOutcome& target : outcome.targets)
     {
       const Response& response = model.response(target.target.response);
@@ -175,10 +192,10 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
       std::string reached = shown(target.value());
       if (target.reached && target.reached->standard_error)
         reached += fmt::format(" +- {}", shown(*target.reached->standard_error));
-      text +=
-        fmt::format("{:44} {:>10} {:>19} {:>9.1f}%\n",
-                    response.unit.empty() ? response.title : fmt::format("{} [{}]", response.title, response.unit),
-                    shown(target.target.value), reached, 100.0 * target.deviation());
+      text += fmt::format(
+        "{:44} {:>10} {:>19} {:>9.1f}%  {}\n",
+        response.unit.empty() ? response.title : fmt::format("{} [{}]", response.title, response.unit),
+        shown(target.target.value), reached, 100.0 * target.deviation(), words(verdict_on(target, outcome.tolerance)));
     }
   if (outcome.posterior.parameters.empty())
     return text + fmt::format("\nThe parameters that come nearest stand in {}.\n\n{}\n", calibration_file::nearest,

@@ -21,14 +21,14 @@ inline constexpr const char* answer = "calibration.json";
 inline constexpr const char* design = "design.csv";
 inline constexpr const char* posterior = "posterior.csv";
 inline constexpr const char* best = "best.prm";
-inline constexpr const char* nearest = "nearest.prm"; ///< where the targets cannot be reached
+inline constexpr const char* nearest = "nearest.prm"; ///< where a target was missed
 } // namespace calibration_file
 
 struct CalibrationOutcome
 {
   std::string rock;
   std::string statement; ///< in a sentence
-  bool has_reached = false;
+  TargetVerdict verdict = TargetVerdict::not_decided;
   double tolerance = 0.0;
   std::vector<TargetOutcome> targets;
   Posterior posterior;

@@ -19,8 +19,10 @@ inline std::vector<Entry<CalibrationParameters>> calibration_entries()
     entry::choice("Poissons ratio", &P::poissons_ratio,
                   {{"secant", ElasticFigure::secant}, {"initial", ElasticFigure::initial}},
                   "of the uniaxial test, that the reference gives: to 50 % of the peak, or at 5-20 %"),
-    entry::number("Tolerance", &P::tolerance, {'(', 0.0, 0.5, ']'},
-                  "largest deviation from a target, over the target; its standard error is to be half of it"),
+    entry::number(
+      "Tolerance", &P::tolerance, {'(', 0.0, 0.5, ']'},
+      "largest deviation from a target, over the target; the 95 % interval of the mean lies within it where the target is "
+      "reached"),
     entry::integer("Design points", &P::n_points, {'[', 4.0, 512.0, ']'},
                    "sets of parameters that are tested to learn how the strengths depend on them"),
     entry::integer("Design packings", &P::n_packings, {'[', 2.0, 64.0, ']'},
@@ -29,7 +31,7 @@ inline std::vector<Entry<CalibrationParameters>> calibration_entries()
                    "on which each step after the design is confirmed"),
     entry::integer("Most steps", &P::most_steps, {'[', 1.0, 50.0, ']'}, "after the design"),
     entry::integer("Most packings", &P::most_packings, {'[', 3.0, 1000.0, ']'},
-                   "fresh ones on which the answer is tested, until the standard errors are small enough"),
+                   "fresh ones on which the answer is tested, until the 95 % intervals of the means are narrow enough"),
     entry::integer("Samples", &P::n_samples, {'[', 500.0, 1000000.0, ']'},
                    "of the posterior distribution of the parameters")};
 }

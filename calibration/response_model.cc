@@ -24,6 +24,7 @@ ResponseModel::ResponseModel(std::vector<Response> responses, std::vector<Unknow
   , gap(gap_of_specimens)
   , surrogates(all.size())
   , noises(all.size(), 0.0)
+  , scatters_of_design(all.size())
   , corrections(all.size(), 0.0)
   , correction_errors(all.size(), 0.0)
   , scatters(all.size())
@@ -92,6 +93,7 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
             means.push_back(statistics(of_point[i])->mean);
           }
       surrogates[j].reset();
+      scatters_of_design[j].reset();
       if (points.size() < unknown.size() + 3)
         continue;
       // Rows and columns without interaction: points and packings (two-way analysis of variance).
@@ -100,9 +102,14 @@ void ResponseModel::learn(const std::vector<TestedPoint>& design)
         for (std::size_t m = 0; m < packings.size(); ++m)
           of_packing[m] += (values[i][m] - means[i]) / double(points.size());
       double squares = 0.0;
+      double about_points = 0.0;
       for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t m = 0; m < packings.size(); ++m)
-          squares += std::pow(values[i][m] - means[i] - of_packing[m], 2);
+          {
+            squares += std::pow(values[i][m] - means[i] - of_packing[m], 2);
+            about_points += std::pow(values[i][m] - means[i], 2);
+          }
+      scatters_of_design[j] = std::sqrt(about_points / double(points.size() * (packings.size() - 1)));
       const double variance = squares / double((points.size() - 1) * (packings.size() - 1));
       noises[j] = std::sqrt(variance);
       surrogates[j].emplace(points, means, std::vector<double>(points.size(), variance / double(packings.size())));

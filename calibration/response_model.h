@@ -64,6 +64,9 @@ public:
   double learnt(std::size_t j, const UnitPoint& point) const;
   /// The scatter of a single specimen about the mean of packings; none without two corrected packings.
   std::optional<double> scatter(const std::size_t j) const { return scatters[j]; }
+  /// The scatter of a single specimen by the design: root-mean-square standard deviation over the packings of a point. None
+  /// before learn(), and where too few points gave the response.
+  std::optional<double> scatter_of_design(const std::size_t j) const { return scatters_of_design[j]; }
   /// Standard deviation of a value of the design about the function, without what packings add to all points.
   double noise(const std::size_t j) const { return noises[j]; }
   double correction(const std::size_t j) const { return corrections[j]; }
@@ -79,6 +82,7 @@ private:
   double gap; ///< where it is no unknown
   std::vector<std::optional<Surrogate>> surrogates;
   std::vector<double> noises;
+  std::vector<std::optional<double>> scatters_of_design;
   std::vector<double> corrections;
   std::vector<double> correction_errors;
   std::vector<std::optional<double>> scatters;

@@ -16,10 +16,11 @@ std::string in_words(const TargetOutcome& outcome, const ResponseModel& model)
                      response.decimals, response.unit.empty() ? "" : " " + response.unit, 100.0 * outcome.deviation());
 }
 
-/// As a share of the target.
-double standard_error(const TargetOutcome& outcome)
+/// Shares of the target.
+std::optional<double> share(const TargetOutcome& outcome, std::optional<double> Statistics::*figure)
 {
-  return outcome.reached ? outcome.reached->standard_error.value_or(0.0) / std::abs(outcome.target.value) : 0.0;
+  const auto value = outcome.reached ? *outcome.reached.*figure : std::nullopt;
+  return value ? std::optional(*value / std::abs(outcome.target.value)) : std::nullopt;
 }
 
 /// Titles have commas of their own.
@@ -42,55 +43,77 @@ std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, c
   return outcomes;
 }
 
-std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit)
-{
-  std::vector<TargetOutcome> outcomes;
-  for (std::size_t t = 0; t < targets.size(); ++t)
-    outcomes.push_back({targets[t], std::nullopt, targets[t].value * (1.0 + fit.deviations[t])});
-  return outcomes;
-}
-
-bool is_met(const TargetOutcome& outcome, const double tolerance)
-{
-  return outcome.reached && std::abs(outcome.deviation()) <= std::max(tolerance, 2.0 * standard_error(outcome));
-}
-
-bool all_met(const std::vector<TargetOutcome>& outcomes, const double tolerance)
-{
-  return std::all_of(outcomes.begin(), outcomes.end(), [&](const auto& outcome) { return is_met(outcome, tolerance); });
-}
-
-bool is_nearly_met(const TargetOutcome& outcome, const double tolerance)
-{
-  return outcome.reached && std::abs(outcome.deviation()) <= std::max(0.5 * tolerance, standard_error(outcome));
-}
-
-std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes, const double tolerance)
-{
-  constexpr double no_more = 1e6;
-  double needed = 0.0;
-  for (const TargetOutcome& outcome : outcomes)
-    if (outcome.reached && outcome.reached->standard_deviation)
-      needed = std::max(
-        needed, std::pow(*outcome.reached->standard_deviation / (0.5 * tolerance * std::abs(outcome.target.value)), 2));
-  return std::size_t(std::min(std::ceil(needed), no_more));
-}
-
-bool is_out_of_reach(const Fit& fit, const std::vector<Target>& targets, const ResponseModel& model,
-                     const double tolerance, const std::size_t n_packings)
+std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit,
+                                              const ResponseModel& model, const double tolerance,
+                                              const std::size_t n_packings)
 {
   constexpr double errors_apart = 3.0;
+  std::vector<TargetOutcome> outcomes;
   for (std::size_t t = 0; t < targets.size(); ++t)
     {
       const Target& target = targets[t];
       const double error = std::hypot(model.deviation(target.response, fit.place.point),
                                       model.noise(target.response) / std::sqrt(double(n_packings))) /
                            model.response(target.response).per_share(target.value);
-      if (std::abs(fit.deviations[t]) >
-          errors_apart * error + std::max(tolerance, 2.0 * target.deviation / target.value))
-        return true;
+      const bool is_out_of_reach =
+        std::abs(fit.deviations[t]) > errors_apart * error + std::max(tolerance, 2.0 * target.deviation / target.value);
+      outcomes.push_back({target, std::nullopt, target.value * (1.0 + fit.deviations[t]), is_out_of_reach});
     }
-  return false;
+  return outcomes;
+}
+
+bool any_is_out_of_reach(const std::vector<TargetOutcome>& outcomes)
+{
+  return std::any_of(outcomes.begin(), outcomes.end(), [](const auto& outcome) { return outcome.is_out_of_reach; });
+}
+
+TargetMean mean_of(const TargetOutcome& outcome, const std::string& title)
+{
+  return {title, outcome.deviation(), share(outcome, &Statistics::standard_error),
+          outcome.reached ? outcome.reached->n : 0};
+}
+
+TargetVerdict verdict_on(const TargetOutcome& outcome, const double tolerance)
+{
+  if (outcome.is_out_of_reach)
+    return TargetVerdict::missed;
+  return feldspar::verdict_on(mean_of(outcome, ""), tolerance);
+}
+
+TargetVerdict verdict_on(const std::vector<TargetOutcome>& outcomes, const double tolerance)
+{
+  std::vector<TargetVerdict> verdicts;
+  for (const TargetOutcome& outcome : outcomes)
+    verdicts.push_back(verdict_on(outcome, tolerance));
+  return feldspar::verdict_on(verdicts);
+}
+
+bool is_nearly_met(const TargetOutcome& outcome, const double tolerance)
+{
+  return outcome.reached && std::abs(outcome.deviation()) <=
+                              std::max(0.5 * tolerance, share(outcome, &Statistics::standard_error).value_or(0.0));
+}
+
+std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes, const double tolerance, const std::size_t most)
+{
+  std::size_t needed = 0;
+  for (const TargetOutcome& outcome : outcomes)
+    {
+      const auto scatter = share(outcome, &Statistics::standard_deviation);
+      needed = std::max(needed, scatter ? packings_for(wanted_half_width(tolerance), *scatter).value_or(most) : most);
+    }
+  return std::min(needed, most);
+}
+
+bool is_worth_another_round(const std::vector<TargetOutcome>& outcomes, const double tolerance)
+{
+  const TargetVerdict verdict = verdict_on(outcomes, tolerance);
+  return verdict == TargetVerdict::missed ||
+         (verdict == TargetVerdict::not_decided &&
+          std::all_of(outcomes.begin(), outcomes.end(), [&](const TargetOutcome& outcome) {
+            const auto half_width = share(outcome, &Statistics::confidence_95);
+            return half_width && *half_width <= tolerance;
+          }));
 }
 
 std::string nearest_in_words(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model)
@@ -103,25 +126,11 @@ std::string nearest_in_words(const std::vector<TargetOutcome>& outcomes, const R
                      listed(words));
 }
 
-std::string statement_of(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model, const double tolerance,
-                         const std::size_t n_steps)
+std::string statement_of(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model, const double tolerance)
 {
-  std::vector<std::string> missed;
-  std::vector<std::string> uncertain;
+  std::vector<TargetMean> means;
   for (const TargetOutcome& outcome : outcomes)
-    if (!is_met(outcome, tolerance))
-      missed.push_back(in_words(outcome, model));
-    else if (standard_error(outcome) > 0.5 * tolerance)
-      uncertain.push_back(model.response(outcome.target.response).title);
-  if (!missed.empty())
-    return fmt::format("the targets were not all reached after {} step{}; off by more than the tolerance of {:g} %: {}",
-                       n_steps, n_steps == 1 ? "" : "s", 100.0 * tolerance, listed(missed));
-  std::string text = fmt::format("All targets were reached within {:g} %", 100.0 * tolerance);
-  if (!uncertain.empty())
-    text +=
-      fmt::format(" or within two standard errors, but the scatter of packings left standard errors above half of that "
-                  "({}): raise Calibration/Most packings, or test larger specimens",
-                  listed(uncertain));
-  return text + ".";
+    means.push_back(mean_of(outcome, model.response(outcome.target.response).title));
+  return statement_on(means, tolerance);
 }
 } // namespace feldspar::calibration

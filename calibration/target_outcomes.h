@@ -2,6 +2,7 @@
 
 #include "calibration/fit.h"
 #include "results/statistics.h"
+#include "results/target_verdict.h"
 
 #include <cstddef>
 #include <optional>
@@ -17,6 +18,7 @@ struct TargetOutcome
   Target target;
   std::optional<Statistics> reached; ///< over packings that no choice was made by [SI]; else by the model
   double predicted;                  ///< [SI]
+  bool is_out_of_reach = false;      ///< by the prediction of what no specimen has tested
 
   double value() const { return reached ? reached->mean : predicted; }
   double deviation() const { return value() / target.value - 1.0; }
@@ -26,29 +28,38 @@ struct TargetOutcome
 std::vector<TargetOutcome> outcomes_of(const std::vector<TestedPoint>& points, const std::vector<Target>& targets,
                                        const ResponseModel& model, const Place& place);
 
-/// The outcomes of a fit that no specimen has tested.
-std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit);
+/// The outcomes of a fit that no specimen has tested, whose design had so many packings. A target is out of reach if it stays
+/// further off than the fit's surrogates, the packings of the design and the rock's own deviation can explain.
+std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets, const Fit& fit,
+                                              const ResponseModel& model, double tolerance, std::size_t n_packings);
+bool any_is_out_of_reach(const std::vector<TargetOutcome>& outcomes);
 
-/// Within the tolerance, or no further off than two standard errors. A target that no specimen gave is not met.
-bool is_met(const TargetOutcome& outcome, double tolerance);
-bool all_met(const std::vector<TargetOutcome>& outcomes, double tolerance);
+/// By the tests; a target that they did not give is not decided, and one that is predicted out of reach is missed.
+TargetVerdict verdict_on(const TargetOutcome& outcome, double tolerance);
+TargetVerdict verdict_on(const std::vector<TargetOutcome>& outcomes, double tolerance);
+
+/// The mean of the tests as a share of the target; without tests that of the prediction, of no packing.
+TargetMean mean_of(const TargetOutcome& outcome, const std::string& title);
 
 /// Within half of the tolerance, which leaves room for fresh packings, or within a standard error: what the packings of a
 /// step scatter cannot be mended by another step.
 bool is_nearly_met(const TargetOutcome& outcome, double tolerance);
 
-/// As many packings as bring all standard errors below half of the tolerance, by the scatter seen.
-std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes, double tolerance);
+/// The half-width of the 95 % intervals that packings of an answer are to reach: half of the tolerance, so that the other
+/// half is left for the deviation itself.
+constexpr double wanted_half_width(const double tolerance) { return 0.5 * tolerance; }
 
-/// Whether a target stays further off than the fit's surrogates, the packings of the design and the rock's own deviation
-/// can explain.
-bool is_out_of_reach(const Fit& fit, const std::vector<Target>& targets, const ResponseModel& model, double tolerance,
-                     std::size_t n_packings);
+/// As many packings as bring the 95 % intervals of all means to the wanted half-width, by the scatter seen, and `most` at
+/// most; `most` where a figure came from fewer than two packings.
+std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes, double tolerance, std::size_t most);
+
+/// Whether another answer is worth its packings: a target is missed, or all intervals are narrow enough to lie within the
+/// tolerance, and one does not.
+bool is_worth_another_round(const std::vector<TargetOutcome>& outcomes, double tolerance);
 
 /// A sentence on targets that contradict each other: what comes nearest.
 std::string nearest_in_words(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model);
 
 /// A sentence on targets that were tested.
-std::string statement_of(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model, double tolerance,
-                         std::size_t n_steps);
+std::string statement_of(const std::vector<TargetOutcome>& outcomes, const ResponseModel& model, double tolerance);
 } // namespace feldspar::calibration

@@ -60,7 +60,8 @@ void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome
                              std::filesystem::copy_options::overwrite_existing);
   Input shown = best_input;
   shown.reference_file = result_file::reference;
-  write_whole_file(folder / (outcome.has_reached ? calibration_file::best : calibration_file::nearest),
+  write_whole_file(folder /
+                     (outcome.verdict == TargetVerdict::missed ? calibration_file::nearest : calibration_file::best),
                    as_prm(shown, fmt::format("{}\n{}\nWritten by feldspar calibrate from {}.", outcome.rock,
                                              outcome.statement, run.input_file.filename().string())));
   const Provenance made_by = provenance(run.input, run.input_file);

@@ -3,6 +3,7 @@
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/calibration_results.h"
 #include "app/calibration/elastic_cells.h"
+#include "app/calibration/precision.h"
 #include "app/calibration/problem.h"
 #include "app/calibration/tested_points.h"
 #include "app/programme/genesis_effort.h"
@@ -74,8 +75,9 @@ public:
 
     FitFreedom freedom{problem.has_modulus, problem.has_strength, UnitPoint(problem.unknowns.size(), 0.5), 0.5};
     Fit fit = best_fit(model, problem.targets, wanted.tolerance, freedom, start);
-    if (is_out_of_reach(fit, problem.targets, model, wanted.tolerance, wanted.n_packings))
-      return end_out_of_reach(model, fit);
+    if (const auto predicted = predicted_outcomes(problem.targets, fit, model, wanted.tolerance, wanted.n_packings);
+        any_is_out_of_reach(predicted))
+      return end_out_of_reach(model, fit, predicted);
 
     fit = steps(model, fit);
     test_strain_scale(model, fit.place);
@@ -105,6 +107,8 @@ private:
       problem.has_strength ? ", the strength" : "", cost(wanted.n_points * wanted.n_packings),
       double(first.grains.size()), programme.size(), cost(wanted.most_steps * wanted.n_step_packings),
       cost(wanted.most_packings), most_rounds));
+    if (problem.has_strength)
+      progress.remark(usual_precision(wanted, dim, first.grains.size()));
   }
 
   /// The intact rock, and a place to begin at.
@@ -175,6 +179,7 @@ private:
                              "Calibration/Design points, or narrow its bounds; {} shows the values",
                              problem.response_of(target).title, calibration_file::design);
         }
+    progress.remark(precision_by_design(wanted, problem, model));
     return "";
   }
 
@@ -266,48 +271,54 @@ private:
             n = needed;
             points = as_tested_points(finished_tests, fmt::format("answer {}", round), model, place);
             outcomes = outcomes_of(points, problem.targets, model, place);
-            needed = std::min<std::size_t>(packings_needed(outcomes, wanted.tolerance), wanted.most_packings);
+            needed = packings_needed(outcomes, wanted.tolerance, wanted.most_packings);
           }
         best_input = input_of(model.parameters(place), first, n);
         packings.next = first + wanted.most_packings;
         corrections.insert(corrections.end(), points.begin(), points.end());
         add(points);
         model.correct(corrections);
-        if (round == most_rounds || all_met(outcomes, wanted.tolerance))
+        if (round == most_rounds || !is_worth_another_round(outcomes, wanted.tolerance))
           break;
         fit = best_fit(model, problem.targets, wanted.tolerance,
                        {problem.has_modulus, problem.has_strength, place.point, 0.1}, place);
       }
 
-    const bool has_reached = all_met(outcomes, wanted.tolerance);
-    const std::string statement = statement_of(outcomes, model, wanted.tolerance, n_steps);
+    const TargetVerdict verdict = verdict_on(outcomes, wanted.tolerance);
+    const std::string statement = statement_of(outcomes, model, wanted.tolerance);
     const FitFreedom freedom{problem.has_modulus, problem.has_strength, place.point, 0.5};
-    CalibrationOutcome outcome = outcome_of(model, place, outcomes, has_reached, statement);
+    CalibrationOutcome outcome = outcome_of(model, place, outcomes, verdict, statement);
     progress.start("posterior");
     outcome.posterior = posterior(model, problem.targets, freedom, place, wanted.n_samples, input.seeds.front());
     progress.finish(fmt::format("{} samples", outcome.posterior.samples.size()));
     finish(run, model, outcome, tested, best_input, finished_tests);
-    return {false, has_reached ? "" : statement};
+    return end_with(verdict, statement);
   }
 
   /// Where the surrogates already tell that the targets contradict each other.
-  RunEnd end_out_of_reach(const ResponseModel& model, const Fit& fit)
+  RunEnd end_out_of_reach(const ResponseModel& model, const Fit& fit, const std::vector<TargetOutcome>& predicted)
   {
-    const std::vector<TargetOutcome> outcomes = predicted_outcomes(problem.targets, fit);
-    const std::string objection = nearest_in_words(outcomes, model);
-    const CalibrationOutcome outcome = outcome_of(model, fit.place, outcomes, false, objection);
+    const std::string objection = nearest_in_words(predicted, model);
+    const CalibrationOutcome outcome = outcome_of(model, fit.place, predicted, TargetVerdict::missed, objection);
     finish(run, model, outcome, tested, input_of(rounded(model.parameters(fit.place)), input.seeds.front(), 3), {});
-    return {false, objection};
+    return end_with(outcome.verdict, objection);
+  }
+
+  static RunEnd end_with(const TargetVerdict verdict, const std::string& statement)
+  {
+    if (verdict == TargetVerdict::reached)
+      return {false, ""};
+    return {false, statement, verdict == TargetVerdict::missed ? exit_code::missed : exit_code::not_decided};
   }
 
   CalibrationOutcome outcome_of(const ResponseModel& model, const Place& place,
-                                const std::vector<TargetOutcome>& outcomes, const bool has_reached,
+                                const std::vector<TargetOutcome>& outcomes, const TargetVerdict verdict,
                                 const std::string& statement) const
   {
     CalibrationOutcome outcome;
     outcome.rock = problem.reference.rock;
     outcome.statement = statement;
-    outcome.has_reached = has_reached;
+    outcome.verdict = verdict;
     outcome.tolerance = wanted.tolerance;
     outcome.targets = outcomes;
     outcome.scale_effects = scale_effects;

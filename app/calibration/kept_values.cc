@@ -1,24 +1,21 @@
 #include "app/calibration/kept_values.h"
 
-#include "base/whole_file.h"
+#include "base/seal.h"
 
 #include <nlohmann/json.hpp>
-
-#include <fstream>
-#include <iterator>
 
 namespace feldspar::calibration
 {
 std::optional<KeptValues> read_values(const std::filesystem::path& file, const std::string& identity,
                                       const std::size_t n)
 {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
+  const auto content = read_sealed(file);
+  if (!content)
     return std::nullopt;
-  const auto json = nlohmann::ordered_json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
+  const auto json = nlohmann::ordered_json::parse(*content, nullptr, false);
   if (!json.is_object() || !json.contains("identity") || json["identity"] != identity || !json.contains("values") ||
       !json["values"].is_array() || json["values"].size() != n)
-    return std::nullopt; // torn, or of another program: it is made again
+    return std::nullopt; // of another program or input: it is made again
   KeptValues values;
   for (const auto& value : json["values"])
     {
@@ -31,9 +28,11 @@ std::optional<KeptValues> read_values(const std::filesystem::path& file, const s
 
 void write_values(const std::filesystem::path& file, const std::string& identity, const KeptValues& values)
 {
-  nlohmann::ordered_json json{{"identity", identity}, {"values", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{{"seal", seal_notice},
+                              {"identity", identity},
+                              {"values", nlohmann::ordered_json::array()}};
   for (const auto& value : values)
     json["values"].push_back(value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json());
-  write_whole_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  write_sealed(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 } // namespace feldspar::calibration

@@ -112,12 +112,16 @@ std::string manual_page(const CLI::App& command_line)
                               parameter.unit.empty() ? "" : fmt::format("; in {}", in_roff(parameter.unit)),
                               in_roff(parameter.range));
     }
-  text += ".SH EXIT STATUS\n"
-          ".TP\n\\fB0\\fR\nsuccess\n"
-          ".TP\n\\fB2\\fR\nthe input or the command line is wrong; one line on standard error says what is allowed\n"
-          ".TP\n\\fB3\\fR\na file cannot be written\n"
-          ".TP\n\\fB130\\fR\ninterrupted; the last line says how to go on\n"
-          ".TP\n\\fBothers\\fR\na fault of the program; the last lines say how to reproduce it\n";
+  text +=
+    ".SH EXIT STATUS\n"
+    ".TP\n\\fB0\\fR\nsuccess\n"
+    ".TP\n\\fB2\\fR\nthe input or the command line is wrong; one line on standard error says what is allowed\n"
+    ".TP\n\\fB3\\fR\na file cannot be written\n"
+    ".TP\n\\fB4\\fR\na calibration missed a target; its last line says which\n"
+    ".TP\n\\fB5\\fR\nthe packings of a calibration do not decide whether it reached its targets; its last line says "
+    "how many would\n"
+    ".TP\n\\fB130\\fR\ninterrupted; the last line says how to go on\n"
+    ".TP\n\\fBothers\\fR\na fault of the program; the last lines say how to reproduce it\n";
   return text;
 }
 

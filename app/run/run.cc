@@ -28,8 +28,6 @@ void tell_failure(const std::string& failure, const std::filesystem::path& folde
     fmt::print(stderr, "feldspar: {}; the other results are in {}\n", failure, folder.string());
 }
 
-int exit_code_of(const std::string& failure) { return failure.empty() ? 0 : exit_code::user_error; }
-
 /// From wherever the run stands.
 int go_on(const RunCommand& command, const Run& run)
 {
@@ -49,10 +47,10 @@ int go_on(const RunCommand& command, const Run& run)
         return end_interrupted();
       processes.first([&] {
         std::filesystem::remove_all(run.folder / "checkpoints");
-        mark_complete(run.folder, end.failure);
+        mark_complete(run.folder, end.failure, end.code_of_failure);
         tell_failure(end.failure, run.folder);
       });
-      return exit_code_of(end.failure);
+      return end.failure.empty() ? 0 : end.code_of_failure;
     }
   catch (const Interrupted&)
     {
@@ -80,7 +78,7 @@ int resume(const RunCommand& command, const CommonOptions& options)
           print_result("{}: this run is complete\n", options.resume->string());
           tell_failure(record.failure, *options.resume);
         }
-      return exit_code_of(record.failure);
+      return record.failure.empty() ? 0 : record.code_of_failure;
     }
   command.check(record.input, record.input_file);
   return go_on(command, {*options.resume, record.input_file, record.input, options.quiet});

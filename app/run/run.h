@@ -17,6 +17,8 @@ namespace exit_code
 inline constexpr int internal_error = 1;
 inline constexpr int user_error = 2;
 inline constexpr int output_error = 3;  // a full disk
+inline constexpr int missed = 4;        // a calibration that did not reach its targets
+inline constexpr int not_decided = 5;   // one whose packings do not tell whether it did
 inline constexpr int interrupted = 130; // 128 + SIGINT, as shells have it
 } // namespace exit_code
 
@@ -46,6 +48,7 @@ struct RunEnd
 {
   bool was_interrupted; ///< something is left to be done
   std::string failure;  ///< of a part that could not be done, with its name; empty: none
+  int code_of_failure = exit_code::user_error;
 };
 
 /// The processes that make a run together: this one alone, unless a command says otherwise.

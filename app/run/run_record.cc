@@ -1,6 +1,8 @@
 #include "app/run/run_record.h"
 
 #include "app/input/parameter_table.h"
+#include "app/run/run.h"
+#include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/whole_file.h"
 #include "feldspar_version.h"
@@ -38,7 +40,26 @@ struct Contents
   bool variants_by_value; ///< how their files are named; not in the folders of before they were
   bool complete;
   std::string failure;
+  int code_of_failure;
 };
+
+/// Of all that tells which rock and tests a resumed run goes on with. Whether it is complete, and how its files are named,
+/// changes no result.
+std::string checksum_of(const Contents& contents)
+{
+  Fingerprint print;
+  const auto add = [&](const std::string& text) {
+    print.add(text.size());
+    for (const char c : text)
+      print.add_byte(static_cast<unsigned char>(c));
+  };
+  add(contents.command);
+  add(contents.input_file.string());
+  add(contents.relative_to.string());
+  for (const std::string& setting : contents.settings)
+    add(setting);
+  return fmt::format("{:016x}", print.value());
+}
 
 void write(const std::filesystem::path& folder, const Contents& contents)
 {
@@ -50,7 +71,11 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["variants_named"] = contents.variants_by_value ? by_value : by_number;
   json["complete"] = contents.complete;
   if (!contents.failure.empty())
-    json["failure"] = contents.failure;
+    {
+      json["failure"] = contents.failure;
+      json["exit_code"] = contents.code_of_failure;
+    }
+  json["checksum"] = checksum_of(contents);
   write_whole_file(folder / record_name, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
@@ -74,13 +99,20 @@ Contents read(const std::filesystem::path& folder)
         throw InputError(fmt::format("--resume {}: the settings in {} are damaged", folder.string(), record_name));
       settings = all.get<std::vector<std::string>>();
     }
-  return {json["command"].get<std::string>(),
-          json["input_file"].get<std::string>(),
-          json["relative_to"].get<std::string>(),
-          settings,
-          holds("variants_named", Type::string) && json["variants_named"] == by_value,
-          json["complete"].get<bool>(),
-          holds("failure", Type::string) ? json["failure"].get<std::string>() : ""};
+  Contents contents{json["command"].get<std::string>(),
+                    json["input_file"].get<std::string>(),
+                    json["relative_to"].get<std::string>(),
+                    settings,
+                    holds("variants_named", Type::string) && json["variants_named"] == by_value,
+                    json["complete"].get<bool>(),
+                    holds("failure", Type::string) ? json["failure"].get<std::string>() : "",
+                    holds("exit_code", Type::number_unsigned) ? json["exit_code"].get<int>() : exit_code::user_error};
+  if (json.contains("checksum") &&
+      json["checksum"] != checksum_of(contents)) // not in the folders of before there was one
+    throw InputError(
+      fmt::format("--resume {}: {} in it is not as the run wrote it; undo the change, or begin another run",
+                  folder.string(), record_name));
+  return contents;
 }
 } // namespace
 
@@ -90,7 +122,8 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
   std::ifstream in(input_file, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(in), {});
   write_whole_file(copy_of_input(folder, input_file), text);
-  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false, ""});
+  write(folder,
+        {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false, "", 0});
 }
 
 std::string run_identity(const Input& input, const std::string& part)
@@ -109,11 +142,12 @@ std::string run_identity(const Input& input, const std::string& part)
   return text;
 }
 
-void mark_complete(const std::filesystem::path& folder, const std::string& failure)
+void mark_complete(const std::filesystem::path& folder, const std::string& failure, const int code_of_failure)
 {
   Contents contents = read(folder);
   contents.complete = true;
   contents.failure = failure;
+  contents.code_of_failure = code_of_failure;
   write(folder, contents);
 }
 
@@ -143,6 +177,6 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
       fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
   Input input = read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings);
   input.variants.named_by_number = !contents.variants_by_value;
-  return {std::move(input), contents.input_file, contents.complete, contents.failure};
+  return {std::move(input), contents.input_file, contents.complete, contents.failure, contents.code_of_failure};
 }
 } // namespace feldspar

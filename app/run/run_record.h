@@ -15,6 +15,7 @@ struct RunRecord
   std::filesystem::path input_file; ///< as it was named
   bool complete = false;            ///< nothing is left to be resumed
   std::string failure = {};         ///< of a complete run: which of its parts failed, and why; empty if none did
+  int code_of_failure = 0;          ///< the exit code of the run, where there is a failure
 };
 
 /// Puts a copy of the input, where it came from, the settings in place of its entries and the command that reads it into
@@ -25,8 +26,8 @@ void write_run_record(const std::string& command, const std::filesystem::path& i
 /// The identity of a checkpoint of one part of a run: program, part and every parameter.
 std::string run_identity(const Input& input, const std::string& part);
 
-/// Notes that the run has come to its end, and what of it failed.
-void mark_complete(const std::filesystem::path& folder, const std::string& failure);
+/// Notes that the run has come to its end, what of it failed, and the exit code of that.
+void mark_complete(const std::filesystem::path& folder, const std::string& failure, int code_of_failure);
 
 /// Takes out whatever a run writes into its folder, and nothing else.
 void remove_run(const std::filesystem::path& folder);

@@ -40,12 +40,12 @@ bool was_tested(const CalibrationRecord& record)
 Table target_table(const CalibrationRecord& record)
 {
   const bool tested = was_tested(record);
-  Table table{"calibration_targets",
-              tested
-                ? "Targets, and what the answer reached on packings by which nothing was chosen"
-                : "Targets, and what the surrogates predict of the nearest micro-parameters; no specimen tested them",
-              {"figure", "target", tested ? "reached" : "predicted", "standard error", "deviation", "packings"},
-              {}};
+  Table table{
+    "calibration_targets",
+    tested ? "Targets, and what the answer reached on packings by which nothing was chosen"
+           : "Targets, and what the surrogates predict of the nearest micro-parameters; no specimen tested them",
+    {"figure", "target", tested ? "reached" : "predicted", "standard error", "deviation", "packings", "verdict"},
+    {}};
   for (const auto& row : record.targets)
     {
       const ShownUnit unit = shown_unit(row.unit, row.target);
@@ -53,7 +53,8 @@ Table target_table(const CalibrationRecord& record)
       table.rows.push_back({heading(row.title, unit), shown(row.target, unit, 4),
                             shown(row.reached, unit, 4) + (is_prediction ? " (predicted)" : ""),
                             row.standard_error ? shown(*row.standard_error, unit, 2) : none,
-                            signed_percent(row.deviation), row.n_packings > 0.0 ? number(row.n_packings, 0) : none});
+                            signed_percent(row.deviation), row.n_packings > 0.0 ? number(row.n_packings, 0) : none,
+                            words(row.verdict)});
     }
   return table;
 }
@@ -144,6 +145,11 @@ PageSection calibration_section(const CalibrationRecord& record, PictureBook& bo
   if (!tested)
     block.paragraphs.push_back("The answer was not tested, because the surrogates of the design already tell this. "
                                "nearest.prm has the nearest micro-parameters, design.csv every test of the design.");
+  else
+    block.paragraphs.push_back(fmt::format(
+      "A target is reached if the 95 % interval of its mean over packings lies within the tolerance of {:g} %, "
+      "missed if the interval lies beyond it, and else not decided.",
+      100.0 * record.tolerance));
   block.tables.push_back(target_table(record));
   if (!record.parameters.empty())
     block.tables.push_back(parameter_table_of(record));

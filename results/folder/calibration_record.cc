@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -40,19 +41,63 @@ ElasticFigures elastic_figures(const Provenance& made_by)
   return figures;
 }
 
-CalibrationRecord from_json(const Json& json)
+/// The mean of a target's packings. A file may hold any number of them.
+TargetMean mean_of(const CalibrationRecord::TargetRow& row)
+{
+  constexpr double most = 1e9;
+  const std::size_t n = row.n_packings > 0.0 ? std::size_t(std::min(row.n_packings, most)) : 0;
+  return {row.title, row.deviation,
+          row.standard_error ? std::optional(std::abs(*row.standard_error / row.target)) : std::nullopt, n};
+}
+
+/// Verdicts, and the statement, of a file that has none.
+void judge(CalibrationRecord& record)
+{
+  std::vector<TargetMean> means;
+  for (const auto& row : record.targets)
+    means.push_back(mean_of(row));
+  const bool was_tested = std::any_of(means.begin(), means.end(), [](const TargetMean& mean) { return mean.n > 0; });
+  std::vector<TargetVerdict> verdicts;
+  for (std::size_t t = 0; t < means.size(); ++t)
+    {
+      // A calibration without tests of its answer had found its targets out of reach.
+      const bool is_out_of_reach = !was_tested && std::abs(means[t].deviation) > record.tolerance;
+      record.targets[t].verdict = is_out_of_reach ? TargetVerdict::missed : verdict_on(means[t], record.tolerance);
+      verdicts.push_back(record.targets[t].verdict);
+    }
+  record.verdict = verdict_on(verdicts);
+  if (was_tested)
+    record.statement = statement_on(means, record.tolerance);
+}
+
+TargetVerdict verdict(const Json& json, const std::string& file)
+{
+  const std::string given = json.at("verdict").get<std::string>();
+  if (const auto found = verdict_of_name(given))
+    return *found;
+  throw InputError(
+    fmt::format("{}: the verdict {} is none of reached, missed and not_decided", file, in_quotes(given)));
+}
+
+CalibrationRecord from_json(const Json& json, const std::string& file)
 {
   CalibrationRecord record;
   record.rock = printable(text_of(json, "rock"));
   record.statement = text(json, "statement");
   record.elastic = elastic_figures(read_provenance(json));
   record.tolerance = number(json, "tolerance");
+  const bool has_verdicts = json.contains("verdict");
   for (const auto& [name, row] : json.at("targets").items())
     record.targets.push_back(
       {printable(name), text(row, "title"), text(row, "unit"), number(row, "target"),
        number(row, "target_standard_deviation"), number(row, "reached"),
        row.at("standard_error").is_null() ? std::nullopt : std::optional(number(row, "standard_error")),
-       number(row, "deviation"), number(row, "n_packings")});
+       number(row, "deviation"), number(row, "n_packings"),
+       has_verdicts ? verdict(row, file) : TargetVerdict::not_decided});
+  if (has_verdicts)
+    record.verdict = verdict(json, file);
+  else
+    judge(record);
   for (const auto& [name, row] : json.at("parameters").items())
     record.parameters.push_back({printable(name), text(row, "title"), text(row, "unit"), number(row, "best"),
                                  number_if_any(row, "median"), number_if_any(row, "lower_90"),
@@ -89,7 +134,7 @@ std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& f
   CalibrationRecord record;
   try
     {
-      record = from_json(parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {})));
+      record = from_json(parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {})), file.string());
     }
   catch (const Json::exception&)
     {

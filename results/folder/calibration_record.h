@@ -1,5 +1,7 @@
 #pragma once
 
+#include "results/target_verdict.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +27,7 @@ struct CalibrationRecord
     std::optional<double> standard_error;
     double deviation;
     double n_packings; ///< 0: `reached` is the prediction
+    TargetVerdict verdict;
   };
 
   struct ParameterRow
@@ -49,7 +52,8 @@ struct CalibrationRecord
 
   std::string rock;
   std::string statement;
-  ElasticFigures elastic; ///< of its reference
+  TargetVerdict verdict = TargetVerdict::not_decided; ///< on all targets
+  ElasticFigures elastic;                             ///< of its reference
   double tolerance = 0.0;
   std::vector<TargetRow> targets;
   std::vector<ParameterRow> parameters;
@@ -60,6 +64,7 @@ struct CalibrationRecord
 };
 
 /// Reads calibration.json of a folder, and posterior.csv where its parameters have a posterior; none where there is no
-/// calibration. Throws InputError.
+/// calibration. A file of before there were verdicts gets them, and its statement, by its own means and standard errors.
+/// Throws InputError.
 std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& folder);
 } // namespace feldspar

@@ -67,9 +67,19 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
   folder.write("rock.json", reference);
   folder.write("rock.prm", small_calibration);
   const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --threads 2");
-  ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << outcome.error; // so small a rock may be missed
+  // Three packings of 110 grains: Student's factor is 4.3, so that 10 % ask for a scatter of 4 % where it is 30 %.
+  ASSERT_EQ(outcome.exit_code, 5) << outcome.error;
   EXPECT_NE(outcome.error.find("The design takes 10 specimens"), std::string::npos)
     << "the cost is not said beforehand";
+  const std::size_t usual = outcome.error.find("Usual precision of compressive strengths");
+  const std::size_t by_design =
+    outcome.error.find("Precision by the scatter of the design (Calibration/Most packings = 3)");
+  EXPECT_LT(usual, outcome.error.find("elastic cells")) << outcome.error;
+  EXPECT_LT(by_design, outcome.error.find("step 1")) << outcome.error;
+  EXPECT_NE(outcome.error.find("- uniaxial compressive strength: a specimen scatters by "), std::string::npos);
+  EXPECT_NE(outcome.error.find("feldspar: it is not decided whether all targets were reached within 10 %: "),
+            std::string::npos)
+    << outcome.error;
   std::istringstream lines(outcome.error);
   for (std::string line; std::getline(lines, line);)
     {
@@ -81,10 +91,15 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
     }
   const fs::path out = folder.path() / "out";
   const auto json = nlohmann::json::parse(content(out / "calibration.json"));
-  EXPECT_EQ(json["has_reached"], outcome.exit_code == 0);
-  const std::string input_file = outcome.exit_code == 0 ? "best.prm" : "nearest.prm";
-  EXPECT_TRUE(fs::exists(out / input_file));
-  EXPECT_NE(fs::exists(out / "best.prm"), fs::exists(out / "nearest.prm"));
+  EXPECT_EQ(json["verdict"], "not_decided");
+  EXPECT_EQ(json["has_reached"], false);
+  const std::string input_file = "best.prm";
+  EXPECT_FALSE(fs::exists(out / "nearest.prm")) << "nothing was missed";
+  EXPECT_NE(content(out / input_file).find("# it is not decided whether all targets were reached within 10 %: "),
+            std::string::npos);
+  EXPECT_NE(content(out / "report.html").find("not decided"), std::string::npos);
+  const auto again_asked = run_feldspar(folder.path(), "calibrate --resume out --quiet");
+  EXPECT_EQ(again_asked.exit_code, 5) << "a complete run ends as it did";
 
   for (const auto& [name, value] : {std::pair("youngs_modulus", 40e9), std::pair("tensile_strength", 6e6),
                                     std::pair("uniaxial_compressive_strength", 100e6)})
@@ -93,6 +108,21 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
       EXPECT_DOUBLE_EQ(target["target"].get<double>(), value) << name;
       EXPECT_NEAR(target["deviation"].get<double>(), target["reached"].get<double>() / value - 1.0, 1e-12);
       EXPECT_GT(target["standard_error"].get<double>(), 0.0);
+      // The verdict is that of the interval: of three packings 4.303 standard errors to each side (Student).
+      const double reached = target["reached"].get<double>();
+      EXPECT_NEAR(target["upper_95"].get<double>() - reached, 4.30265 * target["standard_error"].get<double>(),
+                  1e-5 * value)
+        << name;
+      const double least = std::min(std::abs(target["lower_95"].get<double>() / value - 1.0),
+                                    std::abs(target["upper_95"].get<double>() / value - 1.0));
+      const double most = std::max(std::abs(target["lower_95"].get<double>() / value - 1.0),
+                                   std::abs(target["upper_95"].get<double>() / value - 1.0));
+      EXPECT_EQ(target["verdict"] == "reached", most <= 0.1) << name;
+      EXPECT_EQ(target["verdict"] == "missed",
+                std::abs(reached / value - 1.0) > 0.1 && least > 0.1 &&
+                  (target["lower_95"].get<double>() > value || target["upper_95"].get<double>() < value))
+        << name;
+      EXPECT_EQ(target.contains("packings_needed"), target["verdict"] == "not_decided") << name;
     }
   for (const char* const name : {"modulus", "bond_tensile_strength", "cohesion_ratio", "bond_cohesion"})
     {
@@ -103,15 +133,10 @@ TEST(Calibrate, WritesWhatItPromisesAndAnInputThatGivesIt)
       EXPECT_TRUE(verdict == "determined" || verdict == "bounded" || verdict == "not determined") << verdict;
     }
   // Three packings of 110 grains leave a standard error of a sixth, so that rounding alone moves the answer by a tenth: what
-  // is claimed of the modulus is that it lies where the calibration says, and that the targets are met as it says.
+  // is claimed of the modulus is that it lies where the calibration says.
   const auto& modulus = json["parameters"]["modulus"];
   EXPECT_GT(modulus["best"].get<double>(), modulus["lower_90"].get<double>());
   EXPECT_LT(modulus["best"].get<double>(), modulus["upper_90"].get<double>());
-  for (const auto& [name, target] : json["targets"].items())
-    EXPECT_TRUE(!json["has_reached"] ||
-                std::abs(target["reached"].get<double>() - target["target"].get<double>()) <
-                  std::max(0.1 * target["target"].get<double>(), 2.0 * target["standard_error"].get<double>()))
-      << name;
   for (const char* const file : {"design.csv", "posterior.csv", "report.html", "summary.json", "reference.json"})
     EXPECT_GT(fs::file_size(out / file), 100u) << file;
   EXPECT_NE(content(out / "report.html").find("How the micro-parameters were found"), std::string::npos);
@@ -156,10 +181,29 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   EXPECT_FALSE(fs::exists(folder.path() / "cut/calibration.json")) << "it had ended";
   const fs::path of_a_cell = folder.path() / "cut/calibration/elastic_gap_0_ratio_0.json";
   const auto time_of_the_cell = fs::last_write_time(of_a_cell);
+  // One digit of what is kept makes another answer: it is told, and nothing goes on.
+  for (const fs::path& kept : {folder.path() / "cut/calibration/design_1_seed_5.json", of_a_cell})
+    {
+      const std::string before = content(kept);
+      std::string changed = before;
+      const std::size_t digit = changed.find_first_of("123456789", changed.find("\"values\""));
+      ASSERT_NE(digit, std::string::npos);
+      changed[digit] = changed[digit] == '1' ? '2' : '1';
+      folder.write(fs::relative(kept, folder.path()).string(), changed);
+      const auto told = run_feldspar(folder.path(), "calibrate --resume cut --quiet");
+      EXPECT_EQ(told.exit_code, 2);
+      EXPECT_EQ(std::count(told.error.begin(), told.error.end(), '\n'), 1) << told.error;
+      EXPECT_NE(
+        told.error.find(kept.filename().string() + ": damaged: content and checksum do not agree; remove this file"),
+        std::string::npos)
+        << told.error;
+      folder.write(fs::relative(kept, folder.path()).string(), before);
+      fs::last_write_time(of_a_cell, time_of_the_cell);
+    }
   stop_when("--resume cut --threads 1", "step_1_0_seed_7.json", "INT");
   EXPECT_EQ(fs::last_write_time(of_a_cell), time_of_the_cell) << "elastic cells were made again";
   const auto end = run_feldspar(folder.path(), "calibrate --resume cut --quiet --threads 2");
-  ASSERT_TRUE(end.exit_code == 0 || end.exit_code == 2) << end.error;
+  ASSERT_EQ(end.exit_code, 5) << end.error;
   for (const char* const file : {"design.csv", "posterior.csv"})
     {
       EXPECT_GT(content(folder.path() / "cut" / file).size(), 1000u);
@@ -182,7 +226,7 @@ TEST(Calibrate, SaysWhatTargetsThatContradictEachOtherComeNearestTo)
   folder.write("rock.prm",
                replaced(small_calibration, "set Tolerance", "set Cohesion ratio = 10, 30\n  set Tolerance"));
   const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.output;
   EXPECT_EQ(outcome.error.find("feldspar: these targets cannot be reached together"), 0u) << outcome.error;
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
   EXPECT_NE(outcome.error.find("; nearest come tensile strength "), std::string::npos) << outcome.error;
@@ -193,6 +237,29 @@ TEST(Calibrate, SaysWhatTargetsThatContradictEachOtherComeNearestTo)
   EXPECT_NE(content(folder.path() / "out" / "log.txt").find("bond tensile strength"), std::string::npos);
   const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
   EXPECT_FALSE(json["has_reached"].get<bool>());
+  EXPECT_EQ(json["verdict"], "missed");
+}
+
+// Strengths of so few grains scatter by a fifth or so: eight packings tell a mean within half of it, which half of the target
+// holds. Tensile strengths are proportional to the bonds', so that the answer lies near.
+TEST(Calibrate, ReachesATargetWithinAToleranceThatItsPackingsCanDecide)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.json", R"({"rock": "a rock for tests", "experiment": {"tensile_strength_MPa": 6}})");
+  std::string input = replaced(small_calibration, "set Stop stress", "set List = direct_tension\n  set Stop stress");
+  input = replaced(replaced(input, "Tolerance = 0.1", "Tolerance = 0.5"), "Most packings = 3", "Most packings = 8");
+  folder.write("rock.prm", input);
+  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.error, "");
+  const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
+  EXPECT_EQ(json["verdict"], "reached");
+  EXPECT_EQ(json["statement"], "All targets were reached within 50 %.");
+  const auto& target = json["targets"]["tensile_strength"];
+  EXPECT_EQ(target["verdict"], "reached");
+  EXPECT_GE(target["lower_95"].get<double>(), 3e6);
+  EXPECT_LE(target["upper_95"].get<double>(), 9e6);
+  EXPECT_TRUE(fs::exists(folder.path() / "out" / "best.prm"));
 }
 
 /// One line, exit code 2, nothing left.

@@ -699,6 +699,17 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   folder.write("out/run.json", record.dump());
   ASSERT_EQ(run_feldspar(folder.path(), "lab --resume out --quiet").exit_code, 0);
   EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
+  // One digit of them would go on as another specimen.
+  record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
+  record["complete"] = false;
+  record["settings"][1] = "Specimen/Width = 9 mm";
+  folder.write("out/run.json", record.dump());
+  const auto changed = run_feldspar(folder.path(), "lab --resume out --quiet");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_EQ(changed.error,
+            "feldspar: --resume out: run.json in it is not as the run wrote it; undo the change, or begin "
+            "another run\n");
+  EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
 
   const auto refused = [&](const std::string& setting, const std::string& words) {
     const auto outcome = run_feldspar(folder.path(), "lab rock.prm --set '" + setting + "'");

@@ -814,9 +814,10 @@ TEST_P(Peers, StandInTheReadmeWithTheCommittedFigures)
 }
 
 /// How many rows of tables the study of an example prints, each of which must stand in its README.
-std::size_t rows_in_readme(const std::string& example, const std::string& arguments)
+std::size_t rows_in_readme(const std::string& example, const std::string& arguments,
+                           const std::string& script = "study.py")
 {
-  std::istringstream tables(output_of_python("examples/" + example + "/study.py", arguments));
+  std::istringstream tables(output_of_python("examples/" + example + "/" + script, arguments));
   const std::string readme = text_of(root / "examples" / example / "README.md");
   std::size_t n_rows = 0;
   for (std::string row; std::getline(tables, row);)
@@ -841,6 +842,36 @@ TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
 TEST(HiddenRocks, StandInTheReadmeWithTheCommittedFigures)
 {
   EXPECT_EQ(rows_in_readme("calibrate-hidden-rocks", ""), 19u); // seven parameters, ten rocks, two headings
+}
+
+// What a calibration calls reached lies within the tolerance on eleven packings that it has never seen, in nine rocks of ten
+// at least.
+TEST(HiddenRocks, KeepTheirVerdictsOnFreshPackings)
+{
+  // Three verdicts, one count, ten rocks, three headings.
+  EXPECT_EQ(rows_in_readme("calibrate-hidden-rocks", "", "verdicts.py"), 17u);
+  const auto study = nlohmann::json::parse(text_of(root / "examples/calibrate-hidden-rocks/results/verdicts.json"));
+  ASSERT_EQ(study["rocks"].size(), 10u);
+  const double tolerance = study["tolerance"];
+  int n_kept = 0;
+  int n_reached = 0;
+  for (const auto& rock : study["rocks"])
+    {
+      bool is_kept = true;
+      for (const auto& [name, target] : rock["targets"].items())
+        if (target["verdict"] == "reached")
+          {
+            EXPECT_GE(target["lower_95"].get<double>(), (1.0 - tolerance) * target["target"].get<double>()) << name;
+            EXPECT_LE(target["upper_95"].get<double>(), (1.0 + tolerance) * target["target"].get<double>()) << name;
+            EXPECT_EQ(target["fresh"]["n"], 11) << name;
+            is_kept &=
+              std::abs(target["fresh"]["mean"].get<double>() / target["target"].get<double>() - 1.0) <= tolerance;
+            ++n_reached;
+          }
+      n_kept += is_kept;
+    }
+  EXPECT_GE(n_kept, 9);
+  EXPECT_GE(n_reached, 15) << "a verdict that is never given is kept easily";
 }
 
 TEST(PlateWithHole, StandsInTheReadmeWithTheCommittedFigures)
@@ -969,6 +1000,7 @@ const std::map<std::string, std::string> without_piece{
   {"platen-friction.json", "the same specimens between platens of friction 0.2 have a piece"},
   {"smooth-platens-full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
   {"smooth-platens-full-size-triaxial.json", "the packing of 49 464 spheres and a test of it take minutes"},
+  {"verdicts.json", "Calibrate.* of this program run a calibration; ten of them take a quarter of an hour"},
   {"hidden-rocks.json", "Calibrate.* of this program run a calibration; the laboratory of a rock takes a minute"},
   {"rate.json", "the same specimens in tension have a piece; those at its highest rate are compared with them"},
   {"angles-compression.json", "the same cells in tension have a piece; the path of a pressed one takes minutes"},

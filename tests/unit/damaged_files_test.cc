@@ -92,6 +92,31 @@ TEST(Seal, SeesEveryChangeOfAFile)
     EXPECT_EQ(examined(std::string(before, ' ') + std::string(seal_notice)), Seal::broken) << before;
 }
 
+TEST(Seal, KeepsSmallTextsToTheBit)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "kept.json";
+  EXPECT_FALSE(read_sealed(file)) << "there is none";
+  const std::string content = "{\"seal\": \"" + std::string(seal_notice) + "\", \"values\": [1.25, null]}\n";
+  write_sealed(file, content);
+  EXPECT_EQ(read_sealed(file), content);
+  const std::string whole = content_of(file);
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    {
+      std::string changed = whole;
+      changed[at] = char(changed[at] ^ 1);
+      folder.write("kept.json", changed);
+      EXPECT_NE(
+        refusal([&] { read_sealed(file); }).find("kept.json: damaged: content and checksum do not agree; remove"),
+        std::string::npos)
+        << at;
+    }
+  folder.write("kept.json", whole.substr(0, whole.size() - 1));
+  EXPECT_NE(refusal([&] { read_sealed(file); }), "");
+  folder.write("kept.json", "{\"values\": [1.25, null]}\n");
+  EXPECT_FALSE(read_sealed(file)) << "of an older version: it is computed anew";
+}
+
 TEST(DamagedFiles, SpecimensAreRefused)
 {
   const TemporaryFolder folder;

@@ -1173,8 +1173,9 @@ CalibrationRecord calibration_record()
   record.statement = "All targets were reached within 3 %.";
   record.elastic = {"initial", "initial"};
   record.targets = {{"uniaxial_compressive_strength", "uniaxial compressive strength", "Pa", 161.5e6, 5e6, 163.04e6,
-                     1.234e6, 0.00954, 12.0},
-                    {"poissons_ratio", "Poisson's ratio, initial", "1", 0.15, 0.01, 0.15, 0.002, 0.0, 12.0}};
+                     1.234e6, 0.00954, 12.0, TargetVerdict::reached},
+                    {"poissons_ratio", "Poisson's ratio, initial", "1", 0.15, 0.01, 0.15, 0.002, 0.0, 12.0,
+                     TargetVerdict::not_decided}};
   record.parameters = {{"bond_cohesion", "bond cohesion", "Pa", 777.0e6, 600.4e6, 413.0e6, 994.0e6, "bounded",
                         "The bond cohesion is bounded."},
                        {"cohesion_ratio", "bond cohesion over tensile strength", "1", 18.79, 20.0, 12.1, 36.9,
@@ -1195,8 +1196,9 @@ TEST(CalibrationSection, HasTitlesAndNoMoreFiguresThanAreKnown)
   ASSERT_EQ(section.blocks.size(), 2u);
   const std::vector<Table>& tables = section.blocks[0].tables;
   ASSERT_EQ(tables.size(), 2u);
-  EXPECT_EQ(tables[0].rows[0],
-            (std::vector<std::string>{"uniaxial compressive strength [MPa]", "161.5", "163.0", "1.2", "+1.0 %", "12"}));
+  EXPECT_EQ(tables[0].rows[0], (std::vector<std::string>{"uniaxial compressive strength [MPa]", "161.5", "163.0", "1.2",
+                                                         "+1.0 %", "12", "reached"}));
+  EXPECT_EQ(tables[0].rows[1].back(), "not decided");
   EXPECT_EQ(tables[1].rows[0],
             (std::vector<std::string>{"bond cohesion [MPa]", "777", "600", "413 to 994", "bounded"}));
   ASSERT_EQ(section.blocks[0].pictures.size(), 1u) << "the pairs do not stand in their section";
@@ -1304,6 +1306,52 @@ TEST(CalibrationRecord, KnowsWhichFiguresItsReferenceHasAndNeedsNoPosterior)
   folder.write("posterior.csv", "modulus_Pa\n50e9\n52e9\n");
   EXPECT_EQ(read_calibration(folder.path())->samples, (std::vector<std::vector<double>>{{50e9, 52e9}}));
   EXPECT_EQ(read_calibration(folder.path())->elastic.youngs_modulus, "tangent"); // the default of the input
+}
+
+std::string calibration_of_strength(const std::string& of_file, const std::string& of_target)
+{
+  return R"({"statement": "All targets were reached within 3 % or within two standard errors.", "tolerance": 0.03, )" +
+         of_file +
+         R"("targets": {"tensile_strength": {"title": "tensile strength", "unit": "Pa", "target": 10e6,
+    "target_standard_deviation": 1e5, )" +
+         of_target + R"(}}, "parameters": {}, "predictions": {}, "sensitivities": {}})";
+}
+
+// Files of before there were verdicts called a target reached within two standard errors.
+TEST(CalibrationRecord, JudgesAFileWithoutVerdictsByItsOwnMeans)
+{
+  const TemporaryFolder folder;
+  const auto record = [&](const std::string& of_target, const std::string& of_file = "") {
+    folder.write("calibration.json", calibration_of_strength(of_file, of_target));
+    return *read_calibration(folder.path());
+  };
+  // Twelve packings: 2.201 standard errors to each side.
+  CalibrationRecord read =
+    record(R"("reached": 10.1e6, "standard_error": 0.08e6, "deviation": 0.01, "n_packings": 12)");
+  EXPECT_EQ(read.verdict, TargetVerdict::reached) << "-0.8 to 2.8 %";
+  EXPECT_EQ(read.statement, "All targets were reached within 3 %.");
+  read = record(R"("reached": 10.1e6, "standard_error": 0.1e6, "deviation": 0.01, "n_packings": 12)");
+  EXPECT_EQ(read.verdict, TargetVerdict::not_decided) << "-1.2 to 3.2 %";
+  EXPECT_EQ(read.targets[0].verdict, TargetVerdict::not_decided);
+  // A packing scatters by 3.46 %: 2.145 · 3.46 / √15 = 1.92 is less than the 2 that are left; √14 gives 2.0001.
+  EXPECT_EQ(read.statement,
+            "it is not decided whether all targets were reached within 3 %: tensile strength +1.0 ± 2.2 % "
+            "(about 15 packings needed); raise Calibration/Most packings, test larger specimens or widen "
+            "Calibration/Tolerance");
+  read = record(R"("reached": 11e6, "standard_error": 0.2e6, "deviation": 0.1, "n_packings": 12)");
+  EXPECT_EQ(read.verdict, TargetVerdict::missed) << "5.6 to 14.4 %";
+  // Without tests the statement on what comes nearest stays.
+  read = record(R"("reached": 11e6, "standard_error": null, "deviation": 0.1, "n_packings": 0)");
+  EXPECT_EQ(read.verdict, TargetVerdict::missed);
+  EXPECT_EQ(read.statement, "All targets were reached within 3 % or within two standard errors.");
+  // What a file says itself holds.
+  read = record(R"("reached": 11e6, "standard_error": 0.2e6, "deviation": 0.1, "n_packings": 12, "verdict": "reached")",
+                R"("verdict": "reached", )");
+  EXPECT_EQ(read.verdict, TargetVerdict::reached);
+  EXPECT_EQ(read.targets[0].verdict, TargetVerdict::reached);
+  folder.write("calibration.json", calibration_of_strength(R"("verdict": "met", )", R"("reached": 11e6,
+    "standard_error": null, "deviation": 0.1, "n_packings": 0, "verdict": "met")"));
+  EXPECT_THROW(read_calibration(folder.path()), InputError);
 }
 
 TEST(Comparison, HasTheRockConstantWhereTheReferenceDoes)
