@@ -1,12 +1,12 @@
 #include "base/seal.h"
 
 #include "base/fingerprint.h"
+#include "base/readable_file.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <system_error>
+#include <istream>
 
 namespace feldspar
 {
@@ -38,7 +38,7 @@ std::string seal(const std::uint64_t length, const Fingerprint& content)
 }
 
 /// `use` sees the first `length` bytes of a file piece by piece, until it returns false. False where they cannot be read.
-bool for_each_piece(std::ifstream& file, std::uint64_t length, const std::function<bool(std::string_view)>& use)
+bool for_each_piece(std::istream& file, std::uint64_t length, const std::function<bool(std::string_view)>& use)
 {
   file.clear();
   file.seekg(0);
@@ -65,11 +65,10 @@ std::string seal_of(const std::string_view content)
 
 Seal examine_seal(const std::filesystem::path& path)
 {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file)
+  if (!objection_to_reading(path).empty())
     return Seal::broken;
+  ReadableFile file(path);
+  const std::uint64_t size = std::filesystem::file_size(path);
   if (size >= seal_size)
     {
       const std::uint64_t length = size - seal_size;

@@ -1,21 +1,19 @@
 #include "app/calibration/kept_values.h"
 
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
 
 namespace feldspar::calibration
 {
 std::optional<KeptValues> read_values(const std::filesystem::path& file, const std::string& identity,
                                       const std::size_t n)
 {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
+  if (!std::filesystem::exists(file))
     return std::nullopt;
-  const auto json = nlohmann::ordered_json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
+  const auto json = nlohmann::ordered_json::parse(content_of(file), nullptr, false);
   if (!json.is_object() || !json.contains("identity") || json["identity"] != identity || !json.contains("values") ||
       !json["values"].is_array() || json["values"].size() != n)
     return std::nullopt; // torn, or of another program: it is made again

@@ -4,6 +4,7 @@
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 #include "results/folder/provenance_json.h"
 
@@ -11,8 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace feldspar
 {
@@ -83,13 +82,12 @@ void read_samples(CalibrationRecord& record, const std::filesystem::path& file)
 std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& folder)
 {
   const auto file = folder / "calibration.json";
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
+  if (!std::filesystem::exists(file))
     return std::nullopt;
   CalibrationRecord record;
   try
     {
-      record = from_json(parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {})));
+      record = from_json(parse_json(file.string(), content_of(file)));
     }
   catch (const Json::exception&)
     {
