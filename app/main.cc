@@ -258,8 +258,7 @@ private:
       return app.exit(error);
     const std::string unknown = subcommands.empty() ? "" : unknown_option(*subcommands.front());
     constexpr std::size_t most_characters = 400; // of words that are no command line
-    say(fmt::format("{}; see feldspar {}--help",
-                    shortened(unknown.empty() ? error.what() : unknown, most_characters),
+    say(fmt::format("{}; see feldspar {}--help", shortened(unknown.empty() ? error.what() : unknown, most_characters),
                     subcommands.empty() ? "" : subcommands.front()->get_name() + " "));
     return exit_code::user_error;
   }
@@ -294,7 +293,8 @@ private:
     for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()})));
+      throw InputError(
+        fmt::format("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()})));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and joints", "feldspar"};

@@ -22,7 +22,8 @@ std::string cannot_be_read(const int error)
 
 std::string objection_to_kind(const mode_t mode)
 {
-  constexpr const char* instead = "write its content into a file and name that, as a run reads its files more than once";
+  constexpr const char* instead =
+    "write its content into a file and name that, as a run reads its files more than once";
   if (S_ISREG(mode))
     return "";
   if (S_ISDIR(mode))

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-
 namespace feldspar::calibration
 {
 std::optional<KeptValues> read_values(const std::filesystem::path& file, const std::string& identity,

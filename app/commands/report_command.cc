@@ -28,7 +28,8 @@ int run_report(const ReportOptions& options)
       check_write_over(results, places_of_reports(), inputs);
   };
   const OutputFolder folder(beside_results ? order.result_folders.front() : options.output, "report",
-                            beside_results || options.force ? write_over : std::function<void(const std::filesystem::path&)>());
+                            beside_results || options.force ? write_over
+                                                            : std::function<void(const std::filesystem::path&)>());
   const FolderLock lock(folder.path());
   const FileList list(folder.path());
   order.output = folder.path();

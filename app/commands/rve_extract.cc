@@ -95,6 +95,7 @@ int extract_rve(const std::filesystem::path& folder, const std::string& cell_and
 {
   const RvePlace place = place_of(cell_and_point);
   const RunRecord record = read_run_record("multiscale", folder);
+  check_links(folder);
   const FileList list(folder);
   Progress progress(true);
   const auto rocks = make_rocks(record.input, record.input_file, folder, progress);

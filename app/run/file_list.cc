@@ -21,7 +21,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* list_name = ".feldspar-files";
-constexpr const char* record_name = "run.json"; ///< of a run of a version without lists too
+constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
 
 bool has(const std::vector<std::string_view>& names, const std::string& wanted)
@@ -34,7 +34,7 @@ bool is_specimen(const std::string& name) { return name.starts_with("specimen") 
 bool is_there(const fs::path& file)
 {
   std::error_code ignored;
-  return fs::symlink_status(file, ignored).type() > fs::file_type::not_found;
+  return fs::exists(fs::symlink_status(file, ignored));
 }
 
 /// As it is compared: from the root, without `.`, `..` and slashes at its end.
@@ -61,7 +61,8 @@ std::set<std::string> listed_files(const fs::path& folder)
   for (std::string line; std::getline(lines, line);)
     {
       const fs::path file = line;
-      const bool is_plain = !line.empty() && file.is_relative() && file.lexically_normal() == file && file.has_filename();
+      const bool is_plain =
+        !line.empty() && file.is_relative() && file.lexically_normal() == file && file.has_filename();
       if (is_plain && (places_of_runs().include(file) || places_of_contacts().include(file)))
         files.insert(line);
     }
@@ -93,7 +94,7 @@ void remove_listed(const fs::path& file)
   const auto with = [&](const char* const ending) { return fs::path(file) += ending; };
   remove_file(file);
   remove_file(with(".unfinished"));
-  if (file.extension() == ".h5")
+  if (file.parent_path().filename() == "checkpoints" && file.extension() == ".h5")
     remove_file(fs::path(file).replace_extension(".previous.h5"));
   const fs::path steps = file.parent_path().parent_path();
   if (file.parent_path().filename() != "unfinished" || !fs::is_directory(steps))
@@ -119,9 +120,9 @@ void remove_empty_folders(const fs::path& folder)
     rmdir(one->c_str());
 }
 
-bool is_page_of_ours(const fs::path& page)
+bool has_words(const fs::path& file, const std::string_view words)
 {
-  return objection_to_reading(page).empty() && content_of(page).find("Feldspar report of") != std::string::npos;
+  return objection_to_reading(file).empty() && content_of(file).find(words) != std::string::npos;
 }
 
 /// The files that runs wrote into the folder. Of a version without lists only the known names at its top: what lies in its
@@ -131,33 +132,14 @@ std::set<std::string> files_of_runs(const fs::path& folder)
   std::set<std::string> files = listed_files(folder);
   if (is_there(folder / list_name))
     return files;
-  const bool is_run = is_there(folder / record_name);
-  if (!is_run && !is_page_of_ours(folder / page_name))
+  const bool is_run = has_words(folder / record_name, "\"relative_to\"");
+  if (!is_run && !has_words(folder / page_name, "Feldspar report of"))
     return files;
   const Places& places = is_run ? places_of_runs() : places_of_reports();
   for (const auto& entry : fs::directory_iterator(folder))
     if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name))
       files.insert(name);
   return files;
-}
-
-void refuse_links(const fs::path& folder)
-{
-  const auto refuse = [](const fs::path& link) {
-    throw InputError(fmt::format("{}: is a link to another folder, into which results would be written; remove it, or "
-                                 "copy the folder there",
-                                 link.string()));
-  };
-  for (const std::string_view name : places_of_runs().folders)
-    {
-      const fs::path own = folder / name;
-      if (fs::is_symlink(fs::symlink_status(own)))
-        refuse(own);
-      if (fs::is_directory(own))
-        for (const auto& entry : fs::recursive_directory_iterator(own))
-          if (entry.is_symlink() && entry.is_directory())
-            refuse(entry.path());
-    }
 }
 } // namespace
 
@@ -170,12 +152,12 @@ bool Places::include(const std::filesystem::path& relative) const
 
 const Places& places_of_runs()
 {
-  static const Places places{
-    {record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv", "reference.json",
-     page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv", "best.prm", "nearest.prm"},
-    {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted", "figures", "tables",
-     "calibration", "volumes" /* of 0.2.0, now rves */},
-    true};
+  static const Places places{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
+                              "reference.json", page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv",
+                              "best.prm", "nearest.prm"},
+                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
+                              "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
+                             true};
   return places;
 }
 
@@ -201,7 +183,6 @@ FileList::FileList(const std::filesystem::path& its_folder)
   : folder(plain(its_folder))
   , known(listed_files(folder))
 {
-  refuse_links(folder);
   hear_of_files([this](const fs::path& file) { note(file); });
 }
 
@@ -224,17 +205,37 @@ void FileList::note(const std::filesystem::path& file)
   std::string lines;
   if (list < 0)
     {
-      if (!is_there(folder / list_name)) // of a run of a version without lists
-        known = files_of_runs(folder);
-      for (const std::string& one : known)
-        lines += one + "\n";
-      list = open((folder / list_name).c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+      if (is_there(folder / list_name))
+        lines = "\n"; // a killed run may have left half a line
+      else
+        for (const std::string& of_version_without_lists : known = files_of_runs(folder))
+          lines += of_version_without_lists + "\n";
+      list =
+        open((folder / list_name).c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     }
   lines += relative.string() + "\n";
   if (list < 0 || write(list, lines.data(), lines.size()) != ssize_t(lines.size()))
-    throw OutputError(
-      fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
+    throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
   known.insert(relative.string());
+}
+
+void check_links(const std::filesystem::path& folder)
+{
+  const auto refuse = [](const fs::path& link) {
+    throw InputError(fmt::format("{}: is a link to another folder, into which results would be written; remove it, or "
+                                 "copy the folder there",
+                                 link.string()));
+  };
+  for (const std::string_view name : places_of_runs().folders)
+    {
+      const fs::path own = folder / name;
+      if (fs::is_symlink(fs::symlink_status(own)))
+        refuse(own);
+      if (fs::is_directory(own))
+        for (const auto& entry : fs::recursive_directory_iterator(own))
+          if (entry.is_symlink() && entry.is_directory())
+            refuse(entry.path());
+    }
 }
 
 void check_write_over(const std::filesystem::path& folder, const Places& places,

@@ -30,7 +30,6 @@ const Places& places_of_reports();
 class FileList
 {
 public:
-  /// Throws InputError where a folder of results is a link: what is written into it would lie elsewhere.
   explicit FileList(const std::filesystem::path& folder);
   FileList(const FileList&) = delete;
   FileList& operator=(const FileList&) = delete;
@@ -43,6 +42,9 @@ private:
   std::set<std::string> known;
   int list = -1; ///< its descriptor; opened with the first file
 };
+
+/// Refuses a folder in which a folder of results is a link: what is written into that would lie elsewhere. Throws InputError.
+void check_links(const std::filesystem::path& folder);
 
 /// Refuses to write over the folder of an earlier run where that would cost a file of the user: one that this run reads
 /// (`inputs`: files and folders), or one in a place of results that no run wrote. Throws InputError.

@@ -83,10 +83,9 @@ void OutputFolder::make_wanted(const std::filesystem::path& wanted,
   if (std::filesystem::is_empty(folder))
     return;
   if (!write_over)
-    throw InputError(
-      fmt::format("{}: is not empty; choose another folder with --output, or leave --output out for a new one{}",
-                  folder.string(),
-                  holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : ""));
+    throw InputError(fmt::format(
+      "{}: is not empty; choose another folder with --output, or leave --output out for a new one{}", folder.string(),
+      holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : ""));
   write_over(folder);
 }
 
@@ -97,7 +96,7 @@ void OutputFolder::remove_empty() const
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
-  : descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+  : descriptor((check_links(folder), open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)))
 {
   if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     {

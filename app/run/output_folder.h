@@ -39,7 +39,8 @@ private:
 class FolderLock
 {
 public:
-  /// Throws InputError where another run has the folder. A file system without locks grants every one.
+  /// Throws InputError where another run has the folder, and where links lead out of it (check_links). A file system
+  /// without locks grants every one.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -30,7 +30,8 @@ std::string how_to_resume(const RunCommand& command, const std::filesystem::path
 void tell_failure(const std::string& failure, const std::filesystem::path& folder)
 {
   if (!failure.empty())
-    fmt::print(stderr, "feldspar: {}; the other results are in {}\n", excerpt(failure, 1000), printable(folder.string()));
+    fmt::print(stderr, "feldspar: {}; the other results are in {}\n", excerpt(failure, 1000),
+               printable(folder.string()));
 }
 
 int exit_code_of(const std::string& failure) { return failure.empty() ? 0 : exit_code::user_error; }
@@ -84,7 +85,8 @@ void read_bodies(const Input& input)
       if (!specimen.specimen_file.empty() && read.insert(specimen.specimen_file).second)
         is_plane ? void(read_specimen<2>(specimen.specimen_file)) : void(read_specimen<3>(specimen.specimen_file));
       if (!specimen.packing_file.empty() && read.insert(specimen.packing_file).second)
-        is_plane ? void(read_packing<2>(specimen, end_if_interrupted)) : void(read_packing<3>(specimen, end_if_interrupted));
+        is_plane ? void(read_packing<2>(specimen, end_if_interrupted))
+                 : void(read_packing<3>(specimen, end_if_interrupted));
     }
 }
 

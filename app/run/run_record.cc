@@ -37,7 +37,7 @@ struct Contents
   std::filesystem::path relative_to; ///< the folder of the input
   std::vector<std::string> settings;
   bool variants_by_value; ///< how their files are named; not in the folders of before they were
-  std::string checksum;                      ///< of the copy of the input; empty in the folders of before there were any
+  std::string checksum;   ///< of the copy of the input; empty in the folders of before there were any
   std::map<std::string, std::string> beside; ///< those of the files that the input names
   bool complete;
   std::string failure;
@@ -169,9 +169,10 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
     {
       const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
         if (checksum_of(file) != checksum)
-          throw InputError(fmt::format("--resume {}: {} is not as it was when the run began (its checksum differs); put it "
-                                       "back, or begin a new run",
-                                       folder.string(), file.string()));
+          throw InputError(
+            fmt::format("--resume {}: {} is not as it was when the run began (its checksum differs); put it "
+                        "back, or begin a new run",
+                        folder.string(), file.string()));
       };
       if (!contents.checksum.empty())
         check(copy, contents.checksum);

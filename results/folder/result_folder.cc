@@ -278,7 +278,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       const std::string table = test.name + ".csv";
       if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
         continue; // it could not be made
-      try_to(of_tables, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(of_tables,
+             [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
             return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
           }))
@@ -291,7 +292,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         try_to(of_tables, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
-        try_to(of_tables, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
+        try_to(of_tables,
+               [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
   for (const auto& entry : json["tests"])
     for (auto& test : tests)

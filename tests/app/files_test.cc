@@ -125,7 +125,9 @@ TEST(WriteOver, IsRefusedWhereNoRunIsKnownToHaveWrittenAFile)
   fs::create_directory(folder.path() / "out");
   folder.write("a.prm", rock + naming("Contact path", "File", "path.csv"));
   folder.write("path.csv", path_table);
-  for (const auto& [name, command] : {std::pair("input.prm", "lab"), {"reference.json", "lab"}, {"specimen.h5", "specimen"},
+  for (const auto& [name, command] : {std::pair("input.prm", "lab"),
+                                      {"reference.json", "lab"},
+                                      {"specimen.h5", "specimen"},
                                       {"contact.csv", "contact"}})
     {
       folder.write(fmt::format("out/{}", name), "mine");
@@ -152,8 +154,8 @@ TEST(WriteOver, TakesOutWhatRunsWroteAndNothingElse)
 
   std::map<std::string, std::string> mine;
   fs::create_directory(out / "checkpoints");
-  for (const char* const file : {"notes.txt", "figures/mine.png", "tables/mine.csv", "curves/mine.csv", "grains/mine.csv",
-                                 "fields/mine.vtp", "checkpoints/mine.h5"})
+  for (const char* const file : {"notes.txt", "figures/mine.png", "tables/mine.csv", "curves/mine.csv",
+                                 "grains/mine.csv", "fields/mine.vtp", "checkpoints/mine.h5"})
     {
       folder.write(fmt::format("out/{}", file), file);
       mine[file] = file;
@@ -319,26 +321,25 @@ TEST(NoFile, IsRefusedAtOnceByEveryReader)
   ASSERT_EQ(run_feldspar(folder.path(), "lab run.prm --output out --quiet").exit_code, 0);
   make_incomplete(folder.path() / "out");
   const std::string stages = naming("Tests", "List", "own_loading");
-  const std::vector<Reader> readers{
-    {"lab in.prm", "", "in.prm"},
-    {"lab in.json", "", "in.json"},
-    {"parameters --check in.prm", "", "in.prm"},
-    {"contact a.prm", naming("Contact path", "File", "path.csv"), "path.csv"},
-    {"lab a.prm", rock + naming("Report", "Reference file", "r.json"), "r.json"},
-    {"lab a.prm", rock + naming("Report", "Reference results", "s.json"), "s.json"},
-    {"lab a.prm", rock + naming("Specimen", "Packing file", "p.txt"), "p.txt"},
-    {"specimen a.prm", rock + naming("Specimen", "Specimen file", "b.h5"), "b.h5"},
-    {"lab a.prm", rock + naming("Flaws", "Traces file", "t.csv"), "t.csv"},
-    {"lab a.prm", rock + naming("Flaws", "Traces file", "t.dxf"), "t.dxf"},
-    {"lab a.prm", naming("Tests", "Loading table", "stages.csv"), "stages.csv"},
-    {"lab a.prm", rock + naming("Variants", "Table", "v.csv"), "v.csv"},
-    {"rve a.prm", naming("Strain path", "File", "strain.csv"), "strain.csv"},
-    {"multiscale a.prm", naming("Sample", "Mesh file", "m.msh"), "m.msh"},
-    {"report --curve core.csv", "", "core.csv"},
-    {"report out --reference r.json", "", "r.json"},
-    {"report out", "", "out/summary.json"},
-    {"lab --resume out", "", "out/run.json"},
-    {"lab --resume out", "", "out/input.prm"}};
+  const std::vector<Reader> readers{{"lab in.prm", "", "in.prm"},
+                                    {"lab in.json", "", "in.json"},
+                                    {"parameters --check in.prm", "", "in.prm"},
+                                    {"contact a.prm", naming("Contact path", "File", "path.csv"), "path.csv"},
+                                    {"lab a.prm", rock + naming("Report", "Reference file", "r.json"), "r.json"},
+                                    {"lab a.prm", rock + naming("Report", "Reference results", "s.json"), "s.json"},
+                                    {"lab a.prm", rock + naming("Specimen", "Packing file", "p.txt"), "p.txt"},
+                                    {"specimen a.prm", rock + naming("Specimen", "Specimen file", "b.h5"), "b.h5"},
+                                    {"lab a.prm", rock + naming("Flaws", "Traces file", "t.csv"), "t.csv"},
+                                    {"lab a.prm", rock + naming("Flaws", "Traces file", "t.dxf"), "t.dxf"},
+                                    {"lab a.prm", naming("Tests", "Loading table", "stages.csv"), "stages.csv"},
+                                    {"lab a.prm", rock + naming("Variants", "Table", "v.csv"), "v.csv"},
+                                    {"rve a.prm", naming("Strain path", "File", "strain.csv"), "strain.csv"},
+                                    {"multiscale a.prm", naming("Sample", "Mesh file", "m.msh"), "m.msh"},
+                                    {"report --curve core.csv", "", "core.csv"},
+                                    {"report out --reference r.json", "", "r.json"},
+                                    {"report out", "", "out/summary.json"},
+                                    {"lab --resume out", "", "out/run.json"},
+                                    {"lab --resume out", "", "out/input.prm"}};
   for (const Reader& reader : readers)
     for (const char* const kind : {"pipe", "device", "folder"})
       {
@@ -389,14 +390,14 @@ TEST(CommandLine, IsToldInOneShortPrintableLineWhateverIsInIt)
           "parameters --check a.prm --for " + word, "parameters " + word, "lab " + word, "lab --resume " + word,
           "lab a.prm --set " + word, "lab a.prm --output a.prm/" + word, "report " + word, "report --curve " + word,
           "report a --reference " + word, "multiscale a.prm --extract " + word})
-      {
-        const Outcome outcome = run_feldspar(folder.path(), arguments);
-        EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3) << arguments << outcome.exit_code;
-        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << arguments << outcome.error;
-        EXPECT_FALSE(has_control(outcome.error)) << arguments;
-        // "feldspar: ", 2000 characters and the line's end; an ellipsis takes three bytes.
-        EXPECT_LE(outcome.error.size(), 2015u) << arguments;
-      }
+  {
+    const Outcome outcome = run_feldspar(folder.path(), arguments);
+    EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3) << arguments << outcome.exit_code;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << arguments << outcome.error;
+    EXPECT_FALSE(has_control(outcome.error)) << arguments;
+    // "feldspar: ", 2000 characters and the line's end; an ellipsis takes three bytes.
+    EXPECT_LE(outcome.error.size(), 2015u) << arguments;
+  }
   const Outcome unknown = run_feldspar(folder.path(), "lab a.prm --" + longest);
   EXPECT_LT(unknown.error.size(), 800u);
   EXPECT_NE(unknown.error.find("; see feldspar lab --help"), std::string::npos) << unknown.error;
@@ -439,7 +440,8 @@ TEST(EqualRuns, HaveEqualFilesOfHdf5)
   folder.write("b.prm", sample);
   for (const char* const which : {"1", "2"})
     {
-      ASSERT_EQ(run_feldspar(folder.path(), fmt::format("specimen a.prm --output grains{} --quiet", which)).exit_code, 0);
+      ASSERT_EQ(run_feldspar(folder.path(), fmt::format("specimen a.prm --output grains{} --quiet", which)).exit_code,
+                0);
       const Outcome run = run_feldspar(folder.path(), fmt::format("multiscale b.prm --output sample{} --quiet", which));
       ASSERT_EQ(run.exit_code, 0) << run.error;
       std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // times in such files have seconds
