@@ -39,6 +39,15 @@ std::vector<std::string> names_of_commands_with_input()
   return names;
 }
 
+constexpr std::size_t longest_line = 2000; // of standard error, whatever it repeats
+
+/// On standard error in one printable line, without an exception, should it lie on the disk that is full.
+void say(std::string text)
+{
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fputs(fmt::format("feldspar: {}\n", shortened(text, longest_line)).c_str(), stderr);
+}
+
 /// The command line that `feldspar` understands, and what it was told.
 class CommandLine
 {
@@ -248,8 +257,9 @@ private:
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(error);
     const std::string unknown = subcommands.empty() ? "" : unknown_option(*subcommands.front());
-    fmt::print(stderr, "feldspar: {}; see feldspar {}--help\n", unknown.empty() ? error.what() : unknown,
-               subcommands.empty() ? "" : subcommands.front()->get_name() + " ");
+    constexpr std::size_t most_characters = 400; // of words that are no command line
+    say(fmt::format("{}; see feldspar {}--help", shortened(unknown.empty() ? error.what() : unknown, most_characters),
+                    subcommands.empty() ? "" : subcommands.front()->get_name() + " "));
     return exit_code::user_error;
   }
 
@@ -265,7 +275,7 @@ private:
       for (const std::string& name : option->get_lnames())
         names.push_back("--" + name);
     const std::string given = word->substr(0, word->find('='));
-    return fmt::format("{}: {} has no such option{}", given, command.get_name(),
+    return fmt::format("{}: {} has no such option{}", excerpt(given), command.get_name(),
                        suggestion(given, {names.begin(), names.end()}));
   }
 
@@ -283,7 +293,8 @@ private:
     for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("{}: no such command{}", name, suggestion(name, {names.begin(), names.end()})));
+      throw InputError(
+        fmt::format("{}: no such command{}", excerpt(name), suggestion(name, {names.begin(), names.end()})));
   }
 
   CLI::App app{"Feldspar: laboratory tests on rock made of grains and joints", "feldspar"};
@@ -294,14 +305,6 @@ private:
   std::optional<unsigned int> n_threads;
   std::function<int()> chosen;
 };
-
-/// Without an exception, should standard error lie on the disk that is full.
-void say(std::string text)
-{
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  constexpr std::size_t most_characters = 2000; // whatever it repeats
-  std::fputs(fmt::format("feldspar: {}\n", excerpt(text, most_characters)).c_str(), stderr);
-}
 
 /// Where a standard stream is closed, the first file to be opened would take its number, and what is printed would go
 /// into it.
@@ -356,9 +359,10 @@ int main(const int argc, const char* const* argv)
   catch (const std::exception& error)
     {
       say(fmt::format("this should not have happened: {}", error.what()));
-      std::fputs(
-        fmt::format("To reproduce it, with feldspar {}: {}\n", version, fmt::join(argv, argv + argc, " ")).c_str(),
-        stderr);
+      std::fputs(fmt::format("To reproduce it, with feldspar {}: {}\n", version,
+                             shortened(fmt::format("{}", fmt::join(argv, argv + argc, " ")), longest_line))
+                   .c_str(),
+                 stderr);
       return exit_code::internal_error;
     }
 }

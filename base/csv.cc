@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <system_error>
 
 namespace feldspar
 {
@@ -23,8 +21,6 @@ CsvReader::CsvReader(const std::filesystem::path& file)
   : name(file.string())
   , stream(file)
 {
-  if (!stream)
-    throw InputError(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(errno)));
   std::getline(stream, line);
   if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; line.starts_with(byte_order_mark))
     line.erase(0, byte_order_mark.size());

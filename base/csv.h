@@ -1,8 +1,9 @@
 #pragma once
 
+#include "base/readable_file.h"
+
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,7 @@ public:
 
 private:
   std::string name;
-  std::ifstream stream;
+  ReadableFile stream;
   std::string names;
   std::vector<std::string_view> columns; ///< of `names`
   std::string line;

@@ -1,13 +1,10 @@
 #include "base/hdf5_archive.h"
 
+#include "base/readable_file.h"
 #include "base/seal.h"
 #include "base/whole_file.h"
 
-#include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <system_error>
 
 namespace feldspar
 {
@@ -21,7 +18,7 @@ void add_notice(const H5::Group& root)
 
 /// The bytes of a file that `write` fills. In memory, because the library hides why a disk refused them, and does not
 /// get over it.
-std::string image_of(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
+std::string image_of(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
   const std::lock_guard lock(hdf5_mutex());
   H5::Exception::dontPrint();
@@ -34,8 +31,7 @@ std::string image_of(const std::filesystem::path& file, const std::function<void
       {
         const H5::Group root = out.openGroup("/");
         add_notice(root);
-        Hdf5Writer writer(root);
-        write(writer);
+        write(root);
       }
       out.flush(H5F_SCOPE_GLOBAL);
       const ssize_t size = H5Fget_file_image(out.getId(), nullptr, 0);
@@ -50,13 +46,31 @@ std::string image_of(const std::filesystem::path& file, const std::function<void
     }
 }
 
+void write_sealed(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
+{
+  std::string image = image_of(file, write);
+  image += seal_of(image);
+  write_whole_file(file, image);
+}
+
+void copy_array(const H5::DataSet& array, const std::string& name, const H5::Group& to)
+{
+  const H5::DataType type = array.getDataType();
+  const H5::DataSpace shape = array.getSpace();
+  std::vector<char> values(array.getInMemDataSize());
+  array.read(values.data(), type);
+  H5::DSetCreatPropList properties;
+  forget_times(properties);
+  to.createDataSet(name, type, shape, properties).write(values.data(), type);
+}
+
 void read(const std::filesystem::path& file, const std::string& expected, const bool may_lack_seal,
           const std::function<void(Hdf5Reader&)>& use)
 {
   const std::lock_guard lock(hdf5_mutex());
   H5::Exception::dontPrint();
-  std::string problem = "no such file";
-  if (std::filesystem::is_regular_file(file))
+  std::string problem = objection_to_reading(file);
+  if (problem.empty())
     try
       {
         // Before HDF5 sees it, which is not made for damaged files.
@@ -84,31 +98,26 @@ void read(const std::filesystem::path& file, const std::string& expected, const 
 
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
 {
-  std::string image = image_of(file, write);
-  image += seal_of(image);
-  write_whole_file(file, image);
+  write_sealed(file, [&](const H5::Group& root) {
+    Hdf5Writer writer(root);
+    write(writer);
+  });
 }
 
 void seal_hdf5(const std::filesystem::path& file)
 {
-  const std::lock_guard lock(hdf5_mutex());
-  H5::Exception::dontPrint();
-  try
-    {
-      const H5::H5File opened(file.string(), H5F_ACC_RDWR);
-      add_notice(opened.openGroup("/"));
-    }
-  catch (const H5::Exception& error)
-    {
-      throw OutputError(fmt::format("{}: cannot be sealed: {}", file.string(), error.getDetailMsg()));
-    }
-  std::ifstream in(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  if (!in || !(out << seal_of(content)).flush())
-    throw OutputError(fmt::format("{}: cannot be sealed{}", file.string(),
-                                  errno != 0 ? ": " + std::generic_category().message(errno) : ""));
+  write_sealed(file, [&](const H5::Group& root) {
+    try
+      {
+        const H5::H5File written(file.string(), H5F_ACC_RDONLY);
+        for (hsize_t k = 0; k < written.getNumObjs(); ++k)
+          copy_array(written.openDataSet(written.getObjnameByIdx(k)), written.getObjnameByIdx(k), root);
+      }
+    catch (const H5::Exception& error)
+      {
+        throw OutputError(fmt::format("{}: cannot be sealed: {}", file.string(), error.getDetailMsg()));
+      }
+  });
 }
 
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,

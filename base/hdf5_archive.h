@@ -35,6 +35,9 @@ const H5::PredType& stored_type()
     }
 }
 
+/// Without the time at which an array was made: equal results have equal files.
+inline void forget_times(const H5::DSetCreatPropList& of_array) { H5Pset_obj_track_times(of_array.getId(), false); }
+
 class Hdf5Writer
 {
 public:
@@ -64,6 +67,7 @@ public:
     const std::array<hsize_t, 2> shape{values.size() / n_columns, n_columns};
     const int rank = n_columns > 1 ? 2 : 1;
     H5::DSetCreatPropList checked;
+    forget_times(checked);
     if (!values.empty())
       {
         checked.setChunk(rank, shape.data());
@@ -193,7 +197,7 @@ inline std::mutex& hdf5_mutex()
 /// file and cause.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write);
 
-/// Seals a file that another library wrote. Throws OutputError.
+/// Writes a file of arrays that another library wrote once more: without their times, and with a seal. Throws OutputError.
 void seal_hdf5(const std::filesystem::path& file);
 
 /// Reads a file that write_hdf5() wrote. Whatever is wrong with it is an InputError, which says so and that `expected` was

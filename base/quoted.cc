@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace feldspar
 {
@@ -90,6 +91,24 @@ std::string excerpt(std::string_view text, const std::size_t most_characters)
       if (n < most_characters)
         shorter = result;
     }
+  return result;
+}
+
+std::string shortened(std::string_view text, const std::size_t most_characters)
+{
+  std::vector<std::string> characters;
+  while (!text.empty())
+    characters.push_back(take_character(text));
+  const std::size_t n = characters.size();
+  const std::size_t n_first = n <= most_characters ? n : 3 * most_characters / 4;
+  const std::size_t n_last = n <= most_characters ? 0 : most_characters - n_first - 1;
+  std::string result;
+  for (std::size_t k = 0; k < n_first; ++k)
+    result += characters[k];
+  if (n_first < n)
+    result += "…";
+  for (std::size_t k = n - n_last; k < n; ++k)
+    result += characters[k];
   return result;
 }
 

@@ -14,6 +14,9 @@ std::string printable(std::string_view text);
 /// printable(), cut to a number of characters; the last of these is then an ellipsis.
 std::string excerpt(std::string_view text, std::size_t most_characters = 72);
 
+/// printable(), cut in its middle to a number of characters: a message begins with the place and ends with the advice.
+std::string shortened(std::string_view text, std::size_t most_characters);
+
 /// An excerpt between double quotation marks, as messages repeat an entry or a cell.
 std::string in_quotes(std::string_view text);
 

@@ -2,16 +2,15 @@
 
 #include "base/fingerprint.h"
 #include "base/input_error.h"
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <iterator>
-#include <system_error>
+#include <istream>
 
 namespace feldspar
 {
@@ -43,7 +42,7 @@ std::string seal(const std::uint64_t length, const Fingerprint& content)
 }
 
 /// `use` sees the first `length` bytes of a file piece by piece, until it returns false. False where they cannot be read.
-bool for_each_piece(std::ifstream& file, std::uint64_t length, const std::function<bool(std::string_view)>& use)
+bool for_each_piece(std::istream& file, std::uint64_t length, const std::function<bool(std::string_view)>& use)
 {
   file.clear();
   file.seekg(0);
@@ -85,19 +84,17 @@ std::optional<std::string> read_sealed(const std::filesystem::path& file)
                   file.string()));
   if (seal == Seal::none)
     return std::nullopt;
-  std::ifstream in(file, std::ios::binary);
-  std::string content(std::istreambuf_iterator<char>(in), {});
+  std::string content = content_of(file);
   content.resize(content.size() - seal_size);
   return content;
 }
 
 Seal examine_seal(const std::filesystem::path& path)
 {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file)
+  if (!objection_to_reading(path).empty())
     return Seal::broken;
+  ReadableFile file(path);
+  const std::uint64_t size = std::filesystem::file_size(path);
   if (size >= seal_size)
     {
       const std::uint64_t length = size - seal_size;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -12,6 +13,15 @@ struct OutputError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a file whole or not at all, by way of a temporary one. Throws OutputError, which names file and cause.
+/// Writes a file whole or not at all, by way of a temporary one that is new. A link in the place of either is replaced, never
+/// followed. Throws OutputError, which names file and cause.
 void write_whole_file(const std::filesystem::path& file, std::string_view content);
+
+/// The same for a file that another library or program is about to write: takes away what lies in its place, so that nothing
+/// is written through a link. Throws OutputError.
+void make_way_for(const std::filesystem::path& file);
+
+/// From now on `hear` is told of each file before it is written, one at a time; without it, nobody is. Of the process: files
+/// are written everywhere. What `hear` throws keeps the file from being written.
+void hear_of_files(std::function<void(const std::filesystem::path& file)> hear);
 } // namespace feldspar

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -67,15 +68,14 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
   return fields;
 }
 
-/// With checksums. By the first rank, whose failure is that of all.
-void seal(const std::vector<std::filesystem::path>& files, const MPI_Comm communicator)
+/// What the first rank does before the others go on. Its failure is that of all.
+void by_first(const MPI_Comm communicator, const std::function<void()>& work)
 {
   std::string problem;
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     try
       {
-        for (const std::filesystem::path& file : files)
-          seal_hdf5(file);
+        work();
       }
     catch (const OutputError& error)
       {
@@ -85,6 +85,7 @@ void seal(const std::vector<std::filesystem::path>& files, const MPI_Comm commun
   if (!problem.empty())
     throw OutputError(problem);
 }
+
 /// What deal.II throws where a file cannot be written tells neither which nor why, and leaves files of HDF5 open, which would
 /// be closed when MPI is down already. Throws OutputError.
 [[noreturn]] void say_why(const std::filesystem::path& file)
@@ -130,6 +131,15 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
       mesh_of_ranks = of_ranks;
     }
   const std::string fields_file = fmt::format("{}-{:04}.h5", name, entries.size());
+  const std::filesystem::path xdmf_file = folder / (name + ".xdmf");
+  std::vector<std::filesystem::path> files{folder / fields_file};
+  if (another_mesh)
+    files.push_back(folder / mesh_file);
+  by_first(solid.communicator(), [&] {
+    for (const std::filesystem::path& file : files)
+      make_way_for(file);
+    make_way_for(xdmf_file);
+  });
   try
     {
       out.write_hdf5_parallel(filter, another_mesh, (folder / mesh_file).string(), (folder / fields_file).string(),
@@ -139,12 +149,11 @@ void FieldOutput::write(const Solid<dim, material_dim>& solid, const double time
     {
       say_why(folder / fields_file);
     }
-  std::vector<std::filesystem::path> files{folder / fields_file};
-  if (another_mesh)
-    files.push_back(folder / mesh_file);
-  seal(files, solid.communicator());
+  by_first(solid.communicator(), [&] {
+    for (const std::filesystem::path& file : files)
+      seal_hdf5(file);
+  });
   entries.push_back(out.create_xdmf_entry(filter, mesh_file, fields_file, time, solid.communicator()));
-  const std::filesystem::path xdmf_file = folder / (name + ".xdmf");
   try
     {
       out.write_xdmf_file(entries, xdmf_file.string(), solid.communicator());

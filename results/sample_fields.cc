@@ -2,6 +2,7 @@
 
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/readable_file.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
@@ -130,8 +131,8 @@ std::filesystem::path index_of(const std::filesystem::path& folder, const std::s
 template <typename Work>
 auto reading(const std::filesystem::path& index, Work&& work)
 {
-  if (!std::filesystem::exists(index))
-    throw InputError(fmt::format("{}: missing", index.string()));
+  if (const std::string objection = objection_to_reading(index); !objection.empty())
+    throw InputError(fmt::format("{}: {}", index.string(), objection));
   try
     {
       return work();

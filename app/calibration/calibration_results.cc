@@ -2,7 +2,9 @@
 
 #include "app/calibration/calibrated_input.h"
 #include "app/programme/run_report.h"
+#include "app/run/file_list.h"
 #include "app/run/provenance.h"
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 #include "report/pictures/calibration_pictures.h"
 #include "report/report.h"
@@ -56,8 +58,7 @@ void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome
             const std::vector<FinishedTest>& finished_tests)
 {
   const auto& folder = run.folder;
-  std::filesystem::copy_file(run.input.reference_file, folder / result_file::reference,
-                             std::filesystem::copy_options::overwrite_existing);
+  write_whole_file(folder / result_file::reference, content_of(run.input.reference_file));
   Input shown = best_input;
   shown.reference_file = result_file::reference;
   write_whole_file(folder /
@@ -81,7 +82,7 @@ void finish(const Run& run, const ResponseModel& model, const CalibrationOutcome
       for (const auto& sentence : write_report(*record, folder))
         text += sentence + "\n";
     }
-  std::filesystem::remove_all(folder / "calibration");
+  remove_listed_files(folder, "calibration/");
   write_log(folder, text, run.quiet);
 }
 } // namespace feldspar::calibration

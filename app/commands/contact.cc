@@ -196,8 +196,9 @@ int run_contact(const CommonOptions& options)
 {
   const Input input = read_input(options.input, {}, options.settings);
   const std::string table = contact_response(input, options.input);
-  const OutputFolder folder(options.output, options.input, options.force);
+  const OutputFolder folder(options.output, options.input, write_over(options, places_of_contacts(), input));
   const FolderLock lock(folder.path());
+  const FileList list(folder.path());
   write_whole_file(folder.path() / "contact.csv", table);
   if (!options.quiet)
     print_result("{}\n", (folder.path() / "contact.csv").string());

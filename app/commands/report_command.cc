@@ -1,5 +1,6 @@
 #include "app/commands/commands.h"
 #include "app/programme/run_report.h"
+#include "app/run/file_list.h"
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
@@ -19,9 +20,18 @@ int run_report(const ReportOptions& options)
   const bool beside_results = order.result_folders.size() == 1 && !options.output;
   if (options.reference)
     read_reference(*options.reference, test_kinds()); // before anything is written
+  const auto write_over = [&](const std::filesystem::path& results) {
+    std::vector<std::filesystem::path> inputs = options.curves;
+    if (options.reference)
+      inputs.push_back(*options.reference);
+    if (!beside_results)
+      check_write_over(results, places_of_reports(), inputs);
+  };
   const OutputFolder folder(beside_results ? order.result_folders.front() : options.output, "report",
-                            beside_results || options.force);
+                            beside_results || options.force ? write_over
+                                                            : std::function<void(const std::filesystem::path&)>());
   const FolderLock lock(folder.path());
+  const FileList list(folder.path());
   order.output = folder.path();
   Progress progress(options.quiet);
   const auto missing = report_on(order, progress);

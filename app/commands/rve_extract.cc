@@ -2,6 +2,7 @@
 
 #include "app/programme/multiscale_run.h"
 #include "app/programme/rve_view.h"
+#include "app/run/file_list.h"
 #include "app/run/run_record.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
@@ -94,6 +95,8 @@ int extract_rve(const std::filesystem::path& folder, const std::string& cell_and
 {
   const RvePlace place = place_of(cell_and_point);
   const RunRecord record = read_run_record("multiscale", folder);
+  check_links(folder);
+  const FileList list(folder);
   Progress progress(true);
   const auto rocks = make_rocks(record.input, record.input_file, folder, progress);
   const auto planned = plan(record.input, rocks);

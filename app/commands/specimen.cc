@@ -19,8 +19,9 @@ namespace
 template <int dim>
 int make_specimens(const CommonOptions& options, const Input& input)
 {
-  const OutputFolder folder(options.output, options.input, options.force);
+  const OutputFolder folder(options.output, options.input, write_over(options, places_of_specimens(), input));
   const FolderLock lock(folder.path());
+  const FileList list(folder.path());
   Progress progress(options.quiet);
   watch_for_interrupt(!options.quiet);
 

@@ -5,6 +5,7 @@
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 
 #include <fmt/format.h>
 
@@ -131,8 +132,8 @@ ValueForm<std::string> file_form()
             if (!path.empty() && !std::filesystem::exists(path, ignored))
               throw InputError(fmt::format("there is no file {}; a path is taken from the folder of the input",
                                            excerpt(path.string(), longest_path)));
-            if (std::filesystem::is_directory(path, ignored))
-              throw InputError(fmt::format("{} is a folder; a file is needed", excerpt(path.string(), longest_path)));
+            if (const std::string objection = path.empty() ? "" : objection_to_reading(path); !objection.empty())
+              throw InputError(fmt::format("{} {}", excerpt(path.string(), longest_path), objection));
             return path.string();
           },
           [](const std::string& path) { return path.empty() ? std::string(none) : path; }};

@@ -6,6 +6,7 @@
 #include "app/input/traces.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -436,9 +437,8 @@ std::vector<Entry<Input>> flaw_entries()
                           std::error_code ignored;
                           if (!std::filesystem::exists(file, ignored))
                             throw InputError(fmt::format("there is no file {}", excerpt(file.string(), 300)));
-                          if (std::filesystem::is_directory(file, ignored))
-                            throw InputError(
-                              fmt::format("{} is a folder; a file is needed", excerpt(file.string(), 300)));
+                          if (const std::string objection = objection_to_reading(file); !objection.empty())
+                            throw InputError(fmt::format("{} {}", excerpt(file.string(), 300), objection));
                           input.flaws.traces = read_traces(file);
                           input.flaws.traces_file = file.string();
                         },

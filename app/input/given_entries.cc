@@ -3,14 +3,13 @@
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
@@ -21,12 +20,8 @@ namespace
 /// A file of lines in UTF-8, without the mark some editors put before the first.
 std::string read_text(const std::filesystem::path& file)
 {
+  ReadableFile stream(file);
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(fmt::format("{}: is a folder; an input file is needed", file.string()));
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
   constexpr std::uintmax_t largest = 16 << 20;
   if (const std::uintmax_t size = std::filesystem::file_size(file, ignored); !ignored && size > largest)
     throw InputError(fmt::format("{}: has {} bytes; an input file has at most {}", file.string(), size, largest));

@@ -3,6 +3,7 @@
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 
 #include <dxflib/dl_creationadapter.h>
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
@@ -124,7 +124,7 @@ double metres_of_unit(const int code, const std::filesystem::path& file)
 /// group code and its value; the codes 10 to 59 have real numbers (reference of DXF, group code value types).
 void check_groups(const std::filesystem::path& file)
 {
-  std::ifstream stream(file);
+  ReadableFile stream(file);
   std::string code, value, last_value;
   for (std::size_t line = 2; std::getline(stream, code) && std::getline(stream, value); line += 2)
     {
@@ -143,7 +143,7 @@ void check_groups(const std::filesystem::path& file)
 std::vector<Shape> read_drawing(const std::filesystem::path& file)
 {
   // dxflib takes a file of any content, and nothing of a binary one.
-  std::ifstream stream(file, std::ios::binary);
+  ReadableFile stream(file);
   std::string mark(22, '\0');
   stream.read(mark.data(), std::streamsize(mark.size()));
   if (mark.starts_with("AutoCAD Binary DXF"))

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,9 @@ namespace
 /// Of a packing file, which has one in a line. Without a word about a file that cannot be read, which its reader will say.
 double n_lines(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
+  if (!objection_to_reading(path).empty())
+    return 0.0;
+  ReadableFile file(path);
   std::array<char, 1 << 16> piece{};
   double n = 0.0;
   while (file.read(piece.data(), piece.size()) || file.gcount() > 0)

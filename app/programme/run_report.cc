@@ -5,6 +5,7 @@
 #include "app/screen/print_result.h"
 #include "base/append.h"
 #include "base/input_error.h"
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/report.h"
@@ -96,8 +97,7 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
           reported.missing.push_back(error.what());
         }
   if (!reference_file.empty())
-    std::filesystem::copy_file(reference_file, folder / result_file::reference,
-                               std::filesystem::copy_options::overwrite_existing);
+    write_whole_file(folder / result_file::reference, content_of(reference_file));
   if (!tests.empty())
     append(reported.missing, report_on({{folder}, {}, {}, folder, reported.envelopes}, progress, EndOfPatience()));
   return reported;

@@ -1,5 +1,6 @@
 #include "app/run/output_folder.h"
 
+#include "app/run/file_list.h"
 #include "base/input_error.h"
 
 #include <fcntl.h>
@@ -23,12 +24,12 @@ InputError cannot_write(const std::filesystem::path& folder, const int error)
 } // namespace
 
 OutputFolder::OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input,
-                           const bool force)
+                           const std::function<void(const std::filesystem::path&)>& write_over)
 {
   try
     {
       if (wanted)
-        make_wanted(*wanted, force);
+        make_wanted(*wanted, write_over);
       else
         make_numbered(input);
     }
@@ -62,7 +63,8 @@ void OutputFolder::make_numbered(const std::filesystem::path& input)
     }
 }
 
-void OutputFolder::make_wanted(const std::filesystem::path& wanted, const bool force)
+void OutputFolder::make_wanted(const std::filesystem::path& wanted,
+                               const std::function<void(const std::filesystem::path&)>& write_over)
 {
   folder = wanted.has_filename() ? wanted : wanted.parent_path(); // without a slash at the end
   std::filesystem::path parent;
@@ -78,9 +80,13 @@ void OutputFolder::make_wanted(const std::filesystem::path& wanted, const bool f
     throw cannot_write(folder, ENOTDIR);
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw cannot_write(folder, errno);
-  if (!std::filesystem::is_empty(folder) && !force)
-    throw InputError(
-      fmt::format("{}: is not empty; choose another folder, or --force to write over it", folder.string()));
+  if (std::filesystem::is_empty(folder))
+    return;
+  if (!write_over)
+    throw InputError(fmt::format(
+      "{}: is not empty; choose another folder with --output, or leave --output out for a new one{}", folder.string(),
+      holds_a_run(folder) ? " (--force replaces the run in it, and keeps all other files)" : ""));
+  write_over(folder);
 }
 
 void OutputFolder::remove_empty() const
@@ -90,7 +96,7 @@ void OutputFolder::remove_empty() const
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
-  : descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+  : descriptor((check_links(folder), open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)))
 {
   if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     {

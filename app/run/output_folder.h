@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -12,8 +13,10 @@ class OutputFolder
 {
 public:
   /// Without `wanted`, a fresh numbered folder beside the input: NAME-results-001, …. With it, that one, its parents
-  /// made too; if something is in it already, `force` allows to write over it. Throws InputError.
-  OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input, bool force);
+  /// made too; if something is in it already, `write_over` must be there: it throws InputError where it objects to
+  /// results in the folder. Throws InputError.
+  OutputFolder(const std::optional<std::filesystem::path>& wanted, const std::filesystem::path& input,
+               const std::function<void(const std::filesystem::path& folder)>& write_over);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
   ~OutputFolder();
@@ -24,7 +27,8 @@ private:
   /// Whether it was made now; false if it is there already. One of several runs that try at once makes it.
   bool make(const std::filesystem::path& new_folder);
   void make_numbered(const std::filesystem::path& input);
-  void make_wanted(const std::filesystem::path& wanted, bool force);
+  void make_wanted(const std::filesystem::path& wanted,
+                   const std::function<void(const std::filesystem::path& folder)>& write_over);
   void remove_empty() const;
 
   std::filesystem::path folder;
@@ -35,7 +39,8 @@ private:
 class FolderLock
 {
 public:
-  /// Throws InputError where another run has the folder. A file system without locks grants every one.
+  /// Throws InputError where another run has the folder, and where links lead out of it (check_links). A file system
+  /// without locks grants every one.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

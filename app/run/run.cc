@@ -1,15 +1,20 @@
 #include "app/run/run.h"
 
+#include "app/run/file_list.h"
 #include "app/run/interrupt.h"
 #include "app/run/output_folder.h"
 #include "app/run/run_record.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
+#include "dem/genesis/packing_file.h"
+#include "dem/specimen/specimen_file.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <set>
 #include <system_error>
 
 namespace feldspar
@@ -18,14 +23,15 @@ namespace
 {
 std::string how_to_resume(const RunCommand& command, const std::filesystem::path& folder)
 {
-  return fmt::format("go on with: feldspar {} --resume {}", command.name, folder.string());
+  return fmt::format("go on with: feldspar {} --resume {}", command.name, printable(folder.string()));
 }
 
 /// What failed of a run that came to its end, if anything did.
 void tell_failure(const std::string& failure, const std::filesystem::path& folder)
 {
   if (!failure.empty())
-    fmt::print(stderr, "feldspar: {}; the other results are in {}\n", failure, folder.string());
+    fmt::print(stderr, "feldspar: {}; the other results are in {}\n", excerpt(failure, 1000),
+               printable(folder.string()));
 }
 
 /// From wherever the run stands.
@@ -46,7 +52,7 @@ int go_on(const RunCommand& command, const Run& run)
       if (end.was_interrupted)
         return end_interrupted();
       processes.first([&] {
-        std::filesystem::remove_all(run.folder / "checkpoints");
+        remove_listed_files(run.folder, "checkpoints/");
         mark_complete(run.folder, end.failure, end.code_of_failure);
         tell_failure(end.failure, run.folder);
       });
@@ -66,11 +72,28 @@ int go_on(const RunCommand& command, const Run& run)
     }
 }
 
+/// Reads the files of grains that an input names, to object before anything goes. Throws InputError.
+void read_bodies(const Input& input)
+{
+  std::set<std::string> read;
+  for (const Variant& variant : variants(input))
+    {
+      const SpecimenParameters& specimen = variant.input.specimen;
+      const bool is_plane = specimen.dimension == 2;
+      if (!specimen.specimen_file.empty() && read.insert(specimen.specimen_file).second)
+        is_plane ? void(read_specimen<2>(specimen.specimen_file)) : void(read_specimen<3>(specimen.specimen_file));
+      if (!specimen.packing_file.empty() && read.insert(specimen.packing_file).second)
+        is_plane ? void(read_packing<2>(specimen, end_if_interrupted))
+                 : void(read_packing<3>(specimen, end_if_interrupted));
+    }
+}
+
 int resume(const RunCommand& command, const CommonOptions& options)
 {
   std::optional<FolderLock> lock;
   command.processes.first([&] { lock.emplace(*options.resume); });
   const RunRecord record = read_run_record(command.name, *options.resume);
+  const FileList list(*options.resume);
   if (record.complete)
     {
       if (command.processes.is_first)
@@ -92,32 +115,49 @@ int begin(const RunCommand& command, const CommonOptions& options)
   // The first process makes the folder and begins the record of the run; the others learn its name.
   std::optional<OutputFolder> made;
   std::optional<FolderLock> lock;
+  std::optional<FileList> list;
   processes.first([&] {
-    made.emplace(options.output, options.input, options.force);
+    made.emplace(options.output, options.input, write_over(options, places_of_runs(), input));
     lock.emplace(made->path());
-    remove_run(made->path()); // with --force: what an earlier run left would be taken for this one's
+    remove_listed_files(made->path()); // with --force: what an earlier run left would be taken for this one's
+    list.emplace(made->path());
     try
       {
-        write_run_record(command.name, options.input, options.settings, made->path());
+        write_run_record(command.name, input, options.input, options.settings, made->path());
       }
     catch (const OutputError&)
       {
-        remove_run(made->path());
+        remove_listed_files(made->path());
         throw;
       }
   });
   const std::filesystem::path folder = processes.of_first(made ? made->path().string() : "");
+  if (!list)
+    list.emplace(folder);
   try
     {
       return go_on(command, {folder, options.input, input, options.quiet});
     }
   catch (const InputError&)
     {
-      processes.first([&] { remove_run(folder); }); // a mistake leaves nothing
+      processes.first([&] { remove_listed_files(folder); }); // a mistake leaves nothing
       throw;
     }
 }
 } // namespace
+
+std::function<void(const std::filesystem::path&)> write_over(const CommonOptions& options, const Places& places,
+                                                             const Input& input)
+{
+  if (!options.force)
+    return {};
+  std::vector<std::filesystem::path> inputs = named_files(input);
+  inputs.push_back(options.input);
+  return [=, &places](const std::filesystem::path& folder) {
+    check_write_over(folder, places, inputs);
+    read_bodies(input);
+  };
+}
 
 int run_command(const RunCommand& command, const CommonOptions& options)
 {

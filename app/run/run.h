@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
+#include "app/run/file_list.h"
 
 #include <filesystem>
 #include <functional>
@@ -69,6 +70,11 @@ struct RunCommand
   std::function<RunEnd(const Run&)> go;
   Processes processes = {};
 };
+
+/// The check of a folder with results that --force asks for (OutputFolder): no file that the run reads may be lost, nor a file
+/// of the user. None without --force.
+std::function<void(const std::filesystem::path& folder)> write_over(const CommonOptions& options, const Places& places,
+                                                                    const Input& input);
 
 /// Begins the run that the options want, or takes it up. Ctrl-C and SIGTERM, a full disk and the failure of a part leave
 /// what is there, and a sentence tells how to go on; a mistake of the user in a run just begun leaves nothing. Returns the

@@ -4,6 +4,7 @@
 #include "app/run/run.h"
 #include "base/fingerprint.h"
 #include "base/input_error.h"
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 #include "feldspar_version.h"
 
@@ -11,8 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,14 +37,16 @@ struct Contents
   std::filesystem::path input_file;
   std::filesystem::path relative_to; ///< the folder of the input
   std::vector<std::string> settings;
-  bool variants_by_value; ///< how their files are named; not in the folders of before they were
+  bool variants_by_value;     ///< how their files are named; not in the folders of before they were
+  std::string input_checksum; ///< of the copy of the input; empty in the folders of before there were any
+  std::map<std::string, std::string> checksums; ///< those of the files that the input names
   bool complete;
   std::string failure;
   int code_of_failure;
 };
 
-/// Of all that tells which rock and tests a resumed run goes on with. Whether it is complete, and how its files are named,
-/// changes no result.
+/// The checksum of all that tells which rock and tests a resumed run goes on with. Whether it is complete, and how its files
+/// are named, changes no result.
 std::string checksum_of(const Contents& contents)
 {
   Fingerprint print;
@@ -58,6 +60,24 @@ std::string checksum_of(const Contents& contents)
   add(contents.relative_to.string());
   for (const std::string& setting : contents.settings)
     add(setting);
+  add(contents.input_checksum);
+  for (const auto& [file, checksum] : contents.checksums)
+    {
+      add(file);
+      add(checksum);
+    }
+  return fmt::format("{:016x}", print.value());
+}
+
+/// The checksum of a file's bytes.
+std::string checksum_of(const std::filesystem::path& file)
+{
+  ReadableFile stream(file);
+  Fingerprint print;
+  std::vector<char> piece(std::size_t(1) << 20);
+  while (stream.read(piece.data(), std::streamsize(piece.size())) || stream.gcount() > 0)
+    for (std::streamsize k = 0; k < stream.gcount(); ++k)
+      print.add_byte(static_cast<unsigned char>(piece[std::size_t(k)]));
   return fmt::format("{:016x}", print.value());
 }
 
@@ -69,6 +89,8 @@ void write(const std::filesystem::path& folder, const Contents& contents)
   json["relative_to"] = contents.relative_to.string();
   json["settings"] = contents.settings;
   json["variants_named"] = contents.variants_by_value ? by_value : by_number;
+  json["input_checksum"] = contents.input_checksum;
+  json["checksums"] = contents.checksums;
   json["complete"] = contents.complete;
   if (!contents.failure.empty())
     {
@@ -81,8 +103,9 @@ void write(const std::filesystem::path& folder, const Contents& contents)
 
 Contents read(const std::filesystem::path& folder)
 {
-  std::ifstream in(folder / record_name);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const std::filesystem::path file = folder / record_name;
+  const auto json =
+    nlohmann::json::parse(std::filesystem::exists(file) ? content_of(file) : std::string(), nullptr, false);
   const auto holds = [&](const char* name, const nlohmann::json::value_t type) {
     return json.is_object() && json.contains(name) && json[name].type() == type;
   };
@@ -99,11 +122,21 @@ Contents read(const std::filesystem::path& folder)
         throw InputError(fmt::format("--resume {}: the settings in {} are damaged", folder.string(), record_name));
       settings = all.get<std::vector<std::string>>();
     }
+  std::map<std::string, std::string> checksums;
+  if (json.contains("checksums"))
+    {
+      const auto& all = json["checksums"];
+      if (!all.is_object() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
+        throw InputError(fmt::format("--resume {}: the checksums in {} are damaged", folder.string(), record_name));
+      checksums = all.get<std::map<std::string, std::string>>();
+    }
   Contents contents{json["command"].get<std::string>(),
                     json["input_file"].get<std::string>(),
                     json["relative_to"].get<std::string>(),
                     settings,
                     holds("variants_named", Type::string) && json["variants_named"] == by_value,
+                    holds("input_checksum", Type::string) ? json["input_checksum"].get<std::string>() : "",
+                    checksums,
                     json["complete"].get<bool>(),
                     holds("failure", Type::string) ? json["failure"].get<std::string>() : "",
                     holds("exit_code", Type::number_unsigned) ? json["exit_code"].get<int>() : exit_code::user_error};
@@ -116,14 +149,27 @@ Contents read(const std::filesystem::path& folder)
 }
 } // namespace
 
-void write_run_record(const std::string& command, const std::filesystem::path& input_file,
+std::vector<std::filesystem::path> named_files(const Input& input)
+{
+  std::vector<std::filesystem::path> files;
+  for (const Variant& variant : variants(input))
+    for (const Parameter& parameter : parameter_table())
+      if (parameter.range == none_or_a_file)
+        if (const std::string value = parameter.write(variant.input);
+            value != none && std::find(files.begin(), files.end(), value) == files.end())
+          files.emplace_back(value);
+  return files;
+}
+
+void write_run_record(const std::string& command, const Input& input, const std::filesystem::path& input_file,
                       const std::vector<std::string>& settings, const std::filesystem::path& folder)
 {
-  std::ifstream in(input_file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  write_whole_file(copy_of_input(folder, input_file), text);
-  write(folder,
-        {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true, false, "", 0});
+  std::map<std::string, std::string> checksums;
+  for (const std::filesystem::path& file : named_files(input))
+    checksums[std::filesystem::absolute(file).lexically_normal().string()] = checksum_of(file);
+  write_whole_file(copy_of_input(folder, input_file), content_of(input_file));
+  write(folder, {command, input_file, std::filesystem::absolute(input_file).parent_path(), settings, true,
+                 checksum_of(copy_of_input(folder, input_file)), checksums, false, "", 0});
 }
 
 std::string run_identity(const Input& input, const std::string& part)
@@ -151,31 +197,28 @@ void mark_complete(const std::filesystem::path& folder, const std::string& failu
   write(folder, contents);
 }
 
-void remove_run(const std::filesystem::path& folder)
-{
-  for (const char* name :
-       {record_name,      "input.prm",     "input.json", "checkpoints", "curves",
-        "grains",         "fields",        "points",     "rves",        "states",
-        "extracted",      "figures",       "tables",     "cracks.csv",  "summary.json",
-        "reference.json", "report.html",   "log.txt",    "calibration", "calibration.json",
-        "design.csv",     "posterior.csv", "best.prm",   "nearest.prm", "volumes" /* of 0.2.0, now rves */})
-    std::filesystem::remove_all(folder / name);
-  std::vector<std::filesystem::path> specimens;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        name.starts_with("specimen") && name.ends_with(".h5"))
-      specimens.push_back(entry.path());
-  for (const auto& specimen : specimens)
-    std::filesystem::remove(specimen);
-}
-
 RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder)
 {
   const Contents contents = read(folder);
   if (contents.command != command)
     throw InputError(
       fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
-  Input input = read_input(copy_of_input(folder, contents.input_file), contents.relative_to, contents.settings);
+  const std::filesystem::path copy = copy_of_input(folder, contents.input_file);
+  if (!contents.complete)
+    {
+      const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
+        if (checksum_of(file) != checksum)
+          throw InputError(
+            fmt::format("--resume {}: {} is not as it was when the run began (its checksum differs); put it "
+                        "back, or begin a new run",
+                        folder.string(), file.string()));
+      };
+      if (!contents.input_checksum.empty())
+        check(copy, contents.input_checksum);
+      for (const auto& [file, checksum] : contents.checksums)
+        check(file, checksum);
+    }
+  Input input = read_input(copy, contents.relative_to, contents.settings);
   input.variants.named_by_number = !contents.variants_by_value;
   return {std::move(input), contents.input_file, contents.complete, contents.failure, contents.code_of_failure};
 }

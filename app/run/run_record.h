@@ -18,9 +18,12 @@ struct RunRecord
   int code_of_failure = 0;          ///< the exit code of the run, where there is a failure
 };
 
-/// Puts a copy of the input, where it came from, the settings in place of its entries and the command that reads it into
-/// the run's folder.
-void write_run_record(const std::string& command, const std::filesystem::path& input_file,
+/// The files that an input names, in all its variants.
+std::vector<std::filesystem::path> named_files(const Input& input);
+
+/// Puts a copy of the input, where it came from, the settings in place of its entries, the command that reads it and the
+/// checksums of all that it reads into the run's folder.
+void write_run_record(const std::string& command, const Input& input, const std::filesystem::path& input_file,
                       const std::vector<std::string>& settings, const std::filesystem::path& folder);
 
 /// The identity of a checkpoint of one part of a run: program, part and every parameter.
@@ -29,9 +32,7 @@ std::string run_identity(const Input& input, const std::string& part);
 /// Notes that the run has come to its end, what of it failed, and the exit code of that.
 void mark_complete(const std::filesystem::path& folder, const std::string& failure, int code_of_failure);
 
-/// Takes out whatever a run writes into its folder, and nothing else.
-void remove_run(const std::filesystem::path& folder);
-
-/// Throws InputError where the folder is not that of a run of this command.
+/// Throws InputError where the folder is not that of a run of this command, and where its input, or a file that it names, is
+/// not what it was when the run began.
 RunRecord read_run_record(const std::string& command, const std::filesystem::path& folder);
 } // namespace feldspar

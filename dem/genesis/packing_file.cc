@@ -2,13 +2,13 @@
 
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "dem/specimen/neighbours.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -48,10 +48,7 @@ std::vector<double> numbers(const std::string& line, const std::size_t n, const 
 template <int dim>
 Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<void()>& check)
 {
-  std::ifstream file(wanted.packing_file);
-  if (!file)
-    throw InputError(fmt::format("{}: cannot be read; Specimen/Packing file names a text file of lines x y {}radius",
-                                 wanted.packing_file, dim == 3 ? "z " : ""));
+  ReadableFile file(wanted.packing_file);
   std::vector<double> radii;
   Components<dim> positions;
   std::vector<std::size_t> line_of;

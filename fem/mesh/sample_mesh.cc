@@ -1,6 +1,7 @@
 #include "fem/mesh/sample_mesh.h"
 
 #include "base/input_error.h"
+#include "base/readable_file.h"
 #include "fem/mesh/gmsh_binary.h"
 #include "fem/mesh/gmsh_check.h"
 
@@ -14,7 +15,6 @@
 
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <vector>
@@ -198,9 +198,9 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
                           const unsigned int n_refinements, const double unit)
 {
   const std::string name = file.string();
-  std::ifstream opened(file, std::ios::binary);
-  if (!opened)
-    throw MeshError(fmt::format("{}: cannot be opened", name));
+  if (const std::string objection = objection_to_reading(file); !objection.empty())
+    throw MeshError(fmt::format("{}: {}", name, objection));
+  ReadableFile opened(file);
   std::stringstream stream;
   stream << opened.rdbuf();
   std::string whose_lines = name;

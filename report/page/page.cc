@@ -1,5 +1,6 @@
 #include "report/page/page.h"
 
+#include "base/readable_file.h"
 #include "base/whole_file.h"
 #include "results/folder/result_folder.h"
 
@@ -9,8 +10,6 @@
 #include <kainjow/mustache.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -187,8 +186,7 @@ private:
   /// A file of the folder, empty where it cannot be read.
   std::string encoded(const std::string& name) const
   {
-    std::ifstream in(folder / name, std::ios::binary);
-    return base64(std::string(std::istreambuf_iterator<char>(in), {}));
+    return objection_to_reading(folder / name).empty() ? base64(content_of(folder / name)) : "";
   }
 
   /// As the target of a link, as long as there is room; else empty.

@@ -143,6 +143,8 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
                        by_vtk ? "VTK" : "gnuplot");
   // Debian's Python: another that comes first in the path lacks Debian's modules. Isolated (-I), for it would rather
   // import a vtk.py that lies in the folder; gnuplot without the user's own settings (-d), which are commands too.
+  for (const auto& [ending, terminal] : outputs(picture))
+    make_way_for(folder / (picture.name + ending));
   const End end = run(by_vtk ? std::vector<std::string>{"/usr/bin/python3", "-I", script}
                              : std::vector<std::string>{"gnuplot", "-d", script},
                       folder, longest, is_over);

@@ -4,6 +4,7 @@
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "base/text.h"
 #include "results/folder/provenance_json.h"
 
@@ -12,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 namespace feldspar
 {
@@ -128,13 +127,12 @@ void read_samples(CalibrationRecord& record, const std::filesystem::path& file)
 std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& folder)
 {
   const auto file = folder / "calibration.json";
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
+  if (!std::filesystem::exists(file))
     return std::nullopt;
   CalibrationRecord record;
   try
     {
-      record = from_json(parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {})), file.string());
+      record = from_json(parse_json(file.string(), content_of(file)), file.string());
     }
   catch (const Json::exception&)
     {

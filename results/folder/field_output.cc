@@ -149,8 +149,7 @@ void write_fields(const std::string& name, const TestKind& kind, const std::vect
     return;
   const bool in_space = !appearance.snapshots.front().position[2].empty();
   const Points start = places(appearance.snapshots.front());
-  std::filesystem::remove_all(folder / name); // a test that was interrupted may have left more files
-  std::filesystem::create_directories(folder / name);
+  make_vtk_folder(folder / name);
   std::vector<VtkTime> of_grains;
   std::vector<VtkTime> of_cracks;
   for (std::size_t k = 0; k < appearance.snapshots.size(); ++k)

@@ -5,6 +5,7 @@
 #include "base/input_error.h"
 #include "base/json_text.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "results/fits/hoek_brown.h"
 #include "results/statistics.h"
 
@@ -15,8 +16,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string_view>
@@ -388,11 +387,8 @@ std::optional<PrintedLine> ReferenceSource::line() const
 
 Reference read_reference(const std::filesystem::path& file, const std::vector<TestKind>& kinds)
 {
-  std::ifstream in(file, std::ios::binary);
   const Place top{file.string(), ""};
-  if (!in)
-    top.refuse("there is no such reference file");
-  const Json json = parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {}));
+  const Json json = parse_json(file.string(), content_of(file));
   expect_object(json, {"rock", "citation", "experiment", "paper_model", "note"}, top);
   if (!json.contains("experiment"))
     top.refuse("experiment is missing, the figures of the rock");

@@ -2,6 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/readable_file.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/provenance_json.h"
 #include "results/folder/summary.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -35,10 +35,9 @@ std::optional<TestKind> kind_named(const std::string_view wanted, const std::vec
 Json read_summary(const std::filesystem::path& folder)
 {
   const std::filesystem::path file = folder / result_file::summary;
-  std::ifstream in(file);
-  if (!in)
+  if (!std::filesystem::exists(file))
     throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
-  Json json = Json::parse(in, nullptr, false);
+  Json json = Json::parse(content_of(file), nullptr, false);
   if (json.is_discarded() || !json.is_object())
     throw InputError(fmt::format("{}: not JSON, or cut short", file.string()));
   if (!json.contains("tests") || !json["tests"].is_array())
@@ -207,6 +206,16 @@ void try_to(std::vector<std::string>& problems, Read&& read)
       problems.push_back(printable(error.what()));
     }
 }
+
+/// A few problems of one kind as they are; of more the first, and how many there are.
+void add_few(std::vector<std::string>& problems, const std::vector<std::string>& of_one_kind)
+{
+  constexpr std::size_t most = 3;
+  if (of_one_kind.size() <= most)
+    problems.insert(problems.end(), of_one_kind.begin(), of_one_kind.end());
+  else
+    problems.push_back(fmt::format("{} (and {} more like it)", of_one_kind.front(), of_one_kind.size() - 1));
+}
 } // namespace
 
 void write_result_folder(const Provenance& made_by, const std::vector<FinishedTest>& tests,
@@ -245,16 +254,17 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
                                    summary_schema_version));
 
   std::vector<FinishedTest> tests;
+  std::vector<std::string> of_kinds, of_names, of_tables, of_stages;
   const std::string summary = printable((folder / result_file::summary).string());
   for (const auto& entry : json["tests"])
     {
       const auto kind = entry.is_object() ? kind_named(text_of(entry, "kind"), kinds) : std::nullopt;
       const std::string name = entry.is_object() ? text_of(entry, "name") : "";
       if (!kind)
-        problems.push_back(fmt::format("{}: a test of a kind this program does not know was left out", summary));
+        of_kinds.push_back(fmt::format("{}: a test of a kind this program does not know was left out", summary));
       else if (!is_plain_name(name) || name.size() > most_characters_of_name)
         // Tables and pictures are named by it, and a path would lead out of the folder.
-        problems.push_back(fmt::format("{}: a test was left out for its name, {}; names have 1 to {} letters, digits "
+        of_names.push_back(fmt::format("{}: a test was left out for its name, {}; names have 1 to {} letters, digits "
                                        "or ._-+ and begin with a letter or a digit",
                                        summary, in_quotes(name), most_characters_of_name));
       else
@@ -268,27 +278,31 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       const std::string table = test.name + ".csv";
       if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
         continue; // it could not be made
-      try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(of_tables,
+             [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
       if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
             return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
           }))
         {
           test.record.stages.clear();
           if (!test.record.curve.empty()) // a table that is missing has been told
-            problems.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
+            of_stages.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
         }
       if (test.record.body == TestBody::grains)
-        try_to(problems, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
+        try_to(of_tables, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
-        try_to(problems, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
+        try_to(of_tables,
+               [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
   for (const auto& entry : json["tests"])
     for (auto& test : tests)
       if (entry.is_object() && test.name == text_of(entry, "name"))
         for (const auto& rve : rves_in(entry))
-          try_to(problems, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
-  try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
+          try_to(of_tables, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
+  try_to(of_tables, [&] { read_cracks(folder / result_file::cracks, tests); });
+  for (const auto& of_one_kind : {of_kinds, of_names, of_tables, of_stages})
+    add_few(problems, of_one_kind);
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);
   const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();

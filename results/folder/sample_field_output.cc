@@ -88,8 +88,7 @@ ColorBy(of_sample, ("CELLS", "{}"))
 void write_sample_fields(const std::string& name, const TestKind& kind, const std::vector<CurveSample>& curve,
                          const std::filesystem::path& folder)
 {
-  std::filesystem::remove_all(folder / name); // an earlier run of the test may have left more files
-  std::filesystem::create_directories(folder / name);
+  make_vtk_folder(folder / name);
   std::vector<VtkTime> series;
   bool has_grains = false;
   for_each_time(folder, name, [&](const SampleFields& fields) {

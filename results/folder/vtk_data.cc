@@ -140,6 +140,17 @@ std::string VtkData::reals(const std::string& name, const std::size_t n_componen
   return array(name, "Float32", n_components, values.data(), sizeof(float) * values.size());
 }
 
+void make_vtk_folder(const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder);
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".vtp" || entry.path().extension() == ".vtu")
+      earlier.push_back(entry.path());
+  for (const std::filesystem::path& file : earlier)
+    std::filesystem::remove(file);
+}
+
 void write_vtk_series(const std::vector<VtkTime>& times, const std::filesystem::path& file)
 {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";

@@ -68,6 +68,9 @@ struct VtkTime
   std::string file; ///< from the folder of the series
 };
 
+/// The folder for the files of a series, without those of a test that was interrupted and may have left more.
+void make_vtk_folder(const std::filesystem::path& folder);
+
 /// The files of a series with their times (.pvd). Throws OutputError.
 void write_vtk_series(const std::vector<VtkTime>& times, const std::filesystem::path& file);
 

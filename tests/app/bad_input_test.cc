@@ -288,7 +288,8 @@ TEST(BadOutputFolder, IsToldInOneLine)
   folder.write("good.prm", contact_prm(""));
   std::filesystem::create_directory(folder.path() / "used");
   folder.write("used/notes.txt", "mine");
-  expect_mistake(folder, "contact good.prm --output used", "used: is not empty; choose another folder, or --force");
+  expect_mistake(folder, "contact good.prm --output used",
+                 "used: is not empty; choose another folder with --output, or leave --output out for a new one\n");
   expect_mistake(folder, "contact good.prm --output good.prm", "good.prm: cannot be written into: Not a directory");
   // Even root cannot make a folder below a file or in /proc; parents made on the way must go again.
   expect_mistake(folder, "contact good.prm --output good.prm/results", "good.prm/results: cannot be written into: ");

@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace feldspar::tests
 {
@@ -52,6 +54,46 @@ TEST(Programs, LoadFiniteElementsAndStatisticsWhereTheyAreUsedOnly)
   EXPECT_TRUE(loads("feldspar", "libhdf5"));
   for (const char* const library : {"libdeal.ii", "libpetsc", "libOT.so"})
     EXPECT_FALSE(loads("feldspar", library)) << library;
+}
+
+/// The folders in which a program's libraries are looked for, as readelf shows its dynamic section: RPATH and RUNPATH.
+std::vector<std::string> library_folders(const std::string& dynamic_section)
+{
+  std::vector<std::string> folders;
+  std::istringstream lines(dynamic_section);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("(RUNPATH)") != std::string::npos || line.find("(RPATH)") != std::string::npos)
+      {
+        const std::string path = line.substr(line.find('[') + 1, line.find(']') - line.find('[') - 1);
+        for (std::size_t begin = 0; begin <= path.size();)
+          {
+            const std::size_t end = std::min(path.find(':', begin), path.size());
+            folders.push_back(path.substr(begin, end - begin));
+            begin = end + 1;
+          }
+      }
+  return folders;
+}
+
+/// An empty name is the current folder, where anybody may have put a library.
+void expect_whole_library_folders(const fs::path& program)
+{
+  const TemporaryFolder folder;
+  const auto read = run_command(folder.path(), fmt::format("LC_ALL=C readelf -dW '{}'", program.string()));
+  EXPECT_NE(read.output.find("(NEEDED)"), std::string::npos) << program << read.error;
+  for (const std::string& one : library_folders(read.output))
+    EXPECT_TRUE(one.starts_with('/')) << program << " looks for libraries in \"" << one << '"';
+}
+
+TEST(Programs, LookForLibrariesInNoFolderThatDependsOnTheCurrentOne)
+{
+  for (const char* const program : {"feldspar", "feldspar-calibrate", "feldspar-multiscale", "feldspar-launcher"})
+    expect_whole_library_folders(fs::path(FELDSPAR_COMMAND).replace_filename(program));
+  // As it was: CMake ended the path with an empty element.
+  EXPECT_EQ(library_folders(" 0x000000000000001d (RUNPATH)            Library runpath: [/usr/lib:]\n"),
+            (std::vector<std::string>{"/usr/lib", ""}));
+  EXPECT_EQ(library_folders(" 0x000000000000000f (RPATH)              Library rpath: [:lib]\n"),
+            (std::vector<std::string>{"", "lib"}));
 }
 
 TEST(Programs, GoOnAsAnotherOfTheSameVersionOrSayWhatIsMissing)
@@ -153,8 +195,13 @@ TEST(Installation, HasProgramManualCompletionAndExamples)
 {
   const TemporaryFolder folder;
   const Outcome installed =
-    run_command(folder.path(), "cmake --install '" FELDSPAR_BUILD_DIR "' --prefix usr --strip > installed");
+    run_command(folder.path(), "umask 077; cmake --install '" FELDSPAR_BUILD_DIR "' --prefix usr --strip > installed");
   ASSERT_EQ(installed.exit_code, 0) << installed.error;
+  // For everybody, whatever the umask of who installs or packs.
+  EXPECT_EQ(run_command(folder.path(), "find usr -mindepth 1 -type d ! -perm 755").output, "");
+  EXPECT_EQ(run_command(folder.path(), "find usr -type f ! -perm -444").output, "");
+  for (const auto& program : fs::directory_iterator(folder.path() / "usr/bin"))
+    expect_whole_library_folders(program.path());
   const Outcome version = run_command(folder.path(), "usr/bin/feldspar version");
   EXPECT_EQ(version.exit_code, 0) << version.error;
   EXPECT_EQ(version.output, run_command(folder.path(), "'" FELDSPAR_COMMAND "' version").output);

@@ -494,7 +494,7 @@ TEST_F(Report, WithoutItsReferenceSaysSoInItsPlace)
 {
   const auto refused = run_feldspar(folder.path(), "report out --reference nowhere.json");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_EQ(refused.error, "feldspar: nowhere.json: there is no such reference file\n");
+  EXPECT_EQ(refused.error, "feldspar: nowhere.json: cannot be read: No such file or directory\n");
   fs::remove(folder.path() / "out/reference.json");
   holds(remade(), {"Nothing to compare with: there is no reference file"});
 }

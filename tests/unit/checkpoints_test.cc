@@ -97,7 +97,7 @@ TEST(Checkpoints, AreRefusedWhereTheyCannotBeTrusted)
   file.close();
   EXPECT_NE(refusal(folder.path() / "step-0000000002"), "");
   std::filesystem::remove(other);
-  EXPECT_NE(refusal(folder.path() / "step-0000000002").find("no such file"), std::string::npos);
+  EXPECT_NE(refusal(folder.path() / "step-0000000002").find("No such file"), std::string::npos);
 }
 
 TEST(Checkpoints, AFullDiskLeavesTheOneBefore)

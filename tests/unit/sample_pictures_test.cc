@@ -289,11 +289,11 @@ TEST(SampleFieldsFile, IsReadAsItLiesThere)
   write_fields(share);
   EXPECT_NE(objection().find("its arrays differ in length"), std::string::npos) << objection();
   std::filesystem::remove(folder.path() / "test-0001.h5");
-  EXPECT_NE(objection().find("test-0001.h5: no such file"), std::string::npos) << objection();
+  EXPECT_NE(objection().find("test-0001.h5: cannot be read: No such file"), std::string::npos) << objection();
   folder.write("test.xdmf", index_of(attributes).substr(0, 300));
   EXPECT_NE(objection().find("test.xdmf: not XDMF"), std::string::npos) << objection();
   std::filesystem::remove(folder.path() / "test.xdmf");
-  EXPECT_NE(objection().find("test.xdmf: missing"), std::string::npos) << objection();
+  EXPECT_NE(objection().find("test.xdmf: cannot be read: No such file"), std::string::npos) << objection();
 }
 
 TEST(ResultFolder, KeepsTheRvesOfASample)

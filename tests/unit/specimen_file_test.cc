@@ -55,7 +55,7 @@ TEST_F(SpecimenFile, ComesBackBitForBit)
 
 TEST_F(SpecimenFile, RefusesMissingForeignAndTruncatedFiles)
 {
-  EXPECT_NE(refusal().find("no such file"), std::string::npos);
+  EXPECT_NE(refusal().find("No such file"), std::string::npos);
 
   std::ofstream(file) << "not HDF5 at all";
   EXPECT_NE(refusal().find("not an HDF5 file"), std::string::npos) << refusal();

@@ -1,0 +1,281 @@
+#include "app/run/file_list.h"
+
+#include "base/input_error.h"
+#include "base/readable_file.h"
+#include "base/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+
+namespace feldspar
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* list_name = ".feldspar-files";
+constexpr const char* record_name = "run.json";
+constexpr const char* page_name = "report.html";
+
+bool has(const std::vector<std::string_view>& names, const std::string& wanted)
+{
+  return std::find(names.begin(), names.end(), wanted) != names.end();
+}
+
+bool is_specimen(const std::string& name) { return name.starts_with("specimen") && name.ends_with(".h5"); }
+
+bool is_there(const fs::path& file)
+{
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+/// As it is compared: from the root, without `.`, `..` and slashes at its end.
+fs::path plain(const fs::path& path)
+{
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+/// Empty where the file does not lie below the folder.
+fs::path relative_to(const fs::path& folder, const fs::path& file)
+{
+  const fs::path relative = file.lexically_relative(folder);
+  return relative.empty() || *relative.begin() == ".." || relative == "." ? fs::path() : relative;
+}
+
+/// The list as it stands. It may be that of somebody else: only places of results count.
+std::set<std::string> listed_files(const fs::path& folder)
+{
+  std::set<std::string> files;
+  if (!is_there(folder / list_name))
+    return files;
+  std::istringstream lines(content_of(folder / list_name));
+  for (std::string line; std::getline(lines, line);)
+    {
+      const fs::path file = line;
+      const bool is_plain =
+        !line.empty() && file.is_relative() && file.lexically_normal() == file && file.has_filename();
+      if (is_plain && (places_of_runs().include(file) || places_of_contacts().include(file)))
+        files.insert(line);
+    }
+  return files;
+}
+
+/// Whether no folder on the way to the file is a link.
+bool lies_in(const fs::path& folder, const fs::path& relative)
+{
+  fs::path way = folder;
+  for (const fs::path& part : relative.parent_path())
+    if (way /= part; fs::is_symlink(fs::symlink_status(way)))
+      return false;
+  return true;
+}
+
+/// Takes out a file or a link; a folder in its place is somebody else's.
+void remove_file(const fs::path& file)
+{
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(file)) && !fs::remove(file, error) && error)
+    throw OutputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
+}
+
+/// Takes out a listed file, what a killed run began of it, and the names that checkpoints get later: NAME.h5 becomes
+/// NAME.previous.h5, unfinished/part-00000.h5 becomes step-0000000001/part-00000.h5.
+void remove_listed(const fs::path& file)
+{
+  const auto with = [&](const char* const ending) { return fs::path(file) += ending; };
+  remove_file(file);
+  remove_file(with(".unfinished"));
+  if (file.parent_path().filename() == "checkpoints" && file.extension() == ".h5")
+    remove_file(fs::path(file).replace_extension(".previous.h5"));
+  const fs::path steps = file.parent_path().parent_path();
+  if (file.parent_path().filename() != "unfinished" || !fs::is_directory(steps))
+    return;
+  std::vector<fs::path> parts;
+  for (const auto& entry : fs::directory_iterator(steps))
+    if (entry.path().filename().string().starts_with("step-") && !entry.is_symlink())
+      parts.push_back(entry.path() / file.filename());
+  for (const fs::path& part : parts)
+    remove_file(part);
+}
+
+/// From the innermost on; a folder with something in it stays.
+void remove_empty_folders(const fs::path& folder)
+{
+  if (!fs::is_directory(fs::symlink_status(folder)))
+    return;
+  std::vector<fs::path> folders{folder};
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_directory() && !entry.is_symlink())
+      folders.push_back(entry.path());
+  for (auto one = folders.rbegin(); one != folders.rend(); ++one)
+    rmdir(one->c_str());
+}
+
+bool has_words(const fs::path& file, const std::string_view words)
+{
+  return objection_to_reading(file).empty() && content_of(file).find(words) != std::string::npos;
+}
+
+/// The files that runs wrote into the folder. Of a version without lists only the known names at its top: what lies in its
+/// folders of results may be the user's.
+std::set<std::string> files_of_runs(const fs::path& folder)
+{
+  std::set<std::string> files = listed_files(folder);
+  if (is_there(folder / list_name))
+    return files;
+  const bool is_run = has_words(folder / record_name, "\"relative_to\"");
+  if (!is_run && !has_words(folder / page_name, "Feldspar report of"))
+    return files;
+  const Places& places = is_run ? places_of_runs() : places_of_reports();
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name))
+      files.insert(name);
+  return files;
+}
+} // namespace
+
+bool Places::include(const std::filesystem::path& relative) const
+{
+  const std::string first = relative.begin()->string();
+  const bool is_at_top = std::next(relative.begin()) == relative.end();
+  return has(folders, first) || (is_at_top && (has(files, first) || (specimens && is_specimen(first))));
+}
+
+const Places& places_of_runs()
+{
+  static const Places places{{record_name, "input.prm", "input.json", "summary.json", "tests.csv", "cracks.csv",
+                              "reference.json", page_name, "log.txt", "calibration.json", "design.csv", "posterior.csv",
+                              "best.prm", "nearest.prm"},
+                             {"checkpoints", "curves", "grains", "fields", "points", "rves", "states", "extracted",
+                              "figures", "tables", "calibration", "volumes" /* of 0.2.0, now rves */},
+                             true};
+  return places;
+}
+
+const Places& places_of_specimens()
+{
+  static const Places places{{}, {}, true};
+  return places;
+}
+
+const Places& places_of_contacts()
+{
+  static const Places places{{"contact.csv"}, {}, false};
+  return places;
+}
+
+const Places& places_of_reports()
+{
+  static const Places places{{page_name}, {"figures", "tables"}, false};
+  return places;
+}
+
+FileList::FileList(const std::filesystem::path& its_folder)
+  : folder(plain(its_folder))
+  , known(listed_files(folder))
+{
+  hear_of_files([this](const fs::path& file) { note(file); });
+}
+
+FileList::~FileList()
+{
+  hear_of_files({});
+  if (list < 0)
+    return;
+  close(list);
+  // A run that ends before its first result leaves nothing.
+  if (std::none_of(known.begin(), known.end(), [&](const std::string& file) { return is_there(folder / file); }))
+    unlink((folder / list_name).c_str());
+}
+
+void FileList::note(const std::filesystem::path& file)
+{
+  const fs::path relative = relative_to(folder, plain(file));
+  if (relative.empty() || known.contains(relative.string()))
+    return;
+  std::string lines;
+  if (list < 0)
+    {
+      if (is_there(folder / list_name))
+        lines = "\n"; // a killed run may have left half a line
+      else
+        for (const std::string& of_version_without_lists : known = files_of_runs(folder))
+          lines += of_version_without_lists + "\n";
+      list =
+        open((folder / list_name).c_str(), O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    }
+  lines += relative.string() + "\n";
+  if (list < 0 || write(list, lines.data(), lines.size()) != ssize_t(lines.size()))
+    throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
+  known.insert(relative.string());
+}
+
+void check_links(const std::filesystem::path& folder)
+{
+  const auto refuse = [](const fs::path& link) {
+    throw InputError(fmt::format("{}: is a link to another folder, into which results would be written; remove it, or "
+                                 "copy the folder there",
+                                 link.string()));
+  };
+  for (const std::string_view name : places_of_runs().folders)
+    {
+      const fs::path own = folder / name;
+      if (fs::is_symlink(fs::symlink_status(own)))
+        refuse(own);
+      if (fs::is_directory(own))
+        for (const auto& entry : fs::recursive_directory_iterator(own))
+          if (entry.is_symlink() && entry.is_directory())
+            refuse(entry.path());
+    }
+}
+
+void check_write_over(const std::filesystem::path& folder, const Places& places,
+                      const std::vector<std::filesystem::path>& inputs)
+{
+  const std::set<std::string> of_runs = files_of_runs(folder);
+  const auto would_go = [&](const fs::path& relative) {
+    return !relative.empty() && (places.include(relative) || of_runs.contains(relative.string()));
+  };
+  const fs::path whole = fs::canonical(folder);
+  for (const fs::path& input : inputs)
+    {
+      // The name itself may be a link out of the folder, or one into it.
+      std::error_code ignored;
+      const fs::path named = fs::weakly_canonical(plain(input).parent_path(), ignored) / plain(input).filename();
+      const fs::path meant = fs::weakly_canonical(named, ignored);
+      if (meant == whole || would_go(relative_to(whole, named)) || would_go(relative_to(whole, meant)))
+        throw InputError(fmt::format("--force: {} is read by this run and lies among the results in {} that it would "
+                                     "replace; choose another folder with --output",
+                                     input.string(), folder.string()));
+    }
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename().string();
+        places.include(name) && !has(places.folders, name) && !of_runs.contains(name))
+      throw InputError(fmt::format("--force: no run is known to have written {}, which this one would replace; move it "
+                                   "elsewhere, or choose another folder with --output",
+                                   (folder / name).string()));
+}
+
+bool holds_a_run(const std::filesystem::path& folder) { return !files_of_runs(folder).empty(); }
+
+void remove_listed_files(const std::filesystem::path& folder, const std::string& below)
+{
+  for (const std::string& file : files_of_runs(folder))
+    if (file.starts_with(below) && lies_in(folder, file))
+      remove_listed(folder / file);
+  for (const std::string_view name : places_of_runs().folders)
+    if (name.starts_with(below.substr(0, below.find('/'))))
+      remove_empty_folders(folder / name);
+  if (below.empty())
+    remove_file(folder / list_name);
+}
+} // namespace feldspar
