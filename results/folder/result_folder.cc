@@ -1,6 +1,7 @@
 #include "results/folder/result_folder.h"
 
 #include "base/input_error.h"
+#include "base/json_text.h"
 #include "base/quoted.h"
 #include "results/folder/csv_tables.h"
 #include "results/folder/provenance_json.h"
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -35,12 +38,10 @@ std::optional<TestKind> kind_named(const std::string_view wanted, const std::vec
 Json read_summary(const std::filesystem::path& folder)
 {
   const std::filesystem::path file = folder / result_file::summary;
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in)
     throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
-  Json json = Json::parse(in, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw InputError(fmt::format("{}: not JSON, or cut short", file.string()));
+  Json json = parse_json(file.string(), std::string(std::istreambuf_iterator<char>(in), {}));
   if (!json.contains("tests") || !json["tests"].is_array())
     throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
   return json;
@@ -283,29 +284,35 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
                                        (test.name + ".xdmf"))) // large: may be thrown away
         try_to(problems, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
+  std::multimap<std::string_view, FinishedTest*> by_name;
+  for (auto& test : tests)
+    by_name.emplace(test.name, &test);
   for (const auto& entry : json["tests"])
-    for (auto& test : tests)
-      if (entry.is_object() && test.name == text_of(entry, "name"))
-        for (const auto& rve : rves_in(entry))
-          try_to(problems, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
+    if (entry.is_object())
+      {
+        const std::string name = text_of(entry, "name");
+        for (auto [named, end] = by_name.equal_range(name); named != end; ++named)
+          for (const auto& rve : rves_in(entry))
+            try_to(problems, [&, &test = *named->second] {
+              test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points));
+            });
+      }
   try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);
   const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   std::vector<Series> all;
+  std::map<std::string, std::size_t> place_of; // of the series of a label
   for (auto& test : tests)
     {
-      const std::string name_of_series = test.variant.empty() ? label : test.variant;
-      auto series =
-        std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
-      if (series == all.end())
-        series = all.insert(all.end(),
-                            {name_of_series,
-                             test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
-                             read_provenance(json),
-                             {},
-                             {}});
-      series->tests.push_back(std::move(test));
+      const auto [place, is_new] = place_of.emplace(test.variant.empty() ? label : test.variant, all.size());
+      if (is_new)
+        all.push_back({place->first,
+                       test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
+                       read_provenance(json),
+                       {},
+                       {}});
+      all[place->second].tests.push_back(std::move(test));
     }
   all.front().problems = problems;
   return all;
