@@ -163,7 +163,7 @@ TEST(DamagedFiles, SpecimensWithoutASealAreReadOrRefusedInOneLine)
   write_specimen(small_specimen(), file);
   unseal(file);
   const std::string whole = content_of(file);
-  constexpr std::uint64_t n_mutations = 300;
+  constexpr std::uint64_t n_mutations = 100;
   for (std::uint64_t seed = 0; seed < n_mutations; ++seed)
     {
       std::ofstream(file, std::ios::binary) << Mutations(seed).of(whole);
