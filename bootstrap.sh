@@ -20,7 +20,7 @@ build_packages=(
   g++ cmake ninja-build git ca-certificates
   libeigen3-dev libtbb-dev libfmt-dev libhdf5-openmpi-dev
   libdeal.ii-dev petsc-dev
-  libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libdxflib-dev libkainjow-mustache-dev
+  libceres-dev libopenturns-dev libcli11-dev nlohmann-json3-dev libudunits2-dev libexpat1-dev libkainjow-mustache-dev
   gnuplot-nox fonts-dejavu-core
 )
 site_packages=(python3-sphinx python3-myst-parser furo libjs-katex)

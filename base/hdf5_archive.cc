@@ -1,15 +1,20 @@
 #include "base/hdf5_archive.h"
 
+#include "base/child_process.h"
 #include "base/readable_file.h"
 #include "base/seal.h"
 #include "base/whole_file.h"
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace feldspar
 {
 namespace
 {
+constexpr std::size_t growth = std::size_t(1) << 20; ///< of a file in memory, in bytes
+
 void add_notice(const H5::Group& root)
 {
   std::uint32_t sealed = 1;
@@ -17,14 +22,11 @@ void add_notice(const H5::Group& root)
 }
 
 /// The bytes of a file that `write` fills. In memory, because the library hides why a disk refused them, and does not
-/// get over it.
+/// get over it. Under the lock.
 std::string image_of(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
-  const std::lock_guard lock(hdf5_mutex());
-  H5::Exception::dontPrint();
   try
     {
-      constexpr std::size_t growth = std::size_t(1) << 20;
       H5::FileAccPropList in_memory;
       in_memory.setCore(growth, false);
       const H5::H5File out(file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
@@ -48,7 +50,12 @@ std::string image_of(const std::filesystem::path& file, const std::function<void
 
 void write_sealed(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
-  std::string image = image_of(file, write);
+  std::string image;
+  {
+    const std::lock_guard lock(hdf5_mutex());
+    H5::Exception::dontPrint();
+    image = image_of(file, write);
+  }
   image += seal_of(image);
   write_whole_file(file, image);
 }
@@ -64,35 +71,77 @@ void copy_array(const H5::DataSet& array, const std::string& name, const H5::Gro
   to.createDataSet(name, type, shape, properties).write(values.data(), type);
 }
 
-void read(const std::filesystem::path& file, const std::string& expected, const bool may_lack_seal,
-          const std::function<void(Hdf5Reader&)>& use)
+/// Throws InputError for what is wrong in the file, without its name.
+void read_from(const H5::H5File& in, const std::uint64_t size, const std::string& expected,
+               const std::function<void(Hdf5Reader&)>& use, std::optional<H5::Group> copy = {})
+{
+  try
+    {
+      Hdf5Reader reader(in.openGroup("/"), size, std::move(copy));
+      use(reader);
+    }
+  catch (const H5::Exception&)
+    {
+      throw InputError(fmt::format("not an HDF5 file, cut short, or not {}", expected));
+    }
+}
+
+H5::H5File open_to_read(const std::filesystem::path& file, const std::string& expected,
+                        const H5::FileAccPropList& access = H5::FileAccPropList::DEFAULT)
+{
+  try
+    {
+      return {file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access};
+    }
+  catch (const H5::Exception&)
+    {
+      throw InputError(fmt::format("not an HDF5 file, cut short, or not {}", expected));
+    }
+}
+
+/// A copy of what `use` reads, as the bytes of a file, which this program wrote. Throws InputError for what is wrong in the
+/// file, without its name. Under the lock.
+std::string copy_by_child(const std::filesystem::path& file, const std::string& expected,
+                          const std::function<void(Hdf5Reader&)>& use, const std::function<void()>& check)
+{
+  const std::uint64_t size = std::filesystem::file_size(file);
+  constexpr std::uint64_t megabyte = std::uint64_t(1) << 20;
+  // With much to spare: a second reads some 500 MB.
+  const ProcessLimits limits{2 + size / (10 * megabyte), 256 * megabyte + 16 * size};
+  return made_by_child(
+    "the HDF5 library", limits,
+    [&] {
+      const H5::H5File in = open_to_read(file, expected);
+      return image_of(file, [&](const H5::Group& root) { read_from(in, size, expected, use, root); });
+    },
+    check);
+}
+
+/// `foreign`: how a file without a seal is read; where there is none it is refused.
+void read(const std::filesystem::path& file, const std::string& expected, const std::function<void(Hdf5Reader&)>& use,
+          const std::function<void()>& foreign)
 {
   const std::lock_guard lock(hdf5_mutex());
   H5::Exception::dontPrint();
-  std::string problem = objection_to_reading(file);
-  if (problem.empty())
-    try
-      {
-        // Before HDF5 sees it, which is not made for damaged files.
-        const Seal seal = examine_seal(file);
-        if (seal == Seal::broken)
-          throw InputError("damaged or cut short: its content is not that of its checksum");
-        if (seal == Seal::none && !may_lack_seal)
-          throw InputError("damaged or cut short, or not of this version of the program: it has no checksum");
-        const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-        Hdf5Reader reader(in.openGroup("/"), std::filesystem::file_size(file));
-        use(reader);
-        return;
-      }
-    catch (const H5::Exception&)
-      {
-        problem = fmt::format("not an HDF5 file, cut short, or not {}", expected);
-      }
-    catch (const InputError& error)
-      {
-        problem = error.what();
-      }
-  throw InputError(fmt::format("{}: {}; {} is expected", file.string(), problem, expected));
+  try
+    {
+      if (const std::string objection = objection_to_reading(file); !objection.empty())
+        throw InputError(objection);
+      // Before HDF5 sees it, which is not made for damaged files.
+      const Seal seal = examine_seal(file);
+      if (seal == Seal::broken)
+        throw InputError("damaged or cut short: its content is not that of its checksum");
+      if (seal == Seal::none && !foreign)
+        throw InputError("damaged or cut short, or not of this version of the program: it has no checksum");
+      if (seal == Seal::none)
+        foreign();
+      else
+        read_from(open_to_read(file, expected), std::filesystem::file_size(file), expected, use);
+    }
+  catch (const InputError& error)
+    {
+      throw InputError(fmt::format("{}: {}; {} is expected", file.string(), error.what(), expected));
+    }
 }
 } // namespace
 
@@ -123,12 +172,20 @@ void seal_hdf5(const std::filesystem::path& file)
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,
                const std::function<void(Hdf5Reader&)>& use)
 {
-  read(file, expected, false, use);
+  read(file, expected, use, nullptr);
 }
 
 void read_foreign_hdf5(const std::filesystem::path& file, const std::string& expected,
-                       const std::function<void(Hdf5Reader&)>& use)
+                       const std::function<void(Hdf5Reader&)>& use, const std::function<void()>& check)
 {
-  read(file, expected, true, use);
+  read(file, expected, use, [&] {
+    const std::string image = copy_by_child(file, expected, use, check);
+    H5::FileAccPropList in_memory;
+    in_memory.setCore(growth, false);
+    if (H5Pset_file_image(in_memory.getId(), const_cast<char*>(image.data()), image.size()) < 0)
+      throw std::runtime_error(fmt::format("{}: HDF5 takes no image of the file", file.string()));
+    // An image has a name under which there is no file.
+    read_from(open_to_read(file / "copy", expected, in_memory), image.size(), expected, use);
+  });
 }
 } // namespace feldspar

@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// Writing and reading HDF5 by one description: `transfer(archive, object)` names each value once and serves both.
@@ -98,10 +100,11 @@ class Hdf5Reader
 public:
   static constexpr bool reads = true;
 
-  /// Reads a file of so many bytes: no array in it is longer.
-  Hdf5Reader(const H5::Group& where, const std::uint64_t size_of_file)
+  /// Reads a file of so many bytes: no array in it is longer. `copy`: a group that takes all that is read.
+  Hdf5Reader(const H5::Group& where, const std::uint64_t size_of_file, std::optional<H5::Group> copy_of_it = {})
     : group(where)
     , file_size(size_of_file)
+    , copy(std::move(copy_of_it))
   {
   }
 
@@ -109,6 +112,8 @@ public:
   void value(const std::string& name, T& stored)
   {
     single(name).read(stored_type<T>(), &stored);
+    if (copy && !copy->attrExists(name))
+      Hdf5Writer(*copy).value(name, stored);
   }
 
   void text(const std::string& name, std::string& stored)
@@ -118,6 +123,8 @@ public:
     if (!type.isVariableStr())
       throw InputError(fmt::format("{} is no text", name));
     attribute.read(type, stored);
+    if (copy && !copy->attrExists(name))
+      Hdf5Writer(*copy).text(name, stored);
   }
 
   /// How many values an array has.
@@ -132,6 +139,8 @@ public:
     if constexpr (std::is_same_v<T, double>)
       if (!std::all_of(values.begin(), values.end(), [](const double v) { return std::isfinite(v); }))
         throw InputError(fmt::format("{} holds a value that is not finite", name));
+    if (copy && !copy->nameExists(name))
+      Hdf5Writer(*copy).array(name, values);
   }
 
   template <typename T>
@@ -149,7 +158,13 @@ public:
   bool has(const std::string& name) const { return group.nameExists(name); }
   bool has_attribute(const std::string& name) const { return group.attrExists(name); }
 
-  Hdf5Reader subgroup(const std::string& name) { return {group.openGroup(name), file_size}; }
+  Hdf5Reader subgroup(const std::string& name)
+  {
+    const H5::Group inner = group.openGroup(name);
+    if (!copy)
+      return {inner, file_size};
+    return {inner, file_size, copy->nameExists(name) ? copy->openGroup(name) : copy->createGroup(name)};
+  }
 
 private:
   /// An attribute of one value: what it is read into has no room for more.
@@ -172,6 +187,7 @@ private:
 
   H5::Group group;
   std::uint64_t file_size;
+  std::optional<H5::Group> copy;
 };
 
 /// Numbers that lie otherwise than in a vector; reading them, as many as there are.
@@ -205,8 +221,11 @@ void seal_hdf5(const std::filesystem::path& file);
 void read_hdf5(const std::filesystem::path& file, const std::string& expected,
                const std::function<void(Hdf5Reader&)>& read);
 
-/// The same of a file that may be older than seals, or another program's. Where it has a seal that is not broken; without
-/// one `read` must check every number that it uses.
-void read_foreign_hdf5(const std::filesystem::path& file, const std::string& expected,
-                       const std::function<void(Hdf5Reader&)>& read);
+/// The same of a file that may be older than seals, or another program's, of which `read` must check every number that it
+/// uses. The HDF5 library itself may crash or search without end in a file that nobody vouches for: a child process of
+/// limited time and memory reads it first, and copies what `read` reads, which is then read from the copy. `read` therefore
+/// runs twice and keeps nothing outside of what it fills. `check` is called while the child works and may throw to end it.
+void read_foreign_hdf5(
+  const std::filesystem::path& file, const std::string& expected, const std::function<void(Hdf5Reader&)>& read,
+  const std::function<void()>& check = [] {});
 } // namespace feldspar

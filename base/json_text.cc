@@ -18,6 +18,11 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
+// Far beyond what people and this program write. Objects keep their order and look for a name one by one, so that the time
+// of a large one grows with the square of its names.
+constexpr int most_levels = 100;
+constexpr std::size_t most_names = 20000; // of an object
+
 /// The part of nlohmann's message behind its own heading and position.
 std::string syntax_error(const std::string& file, const std::string& text, const Json::parse_error& error)
 {
@@ -35,7 +40,9 @@ nlohmann::ordered_json parse_json(const std::string& file, const std::string& te
 {
   std::vector<std::set<std::string>> names;
   std::vector<std::string> path;
-  const auto watch = [&](int, const Json::parse_event_t event, Json& parsed) {
+  const auto watch = [&](const int level, const Json::parse_event_t event, Json& parsed) {
+    if (level >= most_levels)
+      throw InputError(fmt::format("{}: is nested more than {} levels deep", file, most_levels));
     if (event == Json::parse_event_t::object_start)
       {
         names.emplace_back();
@@ -47,6 +54,8 @@ nlohmann::ordered_json parse_json(const std::string& file, const std::string& te
         if (!names.back().insert(path.back()).second)
           throw InputError(
             fmt::format("{}: {}: is given twice", file, excerpt(fmt::format("{}", fmt::join(path, "/")))));
+        if (names.back().size() > most_names)
+          throw InputError(fmt::format("{}: an object has more than {} names", file, most_names));
       }
     else if (event == Json::parse_event_t::object_end)
       {

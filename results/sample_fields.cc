@@ -5,11 +5,14 @@
 #include "base/readable_file.h"
 
 #include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
+#include <expat.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <optional>
+#include <type_traits>
 
 namespace feldspar
 {
@@ -18,6 +21,68 @@ namespace
 using Xml = boost::property_tree::ptree;
 
 constexpr const char* expected = "a field of `feldspar multiscale`";
+
+/// Reads XML as boost/property_tree has it, attributes as children of <xmlattr>, but to a limited depth: readers that
+/// descend into it use the stack.
+class XmlReader
+{
+public:
+  static Xml read(const std::filesystem::path& file)
+  {
+    const std::string text = content_of(file);
+    XmlReader reader;
+    const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
+      XML_ParserCreate(nullptr), XML_ParserFree);
+    if (!parser)
+      throw std::bad_alloc();
+    XML_SetUserData(parser.get(), &reader);
+    XML_SetElementHandler(parser.get(), &XmlReader::begin, &XmlReader::end);
+    XML_SetCharacterDataHandler(parser.get(), &XmlReader::add_text);
+    constexpr std::size_t piece_size = std::size_t(1) << 20; // the parser counts in int
+    bool is_xml = true;
+    for (std::size_t at = 0; is_xml && !reader.is_too_deep && at < text.size(); at += piece_size)
+      is_xml = XML_Parse(parser.get(), text.data() + at, int(std::min(piece_size, text.size() - at)),
+                         at + piece_size >= text.size()) == XML_STATUS_OK;
+    if (reader.is_too_deep)
+      throw InputError(fmt::format("{}: is nested more than {} levels deep", file.string(), most_levels));
+    if (!is_xml || text.empty())
+      throw InputError(fmt::format("{}: not XDMF of `feldspar multiscale`, or cut short", file.string()));
+    return std::move(reader.root);
+  }
+
+private:
+  static constexpr std::size_t most_levels = 100;
+
+  static void begin(void* const reader, const char* const name, const char** attribute)
+  {
+    auto& self = *static_cast<XmlReader*>(reader);
+    self.is_too_deep = self.is_too_deep || self.open.size() > most_levels;
+    if (self.is_too_deep)
+      return; // an exception cannot pass through the library
+    Xml& element = self.open.back()->push_back({name, {}})->second;
+    for (; *attribute; attribute += 2)
+      element.push_back({"<xmlattr>", {}})->second.push_back({attribute[0], Xml(attribute[1])});
+    self.open.push_back(&element);
+  }
+
+  static void end(void* const reader, const char*)
+  {
+    auto& self = *static_cast<XmlReader*>(reader);
+    if (!self.is_too_deep)
+      self.open.pop_back();
+  }
+
+  static void add_text(void* const reader, const char* const text, const int length)
+  {
+    auto& self = *static_cast<XmlReader*>(reader);
+    if (!self.is_too_deep)
+      self.open.back()->data().append(text, std::size_t(length));
+  }
+
+  Xml root;
+  std::vector<Xml*> open{&root}; ///< elements, the outermost first
+  bool is_too_deep = false;
+};
 
 /// "FILE:/ARRAY" of a <DataItem>.
 struct Place
@@ -51,8 +116,7 @@ struct IndexedTime
 /// In their order, one at least.
 std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
-  Xml xml;
-  boost::property_tree::read_xml(index.string(), xml);
+  const Xml xml = XmlReader::read(index);
   std::vector<IndexedTime> times;
   for (const auto& [tag, child] : xml.get_child("Xdmf.Domain.Grid"))
     if (tag == "Grid")

@@ -3,9 +3,9 @@
 
     scripts/extremes.py FELDSPAR [COMMAND ...]
 
-COMMAND is contact, rve or lab; without any, all three run. A range that is open or without an end is tried at 1e-300, 1e-9,
-1e-3, 1e3, 1e9 and 1e300 units. A run is right if it ends with exit code 0 and numbers, or with exit code 2 and words of one
-line; one that goes on for 20 s is ended and counted apart. Exit code 1 if any is wrong.
+COMMAND is contact, rve or lab; without any, all three run. A range that is open or without an end is tried at 5e-324,
+1e-300, 1e-9, 1e-3, 1e3, 1e9, 1e300 and 1e308 units. A run is right if it ends with exit code 0 and numbers, or with exit
+code 2 and words of one line; one that goes on for 20 s is ended and counted apart. Exit code 1 if any is wrong.
 """
 
 import os
@@ -55,7 +55,8 @@ def extremes(unit, allowed):
     if interval := re.search(r"[\[(](-?[\d.e+-]+)[^,]*, (-?[\d.e+-]+)[^\])]*[\])]", allowed):
         return [end if "integer" in allowed else end + unit for end in interval.groups()]
     if ">" in allowed:
-        return [f"{value}{unit}" for value in ("0", "1e-300", "1e-9", "1e-3", "1e3", "1e9", "1e300")]
+        values = ("0", "5e-324", "1e-300", "1e-9", "1e-3", "1e3", "1e9", "1e300", "1e308")
+        return [f"{value}{unit}" for value in values]
     return []
 
 

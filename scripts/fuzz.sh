@@ -36,7 +36,7 @@ fuzz()
   mkdir -p "build/fuzz/corpus/$reader"
   rm --force "build/fuzz/$reader.failed"
   FELDSPAR_FUZZED_READER=$reader build/asan/tests/fuzz/fuzz_readers -max_total_time=$seconds_each -seed=$seed \
-    -timeout=60 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
+    -timeout=60 -rss_limit_mb=4096 -max_len=200000 -dict=tests/fuzz/extremes.dict -print_final_stats=1 -artifact_prefix="build/fuzz/found/$reader-" \
     "build/fuzz/corpus/$reader" "tests/fuzz/corpus/$reader" >"$log" 2>&1 || {
     verdict="FOUND: see $log and build/fuzz/found"
     touch "build/fuzz/$reader.failed"

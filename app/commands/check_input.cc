@@ -161,7 +161,9 @@ void check_input(const std::filesystem::path& file, const std::vector<std::strin
   const Input input = read_input(file, {}, settings);
   if (!input.reference_file.empty())
     read_reference(input.reference_file, test_kinds()); // one that does not serve is wrong for all
-  const Remarks unusual = unusual_values(variants(input));
+  Remarks unusual = unusual_values(variants(input));
+  if (!input.flaws.left_out.empty())
+    unusual.push_back(input.flaws.left_out);
   const auto print_remarks = [](const Remarks& remarks) {
     for (const std::string& remark : remarks)
       print_result("  {}\n", remark);

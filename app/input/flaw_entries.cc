@@ -1,9 +1,9 @@
 #include "app/input/flaw_entries.h"
 
+#include "app/input/maps/traces.h"
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/input/quantity.h"
-#include "app/input/traces.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
@@ -149,6 +149,8 @@ public:
         throw InputError(fmt::format("has {} numbers; there must be x and y of {} points or more, e.g. "
                                      "\"10, 20, 30, 25, 35, 40 mm\"",
                                      values.size(), at_least));
+      if (values.size() > 2 * most_corners)
+        throw InputError(fmt::format("has {} points; there must be at most {}", values.size() / 2, most_corners));
       std::vector<Vector<2>> points;
       for (std::size_t k = 0; k < values.size(); k += 2)
         {
@@ -431,6 +433,7 @@ std::vector<Entry<Input>> flaw_entries()
                         [](Input& input, const std::string_view text) {
                           input.flaws.traces.clear();
                           input.flaws.traces_file.clear();
+                          input.flaws.left_out.clear();
                           if (text.empty() || text == none)
                             return;
                           const std::filesystem::path file = input.file_named(text);
@@ -439,7 +442,9 @@ std::vector<Entry<Input>> flaw_entries()
                             throw InputError(fmt::format("there is no file {}", excerpt(file.string(), 300)));
                           if (const std::string objection = objection_to_reading(file); !objection.empty())
                             throw InputError(fmt::format("{} {}", excerpt(file.string(), 300), objection));
-                          input.flaws.traces = read_traces(file);
+                          Traces traces = read_traces(file);
+                          input.flaws.traces = std::move(traces.shapes);
+                          input.flaws.left_out = std::move(traces.left_out);
                           input.flaws.traces_file = file.string();
                         },
                         [](const Input& input) {

@@ -126,7 +126,7 @@ private:
 template <int dim>
 Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted)
 {
-  auto specimen = read_specimen<dim>(wanted.specimen_file);
+  auto specimen = read_specimen<dim>(wanted.specimen_file, end_if_interrupted);
   const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
   if (law != wanted.joint_law)
     throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
@@ -194,6 +194,8 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
     progress.remark(effort);
   for (const std::string& sentence : unusual_values(variants))
     progress.remark(sentence);
+  if (const std::string& left_out = variants.front().input.flaws.left_out; !left_out.empty())
+    progress.remark(left_out);
   if (const auto& settled = variants.front().input.settled_by_file; !settled.empty())
     progress.remark(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
                                 variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));
@@ -209,7 +211,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
     if (std::filesystem::exists(file))
       try
         {
-          specimens[k] = read_specimen<dim>(file);
+          specimens[k] = read_specimen<dim>(file, end_if_interrupted);
           board.finish(k);
           return;
         }

@@ -101,6 +101,7 @@ struct FlawParameters
   std::vector<Shape> traces; ///< of a file, after the others
   std::string text;          ///< of the shapes, as it was written; empty: none
   std::string traces_file;   ///< empty: none
+  std::string left_out;      ///< what the file has besides and does not show, a sentence; empty: nothing
 
   std::vector<Shape> all() const
   {

@@ -3,7 +3,8 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
-#include "dem/specimen/neighbours.h"
+#include "dem/specimen/pair_search.h"
+#include "dem/specimen/periodic_images.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,8 @@ namespace feldspar
 namespace
 {
 constexpr double largest_overlap = 0.05; // of the smaller radius
+
+bool is_periodic(const SpecimenParameters& wanted) { return wanted.shape == "periodic"; }
 
 /// The numbers of one line, which must be exactly n.
 std::vector<double> numbers(const std::string& line, const std::size_t n, const std::string& where)
@@ -42,6 +45,36 @@ std::vector<double> numbers(const std::string& line, const std::size_t n, const 
     throw InputError(fmt::format("{}: {} numbers found; a line is {}, in metres", where, values.size(),
                                  n == 3 ? "x y radius" : "x y z radius"));
   return values;
+}
+/// Throws InputError for two grains that overlap by more than is allowed; of a periodic packing across its sides too.
+template <int dim>
+void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, const std::vector<std::size_t>& line_of,
+                    const std::function<void()>& check)
+{
+  Tensor<dim> cell = wanted.width * Tensor<dim>::Identity();
+  cell(dim - 1, dim - 1) = wanted.height;
+  const auto images = is_periodic(wanted) ? images_within(own, cell, 0.0) : std::vector<PeriodicImage<dim>>();
+  const Grains<dim> grains = with_images(own, images, cell);
+  for_each_pair_within<dim>(
+    grains, 0.0,
+    [&](const GrainPair& pair) {
+      const auto& [one, two] = pair;
+      if (one >= own.size()) // two images, which overlap as their owners do
+        return;
+      const double overlap = grains.radius[one] + grains.radius[two] -
+                             (at<dim>(grains.position, two) - at<dim>(grains.position, one)).norm();
+      const double allowed = largest_overlap * std::min(grains.radius[one], grains.radius[two]);
+      if (overlap <= allowed)
+        return;
+      const bool across = two >= own.size();
+      const auto [first, second] = std::minmax(line_of[one], line_of[across ? images[two - own.size()].owner : two]);
+      throw InputError(fmt::format(
+        "{}:{}: overlaps {} by {:.3g} m{}; allowed are {:.0f} % of the smaller radius, {:.3g} "
+        "m",
+        wanted.packing_file, second, first == second ? "its own image" : fmt::format("the grain of line {}", first),
+        overlap, across ? " across the sides of the periodic box" : "", 100.0 * largest_overlap, allowed));
+    },
+    check);
 }
 } // namespace
 
@@ -71,7 +104,14 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
           if (values[c] < 0.0 || values[c] > length)
             throw InputError(fmt::format("{}: {} = {} m lies outside the specimen; allowed are 0 to {} m", where,
                                          "xyz"[c], values[c], length));
-          positions[c].push_back(values[c]);
+          // Before it has an image in each of very many boxes.
+          if (const double overlap = 2.0 * values[dim] - length;
+              is_periodic(wanted) && overlap > largest_overlap * values[dim])
+            throw InputError(fmt::format("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
+                                         "allowed are {:.0f} % of the radius, {:.3g} m",
+                                         where, overlap, 100.0 * largest_overlap, largest_overlap * values[dim]));
+          // The two sides of a periodic box are one place.
+          positions[c].push_back(is_periodic(wanted) && values[c] == length ? 0.0 : values[c]);
         }
       if (wanted.shape == "cylinder")
         if (const double r = std::hypot(values[0] - 0.5 * wanted.width, values[1] - 0.5 * wanted.width);
@@ -86,16 +126,7 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
 
   Grains<dim> grains;
   grains.place(radii, positions);
-  for (const auto& [one, two] : pairs_within(grains, 0.0, check))
-    {
-      const double overlap = radii[one] + radii[two] - (at<dim>(positions, two) - at<dim>(positions, one)).norm();
-      const double allowed = largest_overlap * std::min(radii[one], radii[two]);
-      if (overlap > allowed)
-        throw InputError(fmt::format("{}:{}: overlaps the grain of line {} by {:.3g} m; allowed are {:.0f} % of the "
-                                     "smaller radius, {:.3g} m",
-                                     wanted.packing_file, line_of[two], line_of[one], overlap, 100.0 * largest_overlap,
-                                     allowed));
-    }
+  check_overlaps(grains, wanted, line_of, check);
   return grains;
 }
 

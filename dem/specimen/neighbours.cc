@@ -1,5 +1,7 @@
 #include "dem/specimen/neighbours.h"
 
+#include "dem/specimen/pair_search.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,36 +99,53 @@ struct CellGrid
       }
   }
 };
-} // namespace
-
-template <int dim>
-std::vector<GrainPair> pairs_within(const Grains<dim>& grains, const double largest_gap,
-                                    const std::function<void()>& check)
+template <int dim, typename Visitor>
+void visit_pairs(const Grains<dim>& grains, const double largest_gap, Visitor&& visit,
+                 const std::function<void()>& check)
 {
   constexpr std::size_t grains_between_checks = 10000; // some milliseconds
-  std::vector<GrainPair> pairs;
   if (grains.size() < 2)
-    return pairs;
+    return;
   const double largest_radius = *std::max_element(grains.radius.begin(), grains.radius.end());
   const CellGrid<dim> grid(grains, 2.0 * largest_radius + largest_gap);
+  std::vector<std::uint32_t> partners;
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
       if (i % grains_between_checks == 0)
         check();
       const Vector<dim> centre = at<dim>(grains.position, i);
-      const std::size_t from = pairs.size();
+      partners.clear();
       grid.around(grid.coordinates(centre), [&](const std::size_t cell) {
         for (std::uint32_t k = grid.first[cell]; k < grid.first[cell + 1]; ++k)
           {
             const std::uint32_t other = grid.grains[k];
             const double reach = grains.radius[i] + grains.radius[other] + largest_gap;
             if (other > i && (at<dim>(grains.position, other) - centre).squaredNorm() < reach * reach)
-              pairs.emplace_back(std::uint32_t(i), other);
+              partners.push_back(other);
           }
       });
-      std::sort(pairs.begin() + std::ptrdiff_t(from), pairs.end());
+      std::sort(partners.begin(), partners.end());
+      for (const std::uint32_t other : partners)
+        visit(GrainPair(std::uint32_t(i), other));
     }
+}
+} // namespace
+
+template <int dim>
+std::vector<GrainPair> pairs_within(const Grains<dim>& grains, const double largest_gap,
+                                    const std::function<void()>& check)
+{
+  std::vector<GrainPair> pairs;
+  visit_pairs(
+    grains, largest_gap, [&](const GrainPair& pair) { pairs.push_back(pair); }, check);
   return pairs;
+}
+
+template <int dim>
+void for_each_pair_within(const Grains<dim>& grains, const double largest_gap,
+                          const std::function<void(const GrainPair&)>& visit, const std::function<void()>& check)
+{
+  visit_pairs(grains, largest_gap, visit, check);
 }
 
 template <int dim>
@@ -157,6 +176,10 @@ std::vector<std::uint32_t> spatial_order(const Grains<dim>& grains)
 
 template std::vector<GrainPair> pairs_within<2>(const Grains<2>&, double, const std::function<void()>&);
 template std::vector<GrainPair> pairs_within<3>(const Grains<3>&, double, const std::function<void()>&);
+template void for_each_pair_within<2>(const Grains<2>&, double, const std::function<void(const GrainPair&)>&,
+                                      const std::function<void()>&);
+template void for_each_pair_within<3>(const Grains<3>&, double, const std::function<void(const GrainPair&)>&,
+                                      const std::function<void()>&);
 template std::vector<std::uint32_t> spatial_order<2>(const Grains<2>&);
 template std::vector<std::uint32_t> spatial_order<3>(const Grains<3>&);
 } // namespace feldspar

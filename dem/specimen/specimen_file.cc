@@ -440,10 +440,10 @@ void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& 
 }
 
 template <int dim>
-Specimen<dim> read_specimen(const std::filesystem::path& file)
+Specimen<dim> read_specimen(const std::filesystem::path& file, const std::function<void()>& check_now)
 {
   Specimen<dim> specimen;
-  read_foreign_hdf5(file, "a specimen.h5 of `feldspar specimen`", [&](Hdf5Reader& root) {
+  const auto read = [&](Hdf5Reader& root) {
     std::string format;
     std::uint32_t version = 0;
     std::uint32_t dimension = 0;
@@ -458,7 +458,8 @@ Specimen<dim> read_specimen(const std::filesystem::path& file)
       throw InputError(fmt::format("a specimen in {} dimensions, the input asks for {}", dimension, dim));
     transfer(root, specimen);
     check(specimen);
-  });
+  };
+  read_foreign_hdf5(file, "a specimen.h5 of `feldspar specimen`", read, check_now);
 
   auto& grains = specimen.grains;
   const auto masses = grains.mass;
@@ -471,8 +472,8 @@ Specimen<dim> read_specimen(const std::filesystem::path& file)
 
 template void write_specimen<2>(const Specimen<2>&, const std::filesystem::path&,
                                 const std::function<void(Hdf5Writer&)>&);
-template Specimen<2> read_specimen<2>(const std::filesystem::path&);
+template Specimen<2> read_specimen<2>(const std::filesystem::path&, const std::function<void()>&);
 template void write_specimen<3>(const Specimen<3>&, const std::filesystem::path&,
                                 const std::function<void(Hdf5Writer&)>&);
-template Specimen<3> read_specimen<3>(const std::filesystem::path&);
+template Specimen<3> read_specimen<3>(const std::filesystem::path&, const std::function<void()>&);
 } // namespace feldspar

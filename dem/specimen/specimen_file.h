@@ -15,7 +15,9 @@ template <int dim>
 void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& file,
                     const std::function<void(Hdf5Writer&)>& more = {});
 
-/// Reads what write_specimen wrote. Throws InputError where the file is missing, foreign, cut short or inconsistent.
+/// Reads what write_specimen wrote. Throws InputError where the file is missing, foreign, cut short or inconsistent. `check`
+/// is called while a file without a seal is read and may throw to end it.
 template <int dim>
-Specimen<dim> read_specimen(const std::filesystem::path& file);
+Specimen<dim> read_specimen(
+  const std::filesystem::path& file, const std::function<void()>& check = [] {});
 } // namespace feldspar

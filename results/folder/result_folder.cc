@@ -1,6 +1,7 @@
 #include "results/folder/result_folder.h"
 
 #include "base/input_error.h"
+#include "base/json_text.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "results/folder/csv_tables.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -37,9 +39,7 @@ Json read_summary(const std::filesystem::path& folder)
   const std::filesystem::path file = folder / result_file::summary;
   if (!std::filesystem::exists(file))
     throw InputError(fmt::format("{}: no result folder: there is no {} in it", folder.string(), result_file::summary));
-  Json json = Json::parse(content_of(file), nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw InputError(fmt::format("{}: not JSON, or cut short", file.string()));
+  Json json = parse_json(file.string(), content_of(file));
   if (!json.contains("tests") || !json["tests"].is_array())
     throw InputError(fmt::format("{}: there is no list of \"tests\" in it", file.string()));
   return json;
@@ -295,11 +295,19 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         try_to(of_tables,
                [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
     }
+  std::multimap<std::string_view, FinishedTest*> by_name;
+  for (auto& test : tests)
+    by_name.emplace(test.name, &test);
   for (const auto& entry : json["tests"])
-    for (auto& test : tests)
-      if (entry.is_object() && test.name == text_of(entry, "name"))
-        for (const auto& rve : rves_in(entry))
-          try_to(of_tables, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
+    if (entry.is_object())
+      {
+        const std::string name = text_of(entry, "name");
+        for (auto [named, end] = by_name.equal_range(name); named != end; ++named)
+          for (const auto& rve : rves_in(entry))
+            try_to(of_tables, [&, &test = *named->second] {
+              test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points));
+            });
+      }
   try_to(of_tables, [&] { read_cracks(folder / result_file::cracks, tests); });
   for (const auto& of_one_kind : {of_kinds, of_names, of_tables, of_stages})
     add_few(problems, of_one_kind);
@@ -307,19 +315,17 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
   const std::filesystem::path whole = std::filesystem::absolute(folder);
   const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   std::vector<Series> all;
+  std::map<std::string, std::size_t> place_of; // of the series of a label
   for (auto& test : tests)
     {
-      const std::string name_of_series = test.variant.empty() ? label : test.variant;
-      auto series =
-        std::find_if(all.begin(), all.end(), [&](const Series& one) { return one.label == name_of_series; });
-      if (series == all.end())
-        series = all.insert(all.end(),
-                            {name_of_series,
-                             test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
-                             read_provenance(json),
-                             {},
-                             {}});
-      series->tests.push_back(std::move(test));
+      const auto [place, is_new] = place_of.emplace(test.variant.empty() ? label : test.variant, all.size());
+      if (is_new)
+        all.push_back({place->first,
+                       test.record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements,
+                       read_provenance(json),
+                       {},
+                       {}});
+      all[place->second].tests.push_back(std::move(test));
     }
   all.front().problems = problems;
   return all;

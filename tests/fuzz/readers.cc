@@ -3,12 +3,14 @@
 #include "app/input/flaw_entries.h"
 #include "app/input/input.h"
 #include "app/input/laboratory_curve.h"
+#include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
-#include "app/input/traces.h"
 #include "app/programme/reference_body.h"
 #include "base/csv.h"
+#include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/seal.h"
 #include "calibration/responses.h"
 #include "calibration/unknowns.h"
 #include "dem/flaws/apply.h"
@@ -284,7 +286,58 @@ void read_changed_specimen(const std::string& content, const fs::path& folder)
     dynamics.step();
 }
 
-/// A checkpoint of which the content changes bytes: place, what to add to it. Every change must be seen.
+std::string content_of(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// A file of which the content changes bytes: place, what to add to it.
+std::string changed_by(const std::string& content, std::string file)
+{
+  Numbers numbers(content);
+  for (int n = 0; n < 64 && !numbers.is_used_up(); ++n)
+    {
+      char& byte = file[numbers.next<std::uint32_t>() % file.size()];
+      byte = char(byte + numbers.next<char>());
+    }
+  return file;
+}
+
+/// A changed specimen as another program leaves it, without a seal that shows the change.
+void read_changed_foreign_specimen(const std::string& content, const fs::path& folder)
+{
+  const fs::path file = folder / "foreign.h5";
+  static const std::string whole = [&] {
+    write_specimen(lattice<2>(), file);
+    std::string unsealed = content_of(file);
+    unsealed.resize(unsealed.size() - seal_of("").size());
+    const std::string another(seal_notice.size(), 'a');
+    for (std::size_t at = 0; (at = unsealed.find(seal_notice, at)) != std::string::npos;)
+      unsealed.replace(at, seal_notice.size(), another);
+    return unsealed;
+  }();
+  read_specimen<2>(write(file, changed_by(content, whole)));
+}
+
+/// The index of fields beside the file that it names.
+void read_fields(const std::string& content, const fs::path& folder)
+{
+  const fs::path file = folder / "a.h5";
+  if (!fs::exists(file))
+    write_hdf5(file, [](Hdf5Writer& root) {
+      std::vector<double> nodes{0, 0, 1, 0, 1, 1, 0, 1};
+      std::vector<double> displacement(12, 0.5);
+      std::vector<std::uint32_t> cells{0, 1, 2, 3};
+      root.array("nodes", nodes, 2);
+      root.array("cells", cells, 4);
+      root.array("displacement", displacement, 3);
+    });
+  write(folder / "a.xdmf", content);
+  read_sample_fields(folder, "a");
+}
+
+/// Every change of a checkpoint must be seen.
 void read_changed_checkpoint(const std::string& content, const fs::path& folder)
 {
   static const Specimen<2> specimen = lattice<2>();
@@ -294,17 +347,10 @@ void read_changed_checkpoint(const std::string& content, const fs::path& folder)
     LabTest<2> begun({uniaxial_compression}, specimen, {}, {});
     begun.advance();
     begun.write_checkpoint(file, "this one");
-    std::ifstream in(file, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
+    return content_of(file);
   };
   static const std::string whole = written();
-  std::string changed = whole;
-  Numbers numbers(content);
-  for (int n = 0; n < 64 && !numbers.is_used_up(); ++n)
-    {
-      char& byte = changed[numbers.next<std::uint32_t>() % changed.size()];
-      byte = char(byte + numbers.next<char>());
-    }
+  const std::string changed = changed_by(content, whole);
   test.read_checkpoint(write(file, changed), "this one");
   if (changed != whole)
     throw std::logic_error("damage to a checkpoint was not seen");
@@ -333,6 +379,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
        SpecimenParameters wanted;
        wanted.packing_file = write(folder / "packing.txt", content).string();
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
+       wanted.shape = "periodic";
+       read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
      }},
     {"mesh",
      [](Content content, Folder) {
@@ -350,8 +398,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
      [](Content content, Folder folder) {
        put_into_small_specimen(read_input_with("Flaws", "Traces file", content, folder).flaws.all());
      }},
-    {"drawing",
-     [](Content content, Folder folder) { put_into_small_specimen(read_traces(write(folder / "map.dxf", content))); }},
+    {"drawing", [](Content content,
+                   Folder folder) { put_into_small_specimen(read_traces(write(folder / "map.dxf", content)).shapes); }},
     {"shapes", [](Content content, Folder) { put_into_small_specimen(parse_shapes(content)); }},
     {"variants",
      [](Content content, Folder folder) { variants(read_input_with("Variants", "Table", content, folder)); }},
@@ -359,6 +407,8 @@ const std::vector<FuzzedReader>& fuzzed_readers()
     {"calibration", read_calibration_folder},
     {"reference_results", read_reference_results},
     {"results", read_results},
+    {"fields", read_fields},
+    {"foreign", read_changed_foreign_specimen},
     {"specimen", read_changed_specimen},
     {"checkpoint", read_changed_checkpoint}};
   return readers;

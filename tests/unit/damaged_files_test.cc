@@ -12,8 +12,12 @@
 #include "tests/unit/small_specimen.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -174,6 +178,98 @@ TEST(OlderFiles, SpecimensAreReadAndCheckpointsRefusedInOneLine)
   const std::string words = refusal([&] { test.read_checkpoint(checkpoint, "this one"); });
   EXPECT_NE(words.find("not of this version of the program: it has no checksum"), std::string::npos) << words;
   EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+}
+
+// The HDF5 library itself crashes or searches without end in some of these, in a process of its own.
+TEST(DamagedFiles, SpecimensWithoutASealAreReadOrRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "specimen.h5";
+  write_specimen(small_specimen(), file);
+  unseal(file);
+  const std::string whole = content_of(file);
+  constexpr std::uint64_t n_mutations = 100;
+  for (std::uint64_t seed = 0; seed < n_mutations; ++seed)
+    {
+      std::ofstream(file, std::ios::binary) << Mutations(seed).of(whole);
+      EXPECT_EQ(refusal([&] { read_specimen<2>(file); }).find('\n'), std::string::npos) << seed;
+    }
+}
+
+/// A file of another program: HDF5 without a seal.
+std::filesystem::path foreign_file(const TemporaryFolder& folder)
+{
+  const auto file = folder.path() / "foreign.h5";
+  write_hdf5(file, [](Hdf5Writer& root) {
+    std::vector<double> numbers{1.0, 2.0, 3.0};
+    auto inner = root.subgroup("inner");
+    inner.array("numbers", numbers);
+  });
+  unseal(file);
+  return file;
+}
+
+TEST(ForeignFiles, AreReadByWayOfAChildWithTheSameNumbers)
+{
+  const TemporaryFolder folder;
+  std::vector<double> numbers;
+  bool has_more = true;
+  pid_t reader = 0;
+  read_foreign_hdf5(foreign_file(folder), "a test", [&](Hdf5Reader& root) {
+    reader = getpid();
+    auto inner = root.subgroup("inner");
+    inner.array("numbers", numbers);
+    has_more = inner.has("more");
+  });
+  EXPECT_EQ(numbers, (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_FALSE(has_more);
+  EXPECT_EQ(reader, getpid());
+}
+
+TEST(ForeignFiles, OnWhichTheLibraryCrashesOrFindsNoEndAreRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto file = foreign_file(folder);
+  const pid_t self = getpid();
+  const auto words_of = [&](const std::function<void()>& library) {
+    return refusal([&] {
+      read_foreign_hdf5(file, "a test", [&](Hdf5Reader&) {
+        ASSERT_NE(getpid(), self); // whatever happens, not here
+        library();
+      });
+    });
+  };
+  const auto says = [](const std::string& refused, const std::string& words) {
+    EXPECT_NE(refused.find("foreign.h5: " + words), std::string::npos) << refused;
+    EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
+  };
+  says(words_of([] { raise(SIGFPE); }), "damaged: the HDF5 library fails on it (SIGFPE)");
+  says(words_of([] { raise(SIGSEGV); }), "damaged: the HDF5 library fails on it (SIGSEGV)");
+  says(words_of([] { _exit(0); }), "cannot be read");
+  says(words_of([] { throw InputError("no grains"); }), "no grains");
+  says(words_of([] {
+         for (volatile int n = 0;;) // the limit of time ends it
+           n = 1 - n;
+       }),
+       "damaged: the HDF5 library finds no end in it");
+}
+
+TEST(ForeignFiles, CanBeLeftWhileTheyAreRead)
+{
+  const TemporaryFolder folder;
+  const auto file = foreign_file(folder);
+  struct Enough
+  {
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(read_foreign_hdf5(
+                 file, "a test", [](Hdf5Reader&) { pause(); },
+                 [&] {
+                   if (std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(300))
+                     throw Enough();
+                 }),
+               Enough);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1); // no child is left
 }
 
 TEST(DamagedFiles, CheckpointsOfPathsAndStatesOfRvesAreRefused)

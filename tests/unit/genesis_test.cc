@@ -221,13 +221,17 @@ public:
     return parameters;
   }
 
-  std::string refusal() const
+  template <int dim = 2>
+  std::string refusal(const std::string& shape = "box") const
   {
     FlatJointParameters flat_joint;
     flat_joint.installation_gap_ratio = 0.1;
     try
       {
-        make_specimen<2>(wanted(), flat_joint, {}, 1, silent);
+        SpecimenParameters parameters = wanted();
+        parameters.dimension = dim;
+        parameters.shape = shape;
+        make_specimen<dim>(parameters, flat_joint, {}, 1, silent);
       }
     catch (const InputError& error)
       {
@@ -258,6 +262,59 @@ TEST(PackingImport, RefusesWordsMissingNumbersStrayAndOverlappingGrains)
   EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.04 0.005 0.001\n").refusal().find("outside"), std::string::npos);
   EXPECT_NE(PackingFile("0.002 0.005 0.001\n0.003 0.005 0.001\n").refusal().find("overlaps"), std::string::npos);
   EXPECT_NE(PackingFile("").refusal().find("at least two"), std::string::npos);
+}
+
+// In a periodic box of 10 mm; radii of 1 mm may overlap by 5 % of them, 0.05 mm.
+TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
+{
+  const std::string apart = "0.005 0.005 0.001\n";
+  const auto words = [](const PackingFile& file) { return file.refusal("periodic"); };
+  const PackingFile half_a_radius(apart + "0.0008 0.005 0.001\n0.0093 0.005 0.001\n"); // 1.5 mm from centre to centre
+  EXPECT_EQ(half_a_radius.refusal("box"), "");
+  EXPECT_NE(words(half_a_radius)
+              .find(".txt:3: overlaps the grain of line 2 by 0.0005 m across the sides of the periodic "
+                    "box; allowed are 5 % of the smaller radius, 5e-05 m"),
+            std::string::npos)
+    << words(half_a_radius);
+  // Across a corner, where no side alone brings them together: 0.9 mm along each axis is 1.27 mm.
+  const PackingFile corner(apart + "0.0004 0.0004 0.001\n0.0095 0.0095 0.001\n");
+  EXPECT_NE(words(corner).find(":3: overlaps the grain of line 2 by 0.000727 m across"), std::string::npos)
+    << words(corner);
+  // The two sides are one place: a grain on both, written twice.
+  EXPECT_NE(
+    words(PackingFile(apart + "0 0.002 0.001\n0.01 0.002 0.001\n")).find(":3: overlaps the grain of line 2 by 0.002"),
+    std::string::npos);
+  // Its own image, 10 mm away.
+  EXPECT_NE(
+    words(PackingFile("0.005 0.005 0.0052\n0.005 0.005 0.001\n")).find(":1: overlaps its own image by 0.0004 m"),
+    std::string::npos);
+  EXPECT_NE(words(PackingFile("0.005 0.005 1e300\n0.005 0.005 0.001\n")).find(":1: overlaps its own image by"),
+            std::string::npos);
+  // 1.96 mm are allowed, 1.94 mm are not; along the axis of the tests as well.
+  EXPECT_EQ(words(PackingFile(apart + "0.005 0.0008 0.001\n0.005 0.00884 0.001\n")), "");
+  EXPECT_NE(words(PackingFile(apart + "0.005 0.0008 0.001\n0.005 0.00886 0.001\n")), "");
+}
+
+TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleInSpaceToo)
+{
+  // Along the second axis, and across an edge.
+  const PackingFile second("0.005 0.0008 0.005 0.001\n0.005 0.0093 0.005 0.001\n");
+  EXPECT_EQ(second.refusal<3>("box"), "");
+  EXPECT_NE(second.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.0005 m across"),
+            std::string::npos);
+  const PackingFile edge("0.0004 0.005 0.0004 0.001\n0.0095 0.005 0.0095 0.001\n");
+  EXPECT_NE(edge.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.000727 m across"),
+            std::string::npos);
+  EXPECT_EQ(PackingFile("0.001 0.005 0.005 0.001\n0.009 0.005 0.005 0.001\n").refusal<3>("periodic"), "");
+}
+
+// As many pairs as grains squared, if they were listed before one is refused.
+TEST(PackingImport, OfGrainsAllAtOnePlaceIsRefusedAtOnce)
+{
+  std::string lines;
+  for (int k = 0; k < 50000; ++k)
+    lines += "0.005 0.005 0.001\n";
+  EXPECT_NE(PackingFile(lines).refusal().find(":2: overlaps the grain of line 1 by 0.002 m;"), std::string::npos);
 }
 
 TEST(Random, IsTheStreamItAlwaysWas)

@@ -317,9 +317,9 @@ TEST(ResultFolder, ThatIsNoneIsRefused)
   };
   refused("there is no summary.json in it");
   folder.write("summary.json", "{\"tests\": [");
-  refused("not JSON, or cut short");
+  refused("summary.json:1:12: is not valid JSON: ");
   folder.write("summary.json", "[]");
-  refused("not JSON, or cut short");
+  refused("there is no list of \"tests\"");
   folder.write("summary.json", "{\"stiffness_Pa\": 1}");
   refused("there is no list of \"tests\"");
   folder.write("summary.json", "{\"tests\": []}");

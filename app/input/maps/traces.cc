@@ -1,0 +1,42 @@
+#include "app/input/maps/traces.h"
+
+#include "base/csv.h"
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace feldspar
+{
+namespace
+{
+Traces read_table(const std::filesystem::path& file)
+{
+  Traces traces;
+  for (const auto& row : read_csv(file, header_of_traces))
+    {
+      traces.shapes.emplace_back(ClosedFlaw{{{row[0], row[1]}, {row[2], row[3]}}});
+      check_number_of_traces(traces.shapes.size(), file);
+      if (row[0] == row[2] && row[1] == row[3])
+        throw InputError(fmt::format("{}:{}: the trace ends where it begins", file.string(), traces.shapes.size() + 1));
+    }
+  return traces;
+}
+} // namespace
+
+void check_number_of_traces(const std::size_t n, const std::filesystem::path& file)
+{
+  constexpr std::size_t most_traces = 10000;
+  if (n > most_traces)
+    throw InputError(fmt::format("{}: must be at most {} traces", file.string(), most_traces));
+}
+
+Traces read_traces(const std::filesystem::path& file)
+{
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](const char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return ending == ".dxf" ? read_drawing(file) : read_table(file);
+}
+} // namespace feldspar

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "dem/flaws/shapes.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Joint maps: the traces of joints on a wall or section of the rock, as closed flaws.
+namespace feldspar
+{
+/// The header of a joint map in CSV: a trace a line, y along the axis of the tests [m].
+inline constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
+
+/// Of a line or an outline. Each takes time with every joint of a specimen, those of an outline with each other too.
+inline constexpr std::size_t most_corners = 10000;
+
+struct Traces
+{
+  std::vector<Shape> shapes;
+  std::string left_out; ///< what a drawing has besides and does not show, a sentence; empty: nothing
+};
+
+/// The traces of a drawing (.dxf; the lines and polylines of its model space that are to be seen, in the unit that the
+/// drawing names), or else of a CSV. Throws InputError with the name of the file.
+Traces read_traces(const std::filesystem::path& file);
+
+/// The same of a drawing. Whatever else it shows is refused, but for text, dimensions and pictures.
+Traces read_drawing(const std::filesystem::path& file);
+
+/// Throws InputError where there are more traces than a specimen takes.
+void check_number_of_traces(std::size_t n, const std::filesystem::path& file);
+} // namespace feldspar

@@ -1,0 +1,113 @@
+#include "app/input/flaw_entries.h"
+#include "app/input/input.h"
+#include "base/input_error.h"
+#include "dem/lab/protocols/protocols.h"
+#include "results/folder/calibration_record.h"
+#include "results/folder/reference.h"
+#include "results/folder/result_folder.h"
+#include "results/sample_fields.h"
+#include "tests/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+/// Depth and size of files from outside: each reader says its limit in a line, long before it lacks stack, time or memory.
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+std::string refusal(const std::function<void()>& read)
+{
+  // Readers that took the square of these sizes needed minutes.
+  constexpr std::chrono::seconds most(20);
+  const auto begin = std::chrono::steady_clock::now();
+  std::string words;
+  try
+    {
+      read();
+    }
+  catch (const InputError& error)
+    {
+      words = error.what();
+    }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, most);
+  EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+  return words;
+}
+
+std::string repeated(const std::string_view text, const std::size_t n)
+{
+  std::string all;
+  for (std::size_t k = 0; k < n; ++k)
+    all += text;
+  return all;
+}
+
+TEST(Limits, OfJsonAreThoseOfAllItsReaders)
+{
+  const TemporaryFolder folder;
+  const auto readers = [&](const std::string& text) {
+    std::vector<std::string> words;
+    const auto input = folder.write("input.json", text);
+    words.push_back(refusal([&] { read_input(input); }));
+    words.push_back(refusal([&] { read_reference(input, test_kinds()); }));
+    folder.write("summary.json", text);
+    words.push_back(refusal([&] { read_result_folder(folder.path(), test_kinds()); }));
+    folder.write("calibration.json", text);
+    words.push_back(refusal([&] { read_calibration(folder.path()); }));
+    return words;
+  };
+  constexpr std::size_t deep = 60000;
+  constexpr std::size_t many = 80000;
+  std::string names = "{";
+  for (std::size_t k = 0; k < many; ++k)
+    names += fmt::format("{}\"name {}\": 1", k > 0 ? "," : "", k);
+  names += "}";
+  for (const std::string& text :
+       {repeated("[", deep) + repeated("]", deep), repeated("{\"a\":", deep) + "1" + repeated("}", deep),
+        repeated("[{\"a\":", deep) + "1" + repeated("}]", deep), repeated("[", deep)})
+    for (const std::string& words : readers(text))
+      EXPECT_NE(words.find(".json: is nested more than 100 levels deep"), std::string::npos) << words;
+  for (const std::string& words : readers(names))
+    EXPECT_NE(words.find(".json: an object has more than 20000 names"), std::string::npos) << words;
+}
+
+TEST(Limits, OfXdmfAreItsDepth)
+{
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    folder.write("a.xdmf", text);
+    return refusal([&] { read_sample_fields(folder.path(), "a"); });
+  };
+  constexpr std::size_t deep = 50000;
+  for (const std::string& text : {repeated("<Grid>", deep) + repeated("</Grid>", deep), repeated("<Grid>", deep),
+                                  "<Xdmf><!--" + repeated("</Xdmf>", deep) + "-->" + repeated("<Grid a=\"b\">", deep)})
+    EXPECT_NE(read(text).find("a.xdmf: is nested more than 100 levels deep"), std::string::npos) << read(text);
+  // Many elements side by side are no depth; these name no time.
+  EXPECT_NE(read("<Xdmf>" + repeated("<Grid/>", deep) + "</Xdmf>").find("not XDMF"), std::string::npos);
+  EXPECT_NE(read("").find("not XDMF"), std::string::npos);
+}
+
+TEST(Limits, OfOutlinesAreTheirCorners)
+{
+  constexpr std::size_t many = 60000;
+  std::string corners;
+  for (std::size_t k = 0; k < many; ++k)
+    corners += fmt::format("{}{}, {}", k > 0 ? ", " : "", k % 40, 0.001 * double(k));
+  EXPECT_NE(refusal([&] {
+              parse_shapes("hole corners " + corners + " mm");
+            }).find("has 60000 points; there must be at most 10000"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              parse_shapes("closed flaw points " + corners + " mm");
+            }).find("has 60000 points; there must be at most 10000"),
+            std::string::npos);
+}
+} // namespace
+} // namespace feldspar
