@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace feldspar
 {
@@ -172,7 +173,22 @@ Json rves_in(const Json& test)
   return rves != test.end() && rves->is_array() ? *rves : Json::array();
 }
 
-PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
+void add_unless_empty(std::vector<std::string>& problems, std::string remark)
+{
+  if (!remark.empty())
+    problems.push_back(std::move(remark));
+}
+
+/// The rows of a table; a remark on them becomes a problem.
+template <typename Row>
+std::vector<Row> rows_of(TableRows<Row> table, std::vector<std::string>& problems)
+{
+  add_unless_empty(problems, std::move(table.remark));
+  return std::move(table.rows);
+}
+
+PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder,
+                  std::vector<std::string>& problems)
 {
   PointRve rve;
   try
@@ -189,8 +205,8 @@ PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesyste
                                    (folder.parent_path() / result_file::summary).string(), of.name));
     }
   const std::string name = name_of(rve, of.name);
-  rve.grains = read_grains(folder / (name + "_grains.csv"));
-  rve.cracks = read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind);
+  rve.grains = rows_of(read_grains(folder / (name + "_grains.csv")), problems);
+  rve.cracks = rows_of(read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind), problems);
   return rve;
 }
 
@@ -268,7 +284,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       const std::string table = test.name + ".csv";
       if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
         continue; // it could not be made
-      try_to(problems, [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(problems, [&] {
+        test.record.curve = rows_of(read_curve(folder / result_file::curves / table, test.record.kind), problems);
+      });
       if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
             return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
           }))
@@ -278,7 +296,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
             problems.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
         }
       if (test.record.body == TestBody::grains)
-        try_to(problems, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
+        try_to(problems, [&] {
+          test.appearance.grains_at_end = rows_of(read_grains(folder / result_file::grains / table), problems);
+        });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
         try_to(problems, [&] { test.appearance.fields = read_sample_fields(folder / result_file::fields, test.name); });
@@ -287,8 +307,10 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
     for (auto& test : tests)
       if (entry.is_object() && test.name == text_of(entry, "name"))
         for (const auto& rve : rves_in(entry))
-          try_to(problems, [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points)); });
-  try_to(problems, [&] { read_cracks(folder / result_file::cracks, tests); });
+          try_to(problems, [&] {
+            test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points, problems));
+          });
+  try_to(problems, [&] { add_unless_empty(problems, read_cracks(folder / result_file::cracks, tests)); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);
   const std::string label = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
