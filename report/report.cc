@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -80,9 +81,11 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
           tests.push_back(&test);
       findings.repeats = remarks_on_repeats(tests);
     }
+  const bool any_flaws =
+    std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });
   for (const auto& series : all)
-    findings.comparisons.push_back(
-      compare(series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures()));
+    findings.comparisons.push_back(compare(
+      series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures(), any_flaws));
   return findings;
 }
 

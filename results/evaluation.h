@@ -55,7 +55,7 @@ struct TestResults
   Figure fracture_energy;        ///< work of fracture over the ligament [J/m²]
   Figure normal_stress_at_peak;  ///< on a plane that is sheared, compression positive [Pa]
   Figure dilation_angle;         ///< of a plane that is sheared, from the peak to the end [rad]
-  /// Of the first cracks of a disc that is split, the share at the pads, where the disc is not pulled but crushed.
+  /// Of the first cracks of a disc that is split, the share at the pads, where tension is low and the disc is crushed.
   Figure first_cracks_at_pads_share;
   Figure n_fragments;            ///< of two grains or more, at the end
   Figure largest_fragment_share; ///< of the grains' volume

@@ -52,7 +52,6 @@ struct TestKind
   bool runs_on_finite_elements = false; ///< a sample that is pulled or pressed at its ends
   bool follows_stages = false;          ///< of a table, back and forth
   bool has_notch = false;               ///< and so gives a fracture toughness
-  bool splits_disc = false;             ///< that is loaded at both ends of its diameter along the axis
   int strength_decimals = 1;            ///< of the strength in MPa in tables
   int duration_rank = 0; ///< tests of the higher rank last longer; in one rank those of the higher pressure
 

@@ -362,6 +362,15 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
               fmt::format("set cblabel {}\n", gnuplot_text(with_unit(property.title, property.unit))) + plots + "\n"};
 }
 
+/// Named for what they are: of a body with flaws the highest stress is a nominal one.
+std::vector<Property> properties_of(const std::vector<Series>& all)
+{
+  std::vector<Property> named(properties.begin(), properties.end());
+  if (std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); }))
+    named.front().title = "highest nominal stress";
+  return named;
+}
+
 std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Abscissa>& over)
 {
   if (over.size() != 2)
@@ -372,7 +381,7 @@ std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Absc
       if (std::none_of(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, group); }))
         groups.push_back(group);
   std::vector<Picture> pictures;
-  for (const Property& property : properties)
+  for (const Property& property : properties_of(all))
     for (const TestGroup& group : shown(groups))
       if (auto map = map_of(all, over, property, group))
         pictures.push_back(std::move(*map));
@@ -385,7 +394,7 @@ std::vector<Picture> study_pictures(const std::vector<Series>& all)
   std::vector<Picture> pictures;
   const std::vector<Abscissa> over_all = abscissas(all);
   for (const Abscissa& over : over_all)
-    for (const Property& property : properties)
+    for (const Property& property : properties_of(all))
       for (const Selection& selection : selections(all, over, property))
         pictures.push_back(picture_of(selection, over, property));
   append(pictures, maps(all, over_all));

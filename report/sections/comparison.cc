@@ -185,7 +185,7 @@ std::optional<bool> ComparisonRow::surely_in_range() const
 }
 
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
-                                   const ElasticFigures& elastic)
+                                   const ElasticFigures& elastic, const bool beside_flaws)
 {
   const auto& pulled = gives_tensile_strength;
   const auto& crushed = is_uniaxial_compression;
@@ -207,7 +207,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
     rows.push_back(row);
   };
 
-  const bool flawed = any_has_flaws(tests);
+  const bool flawed = beside_flaws || any_has_flaws(tests);
   const auto strength = by_seed(tests, crushed, &TestResults::peak_stress);
   const auto tensile = by_seed(tests, pulled, &TestResults::peak_stress);
   std::map<std::uint64_t, double> ratio;

@@ -141,7 +141,6 @@ constinit const LaboratoryProtocol brazilian = complete({
            .channel = {&CurveSample::axial_stress, "splitting stress 2P/(πDt)", "shortening over diameter"},
            .peak_rule = PeakRule::first_before_a_fall,
            .envelope_role = EnvelopeRole::indirect_tension,
-           .splits_disc = true,
            .strength_decimals = 2},
   .strain_rate = &TestParameters::brazilian_strain_rate,
   .forecast = {PeakForecast::With::tension, 4.0},
