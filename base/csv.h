@@ -34,6 +34,9 @@ public:
   /// The number of the row's line in the file; 1 is the header.
   std::size_t line_of_row() const { return line_number; }
 
+  /// The name of a column.
+  std::string_view name_of(std::size_t column) const { return columns[column]; }
+
   /// A cell of the row, trimmed.
   std::string_view text(std::size_t column) const { return cells[column]; }
 

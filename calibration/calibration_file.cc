@@ -164,7 +164,7 @@ void write_calibration(const Provenance& made_by, const CalibrationOutcome& outc
   if (outcome.modulus_of_specimens_over_cells)
     json["modulus_of_specimens_over_cells"] = *outcome.modulus_of_specimens_over_cells;
   json["n_steps"] = outcome.n_steps;
-  write_whole_file(folder / calibration_file::answer, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(folder / calibration_file::answer, json_text(json));
   write_design(model, tested, folder);
   if (!outcome.posterior.samples.empty())
     write_whole_file(folder / calibration_file::posterior, posterior_table(outcome, model));

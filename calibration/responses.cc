@@ -34,7 +34,7 @@ std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(co
 {
   return [of, which](const std::vector<FinishedTest>& of_specimen) -> std::optional<double> {
     for (const FinishedTest& test : of_specimen)
-      if (test.was_made() && test.record.kind == of.kind && test.record.confining_pressure == of.confining_pressure)
+      if (test.counts() && test.record.kind == of.kind && test.record.confining_pressure == of.confining_pressure)
         return (test.results.*which).value;
     return std::nullopt;
   };

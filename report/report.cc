@@ -7,9 +7,11 @@
 #include "report/sections/sections.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"
+#include "results/runs/repeats.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -17,19 +19,34 @@ namespace feldspar
 {
 namespace
 {
+/// Numbers a name that is taken, by a pattern of the name and the number.
+std::string made_unique(const std::string& name, const char* pattern, std::set<std::string>& taken)
+{
+  std::string unique = name;
+  for (int n = 2; !taken.insert(unique).second; ++n)
+    unique = fmt::format(fmt::runtime(pattern), name, n);
+  return unique;
+}
+
 /// Labels are names of folders and files, which may be anything: as they are shown, on one line and not long. They tell
-/// series apart; the same ones are numbered.
+/// series apart; the same ones are numbered. So are the names of measured curves, by which their pictures are called: files
+/// of several folders may have one name, or that of a test of the model.
 std::vector<Series> with_labels_to_show(std::vector<Series> all)
 {
   constexpr std::size_t most_characters = 120; // a variant of two entries
-  std::set<std::string> taken;
+  std::set<std::string> labels;
+  std::set<std::string> names;
   for (auto& series : all)
     {
-      const std::string label = excerpt(series.label, most_characters);
-      series.label = label;
-      for (int n = 2; !taken.insert(series.label).second; ++n)
-        series.label = fmt::format("{} ({})", label, n);
+      series.label = made_unique(excerpt(series.label, most_characters), "{} ({})", labels);
+      if (series.kind != SeriesKind::laboratory_curve)
+        for (const auto& test : series.tests)
+          names.insert(test.name);
     }
+  for (auto& series : all)
+    if (series.kind == SeriesKind::laboratory_curve)
+      for (auto& test : series.tests)
+        test.name = made_unique(test.name, "{}_{}", names);
   return all;
 }
 
@@ -54,10 +71,21 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
                     input.one_folder,
                     {},
                     input.envelopes,
+                    {},
                     input.calibration ? &*input.calibration : nullptr};
+  if (input.one_folder) // of several folders the same variant may come twice
+    {
+      std::vector<const FinishedTest*> tests;
+      for (const auto& series : all)
+        for (const auto& test : series.tests)
+          tests.push_back(&test);
+      findings.repeats = remarks_on_repeats(tests);
+    }
+  const bool any_flaws =
+    std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });
   for (const auto& series : all)
-    findings.comparisons.push_back(
-      compare(series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures()));
+    findings.comparisons.push_back(compare(
+      series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures(), any_flaws));
   return findings;
 }
 
@@ -166,6 +194,7 @@ std::vector<std::string> write_report(const ReportInput& input, const std::files
     missing.insert(missing.end(), series.problems.begin(), series.problems.end());
   for (const std::string& remark : gap_remarks(all))
     missing.push_back(remark);
+  append(missing, findings.repeats);
   for (const auto& problem : {input.reference_problem, not_drawn})
     if (!problem.empty())
       missing.push_back(problem);

@@ -52,7 +52,8 @@ constexpr Figure TestResults::*figures_of_a_peak[] = {&TestResults::peak_stress,
                                                       &TestResults::fracture_toughness,
                                                       &TestResults::fracture_energy,
                                                       &TestResults::normal_stress_at_peak,
-                                                      &TestResults::dilation_angle};
+                                                      &TestResults::dilation_angle,
+                                                      &TestResults::first_cracks_at_pads_share};
 
 /// The rising branch of a curve, positive in the sense of the test.
 class RisingBranch
@@ -352,6 +353,35 @@ void evaluate_shear(const TestRecord& record, const RisingBranch& branch, TestRe
                                             : known(std::atan(paired_moments(shear, opening).slope()));
 }
 
+/// Where a disc that is to be split breaks first. Hondros' tension across the loaded diameter, of a disc loaded over 20° at
+/// either end, is at least half of that in the middle up to 0.68 of the radius (docs/theory.md §4.4). Single grains at a pad
+/// may crack before the disc does, so that the first third of the cracks up to the peak counts.
+void evaluate_splitting(const TestRecord& record, const CurveSample& at_peak, TestResults& results)
+{
+  constexpr double middle_part = 0.68;
+  constexpr std::ptrdiff_t share_of_first = 3;
+  constexpr std::ptrdiff_t fewest = 8; // of a brittle disc some of them come after its peak
+  if (record.kind.peak_rule != PeakRule::first_before_a_fall) // the rule of discs
+    {
+      results.first_cracks_at_pads_share = unknown("the test splits no disc");
+      return;
+    }
+  const auto up_to_peak = std::count_if(record.cracks.begin(), record.cracks.end(),
+                                        [&](const Crack& crack) { return crack.step <= at_peak.step; });
+  const auto n = std::min(std::ptrdiff_t(record.cracks.size()), std::max(fewest, up_to_peak / share_of_first));
+  if (n == 0)
+    {
+      results.first_cracks_at_pads_share = unknown("no crack");
+      return;
+    }
+  const auto axis = std::size_t(record.dimension()) - 1;
+  const double radius = 0.5 * record.size[axis];
+  const auto n_at_pads = std::count_if(record.cracks.begin(), record.cracks.begin() + n, [&](const Crack& crack) {
+    return std::abs(crack.centroid[axis] - radius) > middle_part * radius;
+  });
+  results.first_cracks_at_pads_share = known(double(n_at_pads) / double(n));
+}
+
 void evaluate_fragments(const TestRecord& record, TestResults& results)
 {
   results.n_fragments = results.largest_fragment_share = unknown("there are no grains to be counted");
@@ -462,6 +492,7 @@ TestResults evaluate(const TestRecord& record)
   evaluate_trust(record, branch, results);
   evaluate_toughness(record, branch, results);
   evaluate_shear(record, branch, results);
+  evaluate_splitting(record, at_peak, results);
   return results;
 }
 } // namespace feldspar

@@ -17,6 +17,9 @@ struct Figure
   std::string reason;
 };
 
+/// A splitting test is valid as long as no more than this share of the first cracks lies at the pads (docs/theory.md §4.4).
+inline constexpr double most_first_cracks_at_pads = 0.5;
+
 /// The results of a test; stresses and strains positive in the sense of the test.
 struct TestResults
 {
@@ -52,8 +55,13 @@ struct TestResults
   Figure fracture_energy;        ///< work of fracture over the ligament [J/m²]
   Figure normal_stress_at_peak;  ///< on a plane that is sheared, compression positive [Pa]
   Figure dilation_angle;         ///< of a plane that is sheared, from the peak to the end [rad]
+  /// Of the first cracks of a disc that is split, the share at the pads, where tension is low and the disc is crushed.
+  Figure first_cracks_at_pads_share;
   Figure n_fragments;            ///< of two grains or more, at the end
   Figure largest_fragment_share; ///< of the grains' volume
+
+  /// Whether the test measured what its kind measures: a disc that breaks at its pads is not split.
+  bool is_valid() const { return !(first_cracks_at_pads_share.value.value_or(0.0) > most_first_cracks_at_pads); }
 };
 
 /// A stage of a test, read off its curve; compression positive.

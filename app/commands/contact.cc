@@ -122,12 +122,17 @@ FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std:
   return motion;
 }
 
+/// Throws InputError where a number is not finite.
 template <int dim, typename Update, typename StressOf>
 std::string csv_row(const FaceResultants<dim, double>& sum, const Segments<Update>& segments, const StressOf& stress_of)
 {
-  // Adding zero turns -0 into 0.
-  std::string row = fmt::format("{}", sum.normal_force + 0.0);
-  const auto append = [&row](const double value) { fmt::format_to(std::back_inserter(row), ",{}", value + 0.0); };
+  std::string row;
+  const auto append = [&row](const double value) {
+    if (!std::isfinite(value))
+      throw InputError("the response is beyond the range of numbers: a displacement, a rotation or a stiffness is far too large");
+    fmt::format_to(std::back_inserter(row), "{}{}", row.empty() ? "" : ",", value + 0.0); // adding zero turns -0 into 0
+  };
+  append(sum.normal_force);
   for (const double force : sum.shear_force)
     append(force);
   for (const double moment : sum.moment)
@@ -152,13 +157,22 @@ std::string response(const Law& law, const typename Law::Parameters& joint, cons
   Segments<typename Law::template Update<double>> segments(joint, elements.size());
   std::string table = csv_header<dim>(elements.size());
   std::vector<double> before(dim + n_rotations<dim>, 0.0);
+  std::size_t n_rows = 0;
   for (const std::vector<double>& now : path)
     {
+      ++n_rows;
       const auto motion = row_motion<dim>(before, now);
       const auto sum = law.template update<double>(face, elements, motion, segments);
-      table += csv_row<dim>(sum, segments, [&](const std::size_t i) {
-        return normal_stress(law, face, elements[i], motion, segments.updates[i]);
-      });
+      try
+        {
+          table += csv_row<dim>(sum, segments, [&](const std::size_t i) {
+            return normal_stress(law, face, elements[i], motion, segments.updates[i]);
+          });
+        }
+      catch (const InputError& error)
+        {
+          throw InputError(fmt::format("{}: row {} below the header: {}", input.contact.path_file, n_rows, error.what()));
+        }
       before = now;
     }
   return table;

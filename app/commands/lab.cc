@@ -69,7 +69,7 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
       if (!variant.label.empty())
         text += fmt::format("{}\n", variant.label);
       const auto reference = reference_of(variant.input);
-      text += as_text(compare(of_variant, reference), reference) + "\n";
+      text += as_text(compare(of_variant, reference, {}, any_has_flaws(tests)), reference) + "\n";
       if (const Table stages = stage_table(of_variant); !stages.rows.empty())
         text += as_text(stages) + "\n";
       if (const auto found = envelopes.find(variant.label);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -98,6 +99,41 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
                     file.string(), pressures[k] / 1e6, k + 1, mean / 1e6));
   return std::round(mean); // to the pascal, as sums are not exact
 }
+/// Counts the strains of a curve from where its load begins, and drops the rows before: an extensometer has no zero of its
+/// own, and a displacement gauge sees platens come to the specimen. Returns a sentence on what was changed or could not be,
+/// without its full stop; empty if nothing was.
+std::string count_strains_from_first_load(TestRecord& record, const std::size_t peak, const std::string& file)
+{
+  constexpr double no_load = 1e-3;      // of the peak deviator: such a row changes a secant modulus by 0.2 %
+  constexpr double under_load = 1e-2;   // of the same: beyond it strains may have been counted from before
+  constexpr double least_shift = 1e-9;  // of what is announced
+  auto& curve = record.curve;
+  const double at_peak = record.kind.deviator(curve[peak], record.confining_pressure);
+  const auto share = [&](const std::size_t row) {
+    return record.kind.deviator(curve[row], record.confining_pressure) / at_peak;
+  };
+  if (share(0) > under_load)
+    return fmt::format("{}: the first row is under {:.1f} % of the peak load already; strains are taken as they stand, "
+                       "and strain at the peak, secant modulus and secant Poisson's ratio rest on their zero",
+                       file, 100.0 * share(0));
+  std::size_t start = 0;
+  while (share(start + 1) <= no_load)
+    ++start;
+  const CurveSample zero = curve[start];
+  curve.erase(curve.begin(), curve.begin() + std::ptrdiff_t(start));
+  for (CurveSample& row : curve)
+    {
+      row.axial_strain -= zero.axial_strain;
+      row.gauge_axial_strain -= zero.gauge_axial_strain;
+      row.gauge_lateral_strain -= zero.gauge_lateral_strain;
+      row.gauge_volumetric_strain -= zero.gauge_volumetric_strain;
+    }
+  if (std::max(std::abs(zero.axial_strain), std::abs(zero.gauge_lateral_strain)) < least_shift)
+    return "";
+  return fmt::format("{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
+                     "{:.4g} % of lateral strain were taken off every row",
+                     file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain);
+}
 } // namespace
 
 Series read_laboratory_curve(const std::filesystem::path& file)
@@ -111,7 +147,14 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   std::vector<double> pressures;
   while (table.next())
     {
-      const auto value = [&](const std::size_t q) { return columns[q].unit * table.number(columns[q].column); };
+      const auto value = [&](const std::size_t q) {
+        const double in_si = columns[q].unit * table.number(columns[q].column);
+        if (!std::isfinite(in_si))
+          throw InputError(fmt::format("{}:{}: {}: {} is beyond the range of numbers", file.string(),
+                                       table.line_of_row(), quantities[q].name,
+                                       in_quotes(table.text(columns[q].column))));
+        return in_si;
+      };
       CurveSample sample; // tension positive
       sample.step = test.record.curve.size();
       sample.axial_strain = sample.gauge_axial_strain = -value(0);
@@ -152,6 +195,8 @@ Series read_laboratory_curve(const std::filesystem::path& file)
         break;
       }
 
+  const std::string on_strains = count_strains_from_first_load(test.record, *peak, printable(file.string()));
+
   test.results = evaluate(test.record);
   const Figure not_counted{std::nullopt, "a measured curve counts no cracks"};
   test.results.crack_initiation_stress = test.results.shear_share_at_peak = not_counted;
@@ -161,6 +206,9 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   const Figure not_known{std::nullopt, "not known of a measured curve"};
   test.results.kinetic_to_strain_energy = test.results.unbalanced_force_ratio = not_known;
   test.results.end_stress_difference = test.results.p_wave_transits_to_peak = not_known;
-  return {file.filename().string(), SeriesKind::laboratory_curve, {}, {test}, {}};
+  Series series{file.filename().string(), SeriesKind::laboratory_curve, {}, {test}, {}};
+  if (!on_strains.empty())
+    series.problems.push_back(on_strains);
+  return series;
 }
 } // namespace feldspar

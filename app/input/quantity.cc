@@ -8,6 +8,7 @@
 
 #include <array>
 #include <clocale>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -170,7 +171,10 @@ double to_si(const double value, const std::string_view unit, const Dimension& d
   if (!are_of_one_dimension(from.get(), si.get()))
     throw InputError(fmt::format("{} is not the unit of {}; {}", in_quotes(unit), dimension.name, advice(dimension)));
   const Owner<cv_converter> converter(ut_get_converter(from.get(), si.get()));
-  return cv_convert_double(converter.get(), value);
+  const double in_si = cv_convert_double(converter.get(), value);
+  if (std::isfinite(value) && !std::isfinite(in_si))
+    throw InputError(fmt::format("{:g} {} is beyond the range of numbers; {}", value, unit, advice(dimension)));
+  return in_si;
 }
 
 double parse_quantity(const std::string_view text, const Dimension& dimension)

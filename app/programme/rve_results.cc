@@ -215,7 +215,7 @@ void write_results(const Provenance& provenance, const std::vector<FinishedRve<d
   json["rves"] = Json::array();
   for (const auto& rve : rves)
     json["rves"].push_back(as_json(rve));
-  write_whole_file(folder / "summary.json", json.dump(2) + "\n");
+  write_whole_file(folder / "summary.json", json_text(json));
 }
 
 template <int dim>

@@ -48,7 +48,7 @@ std::string json_of(const ChartLine& line)
     fmt::format(R"({{"kind":"{}","label":{},"goes_with":{},"colour":{},"width":{},"dashes":{},"mark":{},)"
                 R"("right":{},"points":[)",
                 name(line.kind), live::text(line.label), live::text(line.goes_with), live::text(line.colour),
-                line.width, line.dashes, line.mark, line.to_the_right);
+                live::number(line.width), line.dashes, line.mark, line.to_the_right);
   for (const auto& [x, y] : line.points)
     result +=
       std::isfinite(x) && std::isfinite(y) ? fmt::format("[{},{}],", live::number(x), live::number(y)) : "null,";

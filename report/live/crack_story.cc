@@ -44,8 +44,9 @@ std::string crack_story(const FinishedTest& test)
   std::string circles;
   const auto colours = group_colours(grains);
   for (std::size_t i = 0; i < grains.size(); ++i)
-    fmt::format_to(std::back_inserter(circles), "{}[{:.4g},{:.4g},{:.3g}{}]", circles.empty() ? "" : ",",
-                   grains[i].start[0] / milli, grains[i].start[axis] / milli, grains[i].radius / milli,
+    fmt::format_to(std::back_inserter(circles), "{}[{},{},{}{}]", circles.empty() ? "" : ",",
+                   live::number(grains[i].start[0] / milli, 4), live::number(grains[i].start[axis] / milli, 4),
+                   live::number(grains[i].radius / milli, 3),
                    grains[i].mineral == 0 ? "" : fmt::format(R"(,"#{:06x}")", colours[i]));
   std::string cracks;
   for (const auto& crack : record.cracks)
@@ -53,17 +54,19 @@ std::string crack_story(const FinishedTest& test)
       const auto row =
         std::lower_bound(kept.begin(), kept.end() - 1, crack.step,
                          [](const CurveSample* one, const std::uint64_t step) { return one->step < step; });
-      fmt::format_to(std::back_inserter(cracks), "{}[{:.4g},{:.4g},{:.3g},{:.3g},{},{}]", cracks.empty() ? "" : ",",
-                     crack.centroid[0] / milli, crack.centroid[axis] / milli, -crack.normal[axis] * crack.size / milli,
-                     crack.normal[0] * crack.size / milli, crack.kind == CrackKind::shear ? 1 : 0, row - kept.begin());
+      fmt::format_to(std::back_inserter(cracks), "{}[{},{},{},{},{},{}]", cracks.empty() ? "" : ",",
+                     live::number(crack.centroid[0] / milli, 4), live::number(crack.centroid[axis] / milli, 4),
+                     live::number(-crack.normal[axis] * crack.size / milli, 3),
+                     live::number(crack.normal[0] * crack.size / milli, 3), crack.kind == CrackKind::shear ? 1 : 0,
+                     row - kept.begin());
     }
   std::string flaws;
   for (const auto& flaw : test.appearance.flaws)
     {
       std::string outline;
       for (const auto& point : flaw.outline)
-        fmt::format_to(std::back_inserter(outline), "{}[{:.4g},{:.4g}]", outline.empty() ? "" : ",", point[0] / milli,
-                       point[axis] / milli);
+        fmt::format_to(std::back_inserter(outline), "{}[{},{}]", outline.empty() ? "" : ",",
+                       live::number(point[0] / milli, 4), live::number(point[axis] / milli, 4));
       fmt::format_to(std::back_inserter(flaws), R"({}{{"open":{},"outline":[{}]}})", flaws.empty() ? "" : ",",
                      flaw.open, outline);
     }

@@ -35,7 +35,7 @@
 
   // Black is the rock's colour and turns with the page's.
   const shade = colour => (colour === "#000000" ? theme("--text") : colour === "#332288" && dark.matches ? "#8f83e0" : colour);
-  const digits = value => (value === 0 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−"));
+  const digits = value => (value === null ? "–" : value === 0 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−"));
 
   function dataset(line) {
     const colour = shade(line.colour);

@@ -60,7 +60,9 @@ std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std
   std::vector<Picture> pictures;
   pictures.push_back(
     {.name = "envelope" + of_series,
-     .caption = "Strength envelope" + (all.size() > 1 ? " of " + all[which].label : std::string()),
+     .caption = (envelopes.data.of_flawed_body ? std::string("Envelope of highest nominal stresses")
+                                               : std::string("Strength envelope")) +
+                (all.size() > 1 ? " of " + all[which].label : std::string()),
      .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
                     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
      .width = plotted.width,

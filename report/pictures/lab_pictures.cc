@@ -58,6 +58,20 @@ std::string map_data(const FinishedTest& test)
   return text + flaw_outlines(test, test.name).data;
 }
 
+/// The curve of a measurement: stress alone.
+std::string measured_plot(const FinishedTest& test, const std::string& title)
+{
+  return fmt::format("set title {} noenhanced\n"
+                     "set xlabel '{} [%]'\n"
+                     "set ylabel '{} [MPa]'\n"
+                     "set xtics nomirror; set ytics nomirror; set border 3\n"
+                     "set xrange [*<0:*]; set yrange [*<0:*]\n"
+                     "unset key\n"
+                     "plot {} using 1:2 with lines lw 2.5 lc rgb '{}'\n",
+                     gnuplot_text(title), test.record.kind.channel.strain_name, test.record.kind.channel.name,
+                     block("curve", test), black);
+}
+
 std::string curve_plot(const FinishedTest& test)
 {
   const auto& last = test.record.curve.back();
@@ -128,15 +142,16 @@ std::vector<Picture> single_test_pictures(const Series& series)
     {
       if (test.record.curve.empty())
         continue; // it could not be made, or its curve is missing
-      const std::string title = title_of(test);
+      const bool is_measured = series.kind == SeriesKind::laboratory_curve;
+      const std::string title = is_measured ? fmt::format("{}: {}", series.label, title_of(test)) : title_of(test);
       pictures.push_back({.name = test.name + "_stress_strain",
                           .caption = title,
-                          .alternative = fmt::format("Stress against {} and count of cracks, {}.",
-                                                     test.record.kind.channel.strain_name, title),
+                          .alternative = fmt::format("Stress against {}{}, {}.", test.record.kind.channel.strain_name,
+                                                     is_measured ? "" : " and count of cracks", title),
                           .width = 900,
                           .height = 650,
                           .raster = true,
-                          .script = curve_data(test) + curve_plot(test)});
+                          .script = curve_data(test) + (is_measured ? measured_plot(test, title) : curve_plot(test))});
       for (auto& map : crack_map(test, title))
         pictures.push_back(std::move(map));
     }

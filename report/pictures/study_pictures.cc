@@ -1,5 +1,6 @@
 #include "report/pictures/study_pictures.h"
 
+#include "base/append.h"
 #include "report/pictures/plane_plot.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -156,7 +158,7 @@ std::vector<Line> lines_of(const std::vector<Series>& all, const Abscissa& over,
       for (const FinishedTest* const test : group.tests)
         {
           const Figure& figure = test->results.*property.figure;
-          if (!test->was_made() || !figure.value)
+          if (!test->counts() || !figure.value)
             continue;
           std::optional<double> value;
           std::string others;
@@ -281,15 +283,121 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const Property&
                                    plotted.columns().set_up(width) + "\n"),
           .live = plotted.json()};
 }
+
+/// Results over two entries.
+using Cells = std::map<std::array<double, 2>, std::vector<double>>;
+
+/// Of the tests of one kind and pressure.
+Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over, const Property& property,
+               const TestGroup& wanted)
+{
+  Cells cells;
+  for (const Series& series : all)
+    for (const FinishedTest& test : series.tests)
+      {
+        const Figure& figure = test.results.*property.figure;
+        if (!test.counts() || !figure.value || !same_conditions(group_of(test.record), wanted))
+          continue;
+        std::array<std::optional<double>, 2> place;
+        for (const VariantSetting& setting : test.settings)
+          for (std::size_t c = 0; c < 2; ++c)
+            if (setting.entry == over[c].varied.entry)
+              place[c] = number_of(setting)->value;
+        if (place[0] && place[1])
+          cells[{*place[0], *place[1]}].push_back(*figure.value / property.scale);
+      }
+  return cells;
+}
+
+/// From halfway to the value before to halfway to the next; at the ends as far outwards as inwards.
+std::array<double, 2> cell_about(const double value, const std::set<double>& values)
+{
+  const auto at = values.find(value);
+  const auto next = std::next(at);
+  const double below = at == values.begin() ? *next - value : value - *std::prev(at);
+  const double above = next == values.end() ? below : *next - value;
+  return {value - 0.5 * below, value + 0.5 * above};
+}
+
+/// A map of a result over two entries: a grid as fields with their means, other designs as points.
+std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<Abscissa>& over,
+                              const Property& property, const TestGroup& group)
+{
+  constexpr std::size_t fewest = 4;       // less is no map
+  constexpr std::size_t most_labels = 80; // beyond them numbers run into each other
+  const Cells cells = cells_of(all, over, property, group);
+  std::array<std::set<double>, 2> values;
+  for (const auto& [place, results] : cells)
+    for (std::size_t c = 0; c < 2; ++c)
+      values[c].insert(place[c]);
+  if (cells.size() < fewest || values[0].size() < 2 || values[1].size() < 2)
+    return std::nullopt;
+  const bool is_grid = cells.size() == values[0].size() * values[1].size();
+  std::string rows;
+  for (const auto& [place, results] : cells)
+    {
+      const auto [left, right] = cell_about(place[0], values[0]);
+      const auto [bottom, top] = cell_about(place[1], values[1]);
+      rows += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.5g} {:.4g}\n", place[0], place[1], left, right,
+                          bottom, top, statistics(results)->mean, statistics(results)->mean);
+    }
+  const std::string& x = over[0].varied.entry;
+  const std::string& y = over[1].varied.entry;
+  std::string plots = is_grid ? "plot $map using 1:2:3:4:5:6:7 with boxxyerror fill solid noborder lc palette notitle"
+                              : "plot $map using 1:2:7 with points pt 7 ps 2.4 lc palette notitle";
+  if (cells.size() <= most_labels)
+    plots += fmt::format(", $map using 1:2:8 with labels{} font ',11' notitle", is_grid ? "" : " offset 0,1");
+  return Picture{
+    .name = fmt::format("study_map_{}_{}_{}_{}", file_name(x), file_name(y), property.name, group.name()),
+    .caption = fmt::format("{}{}, {}, over {} and {}: mean over the seeds", char(std::toupper(property.title.front())),
+                           property.title.substr(1), group.title(), x, y),
+    .alternative = fmt::format("A map of the {} over {} and {}; the numbers are in the table of the comparison.",
+                               property.title, x, y),
+    .width = 660,
+    .height = 480,
+    .script = fmt::format("$map << EOD\n{}EOD\n", rows) +
+              frame(with_unit(x, over[0].varied.unit), with_unit(y, over[1].varied.unit)) +
+              "unset grid\nset palette defined (0 '#f7fbff', 1 '#c6dbef', 2 '#6baed6')\nset offsets graph 0.01, graph "
+              "0.01, graph 0.01, graph 0.01\n" +
+              fmt::format("set cblabel {}\n", gnuplot_text(with_unit(property.title, property.unit))) + plots + "\n"};
+}
+
+/// Named for what they are: of a body with flaws the highest stress is a nominal one.
+std::vector<Property> properties_of(const std::vector<Series>& all)
+{
+  std::vector<Property> named(properties.begin(), properties.end());
+  if (std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); }))
+    named.front().title = "highest nominal stress";
+  return named;
+}
+
+std::vector<Picture> maps(const std::vector<Series>& all, const std::vector<Abscissa>& over)
+{
+  if (over.size() != 2)
+    return {};
+  std::vector<TestGroup> groups;
+  for (const Series& series : all)
+    for (const TestGroup& group : groups_of(series))
+      if (std::none_of(groups.begin(), groups.end(), [&](const TestGroup& one) { return same_conditions(one, group); }))
+        groups.push_back(group);
+  std::vector<Picture> pictures;
+  for (const Property& property : properties_of(all))
+    for (const TestGroup& group : shown(groups))
+      if (auto map = map_of(all, over, property, group))
+        pictures.push_back(std::move(*map));
+  return pictures;
+}
 } // namespace
 
 std::vector<Picture> study_pictures(const std::vector<Series>& all)
 {
   std::vector<Picture> pictures;
-  for (const Abscissa& over : abscissas(all))
-    for (const Property& property : properties)
-      for (const Selection& shown : selections(all, over, property))
-        pictures.push_back(picture_of(shown, over, property));
+  const std::vector<Abscissa> over_all = abscissas(all);
+  for (const Abscissa& over : over_all)
+    for (const Property& property : properties_of(all))
+      for (const Selection& selection : selections(all, over, property))
+        pictures.push_back(picture_of(selection, over, property));
+  append(pictures, maps(all, over_all));
   return pictures;
 }
 } // namespace feldspar

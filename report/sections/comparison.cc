@@ -33,7 +33,7 @@ std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, 
 {
   std::map<std::uint64_t, double> values;
   for (const auto& test : tests)
-    if (is_wanted(test.record) && (test.results.*figure).value)
+    if (test.results.is_valid() && is_wanted(test.record) && (test.results.*figure).value)
       values[test.record.seed] = *(test.results.*figure).value;
   return values;
 }
@@ -80,9 +80,16 @@ std::map<std::uint64_t, double> rock_constants_by_seed(const std::vector<Finishe
 
 std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
 
-std::string strength_row(const TestGroup& group)
+/// What the highest stress of a test is called. A notched body has its own name of it.
+std::string strength_name(const TestKind& kind, const bool flawed)
 {
-  std::string text(group.kind.strength);
+  return !flawed || kind.has_notch || kind.follows_stages ? std::string(kind.strength)
+                                                          : fmt::format("{}, highest nominal stress", kind.title);
+}
+
+std::string strength_row(const TestGroup& group, const bool flawed)
+{
+  std::string text = strength_name(group.kind, flawed);
   if (group.kind.takes_confining_pressure)
     text += fmt::format(" at {} MPa confinement", megapascals(group.confining_pressure));
   if (group.intermediate_stress)
@@ -178,7 +185,7 @@ std::optional<bool> ComparisonRow::surely_in_range() const
 }
 
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
-                                   const ElasticFigures& elastic)
+                                   const ElasticFigures& elastic, const bool beside_flaws)
 {
   const auto& pulled = gives_tensile_strength;
   const auto& crushed = is_uniaxial_compression;
@@ -200,6 +207,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
     rows.push_back(row);
   };
 
+  const bool flawed = beside_flaws || any_has_flaws(tests);
   const auto strength = by_seed(tests, crushed, &TestResults::peak_stress);
   const auto tensile = by_seed(tests, pulled, &TestResults::peak_stress);
   std::map<std::uint64_t, double> ratio;
@@ -207,11 +215,18 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
     if (strength.contains(seed))
       ratio[seed] = value / strength.at(seed);
 
-  add("tensile strength", "MPa", 2, 1e6, tensile, "tensile_strength_MPa");
+  const auto name_of_strength = [&](bool (&is_wanted)(const TestRecord&), const char* otherwise) {
+    const auto test =
+      std::find_if(tests.begin(), tests.end(), [&](const FinishedTest& one) { return is_wanted(one.record); });
+    return test == tests.end() ? std::string(otherwise) : strength_name(test->record.kind, flawed);
+  };
+  add(name_of_strength(pulled, "tensile strength"), "MPa", 2, 1e6, tensile, "tensile_strength_MPa");
   add("strain at tensile peak", "1e-4", 2, 1e-4, by_seed(tests, pulled, &TestResults::strain_at_peak),
       "strain_at_tensile_peak", 1e-4);
-  add("uniaxial compressive strength", "MPa", 1, 1e6, strength, "uniaxial_compressive_strength_MPa");
-  add("tensile over compressive strength", "", 3, 1.0, ratio, "tension_to_compression");
+  add(name_of_strength(crushed, "uniaxial compressive strength"), "MPa", 1, 1e6, strength,
+      "uniaxial_compressive_strength_MPa");
+  add(flawed ? "highest nominal stresses, tension over compression" : "tensile over compressive strength", "", 3, 1.0,
+      ratio, "tension_to_compression");
   add("strain at peak, compression", "1e-3", 2, 1e-3, by_seed(tests, crushed, &TestResults::strain_at_peak),
       "strain_at_compressive_peak", 1e-3);
   const auto add_modulus = [&](const char* property, const char* which, Figure TestResults::*figure) {
@@ -253,7 +268,8 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   // Then the strengths by the other tests, each under each of its pressures.
   std::vector<std::pair<TestGroup, std::map<std::uint64_t, double>>> others;
   for (const auto& test : tests)
-    if (!gives_tensile_strength(test.record) && !is_uniaxial_compression(test.record) && test.results.peak_stress.value)
+    if (!gives_tensile_strength(test.record) && !is_uniaxial_compression(test.record) &&
+        test.results.peak_stress.value && test.results.is_valid())
       {
         TestGroup group = group_of(test.record);
         group.confining_pressure = std::round(group.confining_pressure); // as references name it
@@ -266,7 +282,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
   std::stable_sort(others.begin(), others.end(),
                    [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
   for (const auto& [group, strengths] : others)
-    add(strength_row(group), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
+    add(strength_row(group, flawed), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
   add_toughness(tests, add);
   add_shear_line(tests, add);
 

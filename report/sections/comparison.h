@@ -32,9 +32,10 @@ struct ComparisonRow
 };
 
 /// Sets the results of one rock beside a reference; without one its columns stay empty. `elastic` says which modulus and
-/// which ratio the reference has.
+/// which ratio the reference has. `beside_flaws`: it stands beside a body with flaws, so that its strengths are called as
+/// theirs are, highest nominal stresses.
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
-                                   const ElasticFigures& elastic = {});
+                                   const ElasticFigures& elastic = {}, bool beside_flaws = false);
 
 /// A figure of a reference as the row writes numbers: mean (low to high), or a dash; with the unit behind, before a number
 /// of tests.

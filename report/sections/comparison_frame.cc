@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -17,7 +18,10 @@ namespace feldspar
 {
 namespace
 {
-std::string cell(const std::optional<double>& value) { return value ? fmt::format("{:.10g}", *value) : ""; }
+std::string cell(const std::optional<double>& value)
+{
+  return value && std::isfinite(*value) ? fmt::format("{:.10g}", *value) : "";
+}
 
 std::string cell(const std::optional<bool>& value) { return value ? (*value ? "true" : "false") : ""; }
 

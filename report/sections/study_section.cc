@@ -6,11 +6,12 @@ namespace feldspar
 PageSection study_section(const Findings& findings, PictureBook& book)
 {
   PageSection section{"study", "Study", "Results over what was varied", {}};
-  if (auto pictures = study_pictures(findings.all); !pictures.empty())
-    {
-      section.blocks.push_back({});
-      section.blocks.back().pictures = book.keep(std::move(pictures));
-    }
+  PageBlock block;
+  for (const std::string& sentence : findings.repeats)
+    block.warnings.push_back(sentence + ".");
+  block.pictures = book.keep(study_pictures(findings.all));
+  if (!block.warnings.empty() || !block.pictures.empty())
+    section.blocks.push_back(std::move(block));
   return section;
 }
 } // namespace feldspar

@@ -79,7 +79,7 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
       std::vector<FinishedTest> of_rock;
       for (const FinishedTest* const test : rock.tests)
         of_rock.push_back(*test);
-      of_variants.push_back(compare(of_rock, reference));
+      of_variants.push_back(compare(of_rock, reference, {}, any_has_flaws(tests)));
       names.push_back(values_of(of_rock.front()));
     }
   std::vector<Column> varied;

@@ -33,7 +33,10 @@ bool has_toughness(const Findings& findings)
 Table strength_table(const Findings& findings)
 {
   Table table{"strengths",
-              "Strengths of every kind of test [MPa]",
+              std::any_of(findings.all.begin(), findings.all.end(),
+                          [](const Series& series) { return any_has_flaws(series.tests); })
+                ? "Strengths of every kind of test, of bodies with flaws highest nominal stresses [MPa]"
+                : "Strengths of every kind of test [MPa]",
               {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",
                "shear share of cracks at the peak [%]", "deviator at the end over peak"},
               {}};
@@ -49,7 +52,7 @@ Table strength_table(const Findings& findings)
         };
         const auto strength = statistics(values(group, &TestResults::peak_stress));
         const int decimals = group.kind.strength_decimals;
-        table.rows.push_back({group.title(), series.label, fmt::format("{}", strength ? strength->n : 0),
+        table.rows.push_back({group.title() + (any_has_flaws(series.tests) ? ", body with flaws" : ""), series.label, fmt::format("{}", strength ? strength->n : 0),
                               over_seeds(&TestResults::peak_stress, mega, decimals),
                               strength ? interval(*strength, mega, decimals) : none,
                               over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),
@@ -90,12 +93,14 @@ Table test_table(const Findings& findings)
   for (const auto& series : findings.all)
     for (const auto& test : series.tests)
       {
-        std::vector<std::string> row{test.name, series.label, fmt::format("{}", test.record.seed)};
-        std::vector<std::string> all = row;
+        const bool is_measured = series.kind == SeriesKind::laboratory_curve;
+        const std::string seed = is_measured ? "" : fmt::format("{}", test.record.seed);
+        std::vector<std::string> row{test.name, series.label, is_measured ? none : seed};
+        std::vector<std::string> all{test.name, series.label, seed};
         for (const auto& entry : result_table())
           {
-            const Figure figure = entry.value(test);
-            all.push_back(figure.value ? fmt::format("{:.10g}", *figure.value) : "");
+            const Figure figure = is_measured && entry.of_model ? Figure() : entry.value(test);
+            all.push_back(figure.value && std::isfinite(*figure.value) ? fmt::format("{:.10g}", *figure.value) : "");
             if (wanted.contains(entry.name))
               row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
           }

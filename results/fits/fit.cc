@@ -13,6 +13,10 @@ namespace feldspar
 {
 namespace
 {
+// No rock is weaker or stronger; beyond them a fit in units of its largest stress works with round-off alone [Pa].
+constexpr double least_strength = 1.0;
+constexpr double greatest_stress = 1e15;
+
 bool has_less_confinement(const PointResidual& a, const PointResidual& b) { return a.point.sigma_3 < b.point.sigma_3; }
 } // namespace
 
@@ -62,6 +66,11 @@ std::string objection_to(const std::vector<EnvelopePoint>& points, const int n_p
     {
       if (!std::isfinite(sigma_3) || !std::isfinite(sigma_1))
         return "a point is not a finite number";
+      const double largest = std::max(std::abs(sigma_3), sigma_1);
+      if (largest < least_strength || largest > greatest_stress)
+        return fmt::format("the point sigma_3 = {:.6g} MPa, sigma_1 = {:.6g} MPa lies beyond all rock: one stress of a "
+                           "point must be 1e-6 MPa or more, and none more than 1e9 MPa",
+                           sigma_3 / 1e6, sigma_1 / 1e6);
       if (sigma_1 < sigma_3)
         return fmt::format("sigma_1 = {:.6g} MPa lies below sigma_3 = {:.6g} MPa", sigma_1 / 1e6, sigma_3 / 1e6);
       confinements.insert(sigma_3);
@@ -77,9 +86,10 @@ std::string objection_to(const std::vector<EnvelopePoint>& points, const int n_p
 
 std::string objection_to(const std::string& name, const double strength)
 {
-  if (std::isfinite(strength) && strength > 0.0)
+  if (std::isfinite(strength) && strength >= least_strength && strength <= greatest_stress)
     return "";
-  return fmt::format("the measured {} is {:.6g} MPa; it must be a positive number", name, strength / 1e6);
+  return fmt::format("the measured {} is {:.6g} MPa; it must be a positive number from 1e-6 to 1e9 MPa", name,
+                     strength / 1e6);
 }
 
 std::vector<Figure> half_widths(const Eigen::MatrixXd& jacobian, const double sum_of_squares, const int n_parameters,

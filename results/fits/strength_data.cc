@@ -2,6 +2,7 @@
 
 #include "results/statistics.h"
 
+#include <algorithm>
 #include <map>
 
 namespace feldspar
@@ -12,7 +13,7 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
   std::vector<double> direct;
   std::vector<double> indirect;
   for (const auto& test : tests)
-    if (test.results.peak_stress.value && (!variant || test.variant == *variant))
+    if (test.results.peak_stress.value && test.results.is_valid() && (!variant || test.variant == *variant))
       {
         const double strength = *test.results.peak_stress.value;
         switch (test.record.envelope_role())
@@ -32,6 +33,9 @@ StrengthData strength_data(const std::vector<FinishedTest>& tests, const std::op
       }
 
   StrengthData data;
+  data.of_flawed_body = std::any_of(tests.begin(), tests.end(), [&](const FinishedTest& test) {
+    return test.has_flaws() && (!variant || test.variant == *variant);
+  });
   for (const auto& [sigma_3, strengths] : by_confinement)
     data.points.push_back({sigma_3, statistics(strengths)->mean});
   if (by_confinement.contains(0.0))

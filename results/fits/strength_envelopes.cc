@@ -226,7 +226,9 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   strengths.push_back({"measured", "", "", measured(envelopes.data.uniaxial_compressive_strength, 1),
                        measured(envelopes.data.tensile_strength, 2)});
 
-  std::string result = "Strength envelopes: compression positive, MPa, ± 95 % confidence;\n"
+  std::string result = (envelopes.data.of_flawed_body ? std::string("Envelopes of highest nominal stresses")
+                                                      : std::string("Strength envelopes")) +
+                       ": compression positive, MPa, ± 95 % confidence;\n"
                        "no sigma_t: without the tensile strength as a point\n" +
                        table(rows) + table(strengths);
   if (const auto& fit = envelopes.mohr_coulomb.fit)
@@ -244,6 +246,9 @@ std::string as_text(const StrengthEnvelopes& envelopes)
 std::string remark(const StrengthEnvelopes& envelopes)
 {
   std::string result =
+    std::string(envelopes.data.of_flawed_body
+                  ? "The points are highest nominal stresses of a body with flaws, not strengths of the rock. "
+                  : "") +
     "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
   const auto paper = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
                                   [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });

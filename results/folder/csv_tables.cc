@@ -1,11 +1,13 @@
 #include "results/folder/csv_tables.h"
 
 #include "base/csv.h"
+#include "base/quoted.h"
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <iterator>
@@ -23,7 +25,7 @@ namespace
 {
 /// A column by its name, with where its number is in a row. `laboratory`: changes sign to be positive in the sense of
 /// the test; `added`: tables of before it was added do without, and it is 0; `of_samples`: only curves of samples of finite
-/// elements have it.
+/// elements have it; `may_be_nan`: a body may not have it, as a gauge with too few grains.
 template <typename Row>
 struct Column
 {
@@ -33,6 +35,7 @@ struct Column
   bool laboratory = false;
   bool added = false;
   bool of_samples = false;
+  bool may_be_nan = false;
   double most = 0.0; ///< of a count or a number of something, the largest that is one; 0 of what need not be whole
 };
 
@@ -50,6 +53,7 @@ Column<Row> column(const std::string_view name, const Part& part, const bool lab
           laboratory,
           false,
           false,
+          false,
           std::is_integral_v<Number> ? std::min(0x1p53, double(std::numeric_limits<Number>::max())) : 0.0};
 }
 
@@ -60,10 +64,16 @@ Column<Row> column(const std::string_view name, T Row::*member, const bool labor
     name, [member](auto& row) -> auto& { return row.*member; }, laboratory);
 }
 
+Column<CurveSample> perhaps_nan(Column<CurveSample> column)
+{
+  column.may_be_nan = true;
+  return column;
+}
+
 Column<CurveSample> energy(const std::string_view name, double Energies::*member)
 {
-  return column<CurveSample>(
-    name, [member](auto& row) -> auto& { return row.energies.*member; });
+  return perhaps_nan(column<CurveSample>(
+    name, [member](auto& row) -> auto& { return row.energies.*member; }));
 }
 
 template <typename Row, std::size_t n>
@@ -95,9 +105,9 @@ const std::vector<Column<CurveSample>>& curve_columns()
     column<CurveSample>("end_stress_difference_Pa", &CurveSample::end_stress_difference, true),
     column<CurveSample>("lateral_stress_Pa", &CurveSample::lateral_stress, true),
     column<CurveSample>("mid_stress_Pa", &CurveSample::mid_stress, true),
-    column<CurveSample>("gauge_axial_strain", &CurveSample::gauge_axial_strain, true),
-    column<CurveSample>("gauge_lateral_strain", &CurveSample::gauge_lateral_strain, true),
-    column<CurveSample>("gauge_volumetric_strain", &CurveSample::gauge_volumetric_strain, true),
+    perhaps_nan(column<CurveSample>("gauge_axial_strain", &CurveSample::gauge_axial_strain, true)),
+    perhaps_nan(column<CurveSample>("gauge_lateral_strain", &CurveSample::gauge_lateral_strain, true)),
+    perhaps_nan(column<CurveSample>("gauge_volumetric_strain", &CurveSample::gauge_volumetric_strain, true)),
     column<CurveSample>("n_tension_cracks", &CurveSample::n_tension_cracks),
     column<CurveSample>("n_shear_cracks", &CurveSample::n_shear_cracks),
     column<CurveSample>("unbalanced_force_ratio", &CurveSample::unbalanced_force_ratio),
@@ -181,9 +191,45 @@ std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const 
   return places;
 }
 
+/// The cells that should have a finite number and have none.
+class Gaps
+{
+public:
+  /// `fate`: what becomes of their rows, in words.
+  Gaps(const std::filesystem::path& of_file, const std::string_view of_rows)
+    : file(of_file.string())
+    , fate(of_rows)
+  {
+  }
+
+  void add(const CsvReader& table, const std::size_t column)
+  {
+    if (n == 0)
+      first = fmt::format("line {}: {} is {}", table.line_of_row(), excerpt(table.name_of(column)),
+                          excerpt(table.text(column)));
+    ++n;
+  }
+
+  std::size_t number() const { return n; }
+
+  std::string remark() const
+  {
+    if (n == 0)
+      return "";
+    return fmt::format("{}: {}{}, no finite number; {}", printable(file), first,
+                       n > 1 ? fmt::format(" (and {} more such cells)", n - 1) : "", fate);
+  }
+
+private:
+  std::string file;
+  std::string_view fate;
+  std::string first;
+  std::size_t n = 0;
+};
+
 template <typename Row>
 Row row_of(const CsvReader& table, const std::vector<Column<Row>>& columns,
-           const std::vector<std::optional<std::size_t>>& places, const double sign)
+           const std::vector<std::optional<std::size_t>>& places, const double sign, Gaps& gaps)
 {
   Row row{};
   for (std::size_t k = 0; k < columns.size(); ++k)
@@ -191,10 +237,14 @@ Row row_of(const CsvReader& table, const std::vector<Column<Row>>& columns,
       {
         const double value =
           columns[k].most > 0.0 ? table.count(*places[k], columns[k].most) : table.number_or_nan(*places[k]);
+        if (std::isinf(value) || (std::isnan(value) && !columns[k].may_be_nan))
+          gaps.add(table, *places[k]);
         columns[k].set(row, columns[k].laboratory ? sign * value : value);
       }
   return row;
 }
+
+constexpr std::string_view left_out = "rows with such cells are left out";
 } // namespace
 
 void write_curve(const TestRecord& record, const std::filesystem::path& file)
@@ -207,13 +257,15 @@ void write_curve(const TestRecord& record, const std::filesystem::path& file)
   write_whole_file(file, text);
 }
 
-std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind)
+TableRows<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind)
 {
   CsvReader table(file);
   const auto places = places_of(table, curve_columns());
-  std::vector<CurveSample> curve;
+  Gaps gaps(file, "curves have gaps there");
+  TableRows<CurveSample> curve;
   while (table.next())
-    curve.push_back(row_of(table, curve_columns(), places, kind.sign));
+    curve.rows.push_back(row_of(table, curve_columns(), places, kind.sign, gaps));
+  curve.remark = gaps.remark();
   return curve;
 }
 
@@ -243,7 +295,7 @@ struct CracksOfTest
   std::vector<Crack>* cracks;
 };
 
-void read_cracks_into(const std::filesystem::path& file, const std::vector<CracksOfTest>& tests)
+std::string read_cracks_into(const std::filesystem::path& file, const std::vector<CracksOfTest>& tests)
 {
   CsvReader table(file);
   const std::size_t name = table.place("test");
@@ -252,13 +304,17 @@ void read_cracks_into(const std::filesystem::path& file, const std::vector<Crack
   std::map<std::string_view, const CracksOfTest*> by_name;
   for (const auto& test : tests)
     by_name[test.name] = &test;
+  Gaps gaps(file, left_out);
   while (table.next())
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
-        Crack crack = row_of(table, crack_columns(), places, found->second->kind.sign);
+        const std::size_t n_gaps = gaps.number();
+        Crack crack = row_of(table, crack_columns(), places, found->second->kind.sign, gaps);
         crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
-        found->second->cracks->push_back(crack);
+        if (gaps.number() == n_gaps)
+          found->second->cracks->push_back(crack);
       }
+  return gaps.remark();
 }
 } // namespace
 
@@ -278,18 +334,18 @@ void write_cracks(const std::vector<Crack>& cracks, const std::string& name, con
   write_whole_file(file, text);
 }
 
-void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
+std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests)
 {
   std::vector<CracksOfTest> all;
   for (auto& test : tests)
     all.push_back({test.name, test.record.kind, &test.record.cracks});
-  read_cracks_into(file, all);
+  return read_cracks_into(file, all);
 }
 
-std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind)
+TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind)
 {
-  std::vector<Crack> cracks;
-  read_cracks_into(file, {{name, kind, &cracks}});
+  TableRows<Crack> cracks;
+  cracks.remark = read_cracks_into(file, {{name, kind, &cracks.rows}});
   return cracks;
 }
 
@@ -305,14 +361,21 @@ void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem
   write_whole_file(file, text);
 }
 
-std::vector<GrainPicture> read_grains(const std::filesystem::path& file)
+TableRows<GrainPicture> read_grains(const std::filesystem::path& file)
 {
   CsvReader table(file);
   const auto columns = grain_columns(table.has("clump") ? "clump" : "mineral_grain");
   const auto places = places_of(table, columns);
-  std::vector<GrainPicture> grains;
+  Gaps gaps(file, left_out);
+  TableRows<GrainPicture> grains;
   while (table.next())
-    grains.push_back(row_of(table, columns, places, 1.0));
+    {
+      const std::size_t n_gaps = gaps.number();
+      const GrainPicture grain = row_of(table, columns, places, 1.0, gaps);
+      if (gaps.number() == n_gaps)
+        grains.rows.push_back(grain);
+    }
+  grains.remark = gaps.remark();
   return grains;
 }
 } // namespace feldspar

@@ -10,27 +10,36 @@
 /// names, so more columns or another order do not matter, and throw InputError, one line, for what they cannot read.
 namespace feldspar
 {
+/// The rows of a table as it was read.
+template <typename Row>
+struct TableRows
+{
+  std::vector<Row> rows;
+  std::string remark = {}; ///< on cells without a finite number, a sentence without its full stop; empty where there are none
+};
+
 /// The curve of a test, a row per sample. Stress and strain are positive in the sense of the test: tension in a tension
-/// test, compression in a compression test.
+/// test, compression in a compression test. Rows without a finite strain or stress are kept: they are gaps of the curve.
 void write_curve(const TestRecord& record, const std::filesystem::path& file);
-std::vector<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind);
+TableRows<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind);
 
 /// The cracks of all tests, in the order in which they came.
 void write_cracks(const std::vector<FinishedTest>& tests, const std::filesystem::path& file);
-/// Puts each crack into the test of its name; those of other names are left out.
-void read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
+/// Puts each crack into the test of its name; those of other names, and rows without finite numbers, are left out. Returns
+/// the remark on the latter.
+std::string read_cracks(const std::filesystem::path& file, std::vector<FinishedTest>& tests);
 
 /// The same of a part of a test, under a name of its own.
 void write_cracks(const std::vector<Crack>& cracks, const std::string& name, const TestKind& kind,
                   const std::filesystem::path& file);
-std::vector<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
+TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
 
 /// What the groups of a test's grains are called in files.
 std::string group_name(const TestRecord& test);
 
 /// The grains of a test, where they were and where they came to. `group`: the column of the numbers of the groups they are
-/// parts of, `clump` or `mineral_grain`; both are read.
+/// parts of, `clump` or `mineral_grain`; both are read. Rows without finite numbers are left out.
 void write_grains(const std::vector<GrainPicture>& grains, const std::filesystem::path& file,
                   const std::string& group = "mineral_grain");
-std::vector<GrainPicture> read_grains(const std::filesystem::path& file);
+TableRows<GrainPicture> read_grains(const std::filesystem::path& file);
 } // namespace feldspar

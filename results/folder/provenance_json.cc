@@ -9,6 +9,36 @@
 
 namespace feldspar
 {
+namespace
+{
+bool is_number_of_json(const nlohmann::ordered_json& value)
+{
+  return !value.is_number_float() || std::isfinite(value.get<double>());
+}
+
+nlohmann::ordered_json with_reasons(const nlohmann::ordered_json& json)
+{
+  if (!json.is_structured())
+    return is_number_of_json(json) ? json : nlohmann::ordered_json();
+  nlohmann::ordered_json result = json.is_array() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::object();
+  for (const auto& [key, value] : json.items())
+    if (json.is_array())
+      result.push_back(with_reasons(value));
+    else
+      {
+        result[key] = with_reasons(value);
+        if (!is_number_of_json(value))
+          result[key + "_reason"] = "it is no finite number";
+      }
+  return result;
+}
+} // namespace
+
+std::string json_text(const nlohmann::ordered_json& json)
+{
+  return with_reasons(json).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 nlohmann::ordered_json as_json(const Provenance& provenance)
 {
   nlohmann::ordered_json json;

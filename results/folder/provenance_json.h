@@ -22,6 +22,10 @@ nlohmann::ordered_json as_json(const Provenance& provenance);
 /// Whole numbers are written as such.
 nlohmann::ordered_json json_number(double value);
 
+/// A result file of this content, with its last line ended. JSON has no nan and no inf: they are null with a `_reason` beside
+/// them, in lists null alone. Text that is not UTF-8 is replaced.
+std::string json_text(const nlohmann::ordered_json& json);
+
 /// The values of a variant, by entry: a number with the unit it was written in, or the words.
 nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 

@@ -67,7 +67,8 @@ std::optional<double> pressure_in(const std::string_view name, const std::string
   double pressure = 0.0;
   const char* const last = name.data() + name.size() - ending.size();
   const auto [end, error] = std::from_chars(name.data() + beginning.size(), last, pressure);
-  return error == std::errc() && end == last && pressure > 0.0 ? std::optional(pressure) : std::nullopt;
+  const bool is_pressure = error == std::errc() && end == last && pressure > 0.0 && std::isfinite(pressure);
+  return is_pressure ? std::optional(pressure) : std::nullopt;
 }
 
 /// True triaxial strengths: triaxial_compression_5_MPa_intermediate_20_MPa_strength_MPa.

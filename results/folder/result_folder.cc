@@ -19,6 +19,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace feldspar
 {
@@ -171,7 +172,22 @@ Json rves_in(const Json& test)
   return rves != test.end() && rves->is_array() ? *rves : Json::array();
 }
 
-PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder)
+void add_unless_empty(std::vector<std::string>& problems, std::string remark)
+{
+  if (!remark.empty())
+    problems.push_back(std::move(remark));
+}
+
+/// The rows of a table; a remark on them becomes a problem.
+template <typename Row>
+std::vector<Row> rows_of(TableRows<Row> table, std::vector<std::string>& problems)
+{
+  add_unless_empty(problems, std::move(table.remark));
+  return std::move(table.rows);
+}
+
+PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesystem::path& folder,
+                  std::vector<std::string>& problems)
 {
   PointRve rve;
   try
@@ -188,8 +204,8 @@ PointRve read_rve(const Json& json, const FinishedTest& of, const std::filesyste
                                    (folder.parent_path() / result_file::summary).string(), of.name));
     }
   const std::string name = name_of(rve, of.name);
-  rve.grains = read_grains(folder / (name + "_grains.csv"));
-  rve.cracks = read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind);
+  rve.grains = rows_of(read_grains(folder / (name + "_grains.csv")), problems);
+  rve.cracks = rows_of(read_cracks(folder / (name + "_cracks.csv"), name, of.record.kind), problems);
   return rve;
 }
 
@@ -278,8 +294,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
       const std::string table = test.name + ".csv";
       if (!test.record.failure.empty() && !std::filesystem::exists(folder / result_file::curves / table))
         continue; // it could not be made
-      try_to(of_tables,
-             [&] { test.record.curve = read_curve(folder / result_file::curves / table, test.record.kind); });
+      try_to(of_tables, [&] {
+        test.record.curve = rows_of(read_curve(folder / result_file::curves / table, test.record.kind), of_tables);
+      });
       if (std::any_of(test.record.stages.begin(), test.record.stages.end(), [&](const StageRecord& stage) {
             return stage.first_row > stage.last_row || stage.last_row >= test.record.curve.size();
           }))
@@ -289,7 +306,9 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
             of_stages.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
         }
       if (test.record.body == TestBody::grains)
-        try_to(of_tables, [&] { test.appearance.grains_at_end = read_grains(folder / result_file::grains / table); });
+        try_to(of_tables, [&] {
+          test.appearance.grains_at_end = rows_of(read_grains(folder / result_file::grains / table), of_tables);
+        });
       else if (std::filesystem::exists(folder / result_file::fields /
                                        (test.name + ".xdmf"))) // large: may be thrown away
         try_to(of_tables,
@@ -305,10 +324,10 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
         for (auto [named, end] = by_name.equal_range(name); named != end; ++named)
           for (const auto& rve : rves_in(entry))
             try_to(of_tables, [&, &test = *named->second] {
-              test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points));
+              test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points, of_tables));
             });
       }
-  try_to(of_tables, [&] { read_cracks(folder / result_file::cracks, tests); });
+  try_to(of_tables, [&] { add_unless_empty(of_tables, read_cracks(folder / result_file::cracks, tests)); });
   for (const auto& of_one_kind : {of_kinds, of_names, of_tables, of_stages})
     add_few(problems, of_one_kind);
 

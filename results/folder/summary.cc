@@ -135,7 +135,7 @@ Json describe(const FinishedTest& test)
   return json;
 }
 
-/// Means over the seeds of each group of tests: of those that were made, whose number stands beside that of all.
+/// Means over the seeds of each group of tests: of valid ones that were made. Their number stands beside that of all.
 Json ensemble(const std::vector<FinishedTest>& tests)
 {
   std::map<std::string, std::vector<const FinishedTest*>> groups;
@@ -153,12 +153,13 @@ Json ensemble(const std::vector<FinishedTest>& tests)
             out["variant_values"] = as_json(any.settings);
         }
       out["n_tests"] = members.size();
+      out["n_valid"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->counts(); });
       out["n_made"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->was_made(); });
       for (const auto& entry : result_table())
         {
           std::vector<double> values;
           for (const FinishedTest* const test : members)
-            if (const Figure figure = entry.value(*test); test->was_made() && figure.value)
+            if (const Figure figure = entry.value(*test); test->counts() && figure.value)
               values.push_back(*figure.value);
           if (const auto over_seeds = statistics(values))
             out[std::string(entry.name)] = as_json(*over_seeds);
@@ -279,7 +280,6 @@ void write_summary(const Provenance& provenance, const std::vector<FinishedTest>
     json["fits"]["direct_shear"] = lines;
   if (const Json of_variants = fits_of_variants(tests, envelopes); !of_variants.is_null())
     json["fits_of_variants"] = of_variants;
-  // Reasons may quote what is not UTF-8.
-  write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(file, json_text(json)); // reasons may quote what is not UTF-8
 }
 } // namespace feldspar

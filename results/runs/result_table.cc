@@ -23,8 +23,8 @@ ResultEntry number(const std::string_view name, const Part& part, const std::str
   return {name,
           [=](const FinishedTest& test) -> Figure {
             const auto value = double(part(test));
-            if (std::isnan(value))
-              return {std::nullopt, reason_for_nan};
+            if (!std::isfinite(value))
+              return {std::nullopt, std::isnan(value) ? reason_for_nan : "it is no finite number"};
             return {value, ""};
           },
           [=](FinishedTest& test, const Figure& figure) {
@@ -35,7 +35,8 @@ ResultEntry number(const std::string_view name, const Part& part, const std::str
               place = value >= 0.0 && value < double(std::numeric_limits<Number>::max()) ? Number(value) : Number(0);
             else
               place = Number(value);
-          }};
+          },
+          true};
 }
 
 template <typename T>
@@ -74,6 +75,7 @@ std::vector<ResultEntry> of_tests_made(std::vector<ResultEntry> entries)
       return test.record.failure.empty() ? value(test) : Figure{std::nullopt, test.record.failure};
     };
   entries.insert(entries.begin(), of_test("confining_pressure_Pa", &TestRecord::confining_pressure)); // it was wanted
+  entries.front().of_model = false;
   return entries;
 }
 } // namespace
@@ -108,6 +110,7 @@ const std::vector<ResultEntry>& result_table()
                    result("fracture_energy_J_per_m2", &TestResults::fracture_energy),
                    result("normal_stress_at_peak_Pa", &TestResults::normal_stress_at_peak),
                    result("dilation_angle_rad", &TestResults::dilation_angle),
+                   result("first_cracks_at_pads_share", &TestResults::first_cracks_at_pads_share),
                    result("n_fragments", &TestResults::n_fragments),
                    result("largest_fragment_share", &TestResults::largest_fragment_share),
                    of_specimen("n_grains", &SpecimenReport::n_grains),

@@ -14,6 +14,7 @@ struct ResultEntry
   std::string_view name;
   std::function<Figure(const FinishedTest&)> value;
   std::function<void(FinishedTest&, const Figure&)> set; ///< puts back what `value` gave
+  bool of_model = false;                                 ///< a curve measured on rock has none
 };
 
 /// Every figure that summary.json gives for a test, in its order there. Whoever writes, reads, averages or compares

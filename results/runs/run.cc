@@ -12,6 +12,11 @@ std::string Provenance::value_of(const std::string& section, const std::string& 
   return found == input.end() ? "" : found->value;
 }
 
+bool any_has_flaws(const std::vector<FinishedTest>& tests)
+{
+  return std::any_of(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.has_flaws(); });
+}
+
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
                       std::vector<VariantSetting> settings)
 {

@@ -43,9 +43,15 @@ struct FinishedTest
   TestAppearance appearance;
   RunBookkeeping bookkeeping;
 
-  /// Whether it ran to its end, so that its figures may be averaged with others.
+  /// Whether it ran to its end.
   bool was_made() const { return record.failure.empty() && !record.interrupted; }
+  /// Whether its figures may be averaged with those of others: it ran to its end and is a valid test of its kind.
+  bool counts() const { return was_made() && results.is_valid(); }
+  /// Holes, slots, joints: the highest stress is then a nominal one, load over the whole section, and no strength of the rock.
+  bool has_flaws() const { return !appearance.flaws.empty(); }
 };
+
+bool any_has_flaws(const std::vector<FinishedTest>& tests);
 
 /// With the figures read off its record.
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,

@@ -97,7 +97,7 @@ std::vector<double> values(const TestGroup& group, Figure TestResults::*figure)
 {
   std::vector<double> result;
   for (const auto* test : group.tests)
-    if ((test->results.*figure).value)
+    if (test->results.is_valid() && (test->results.*figure).value)
       result.push_back(*(test->results.*figure).value);
   return result;
 }

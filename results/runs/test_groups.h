@@ -39,7 +39,7 @@ std::vector<TestGroup> shown(const std::vector<TestGroup>& groups);
 /// The first test of a group that has a curve with a peak; null if there is none.
 const FinishedTest* typical(const TestGroup& group);
 
-/// A figure over the seeds of a group, where it could be had.
+/// A figure over the seeds of a group, where it could be had by a valid test.
 std::vector<double> values(const TestGroup& group, Figure TestResults::*figure);
 
 /// The abscissa of a test: the axial strain, positive in the sense of the test, or the time [s]

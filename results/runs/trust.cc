@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace feldspar
@@ -96,7 +97,9 @@ constexpr TrustMeasure measures[] = {
   {"poissons_ratio_initial", "Poisson's ratio, initial", "", 1.0, 3, BoundSide::at_most, 0.5,
    result<&TestResults::poissons_ratio_initial>},
   {"poissons_ratio_secant", "Poisson's ratio, secant at 50 % of the peak", "", 1.0, 3, BoundSide::at_most, 0.5,
-   result<&TestResults::poissons_ratio_secant>}};
+   result<&TestResults::poissons_ratio_secant>},
+  {"first_cracks_at_pads_share", "first cracks of a disc that is split, share at its pads", " %", percent, 0,
+   BoundSide::at_most, most_first_cracks_at_pads, result<&TestResults::first_cracks_at_pads_share>}};
 
 TestsOfRock all_of(const Series& series)
 {
@@ -149,6 +152,11 @@ std::string shortcoming(const FinishedTest& test)
                        record.failure);
   if (!test.results.peak_stress.value)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
+  if (!test.results.is_valid())
+    return fmt::format("{} is not valid as a splitting test, and its figures enter no mean, envelope or calibration: {:.0f} % "
+                       "of its first cracks lie at the pads, where the disc is crushed. A splitting crack begins in the "
+                       "middle (ISRM 1978, ASTM D3967). A larger disc or smaller grains help.",
+                       test.name, 100.0 * *test.results.first_cracks_at_pads_share.value);
   if (!record.ended_early.empty())
     return fmt::format("{} ended early: {}.", test.name, record.ended_early);
   if (const auto rise = rise_after_first_fall(test))
@@ -161,6 +169,73 @@ std::string shortcoming(const FinishedTest& test)
       test.name, record.kind.strain(record.curve.back()) / *test.results.strain_at_peak.value,
       100.0 * *test.results.residual_deviator_ratio.value);
   return "";
+}
+
+/// A closed flaw that cuts a body from one side to the other, between its ends.
+struct PlaneThrough
+{
+  std::string name;
+  double angle; ///< from the platens [rad]
+};
+
+/// The steepest of them; none in a body that no such flaw cuts.
+std::optional<PlaneThrough> plane_through(const FinishedTest& test)
+{
+  const TestRecord& record = test.record;
+  const auto axis = std::size_t(record.dimension()) - 1;
+  const double width = record.size[0];
+  const double height = record.size[axis];
+  const double grain = record.specimen.resolution > 0.0 ? width / record.specimen.resolution : 0.0;
+  std::optional<PlaneThrough> steepest;
+  for (const FlawPicture& flaw : test.appearance.flaws)
+    {
+      if (flaw.open || flaw.outline.size() < 2)
+        continue;
+      const auto [left, right] = std::minmax_element(flaw.outline.begin(), flaw.outline.end(),
+                                                     [](const auto& a, const auto& b) { return a[0] < b[0]; });
+      const auto lies_within = [&](const auto& point) { return point[axis] > 0.0 && point[axis] < height; };
+      if ((*left)[0] > grain || (*right)[0] < width - grain || !lies_within(*left) || !lies_within(*right))
+        continue;
+      const double angle = std::atan2(std::abs((*right)[axis] - (*left)[axis]), (*right)[0] - (*left)[0]);
+      if (!steepest || angle > steepest->angle)
+        steepest = PlaneThrough{flaw.name, angle};
+    }
+  return steepest;
+}
+
+/// What rigid side plates do to a body that slides on a plane through it (docs/theory.md §3.1); empty where they do nothing.
+/// Bodies of one rock have the same flaws.
+std::string remark_on_side_plates(const TestsOfRock& tests)
+{
+  constexpr double least_angle = 10.0 * std::numbers::pi / 180.0; // faces of rock with less friction are not known
+  constexpr double least_factor = 1.02;                           // the accuracy of the formula
+  for (const FinishedTest* const test : tests)
+    {
+      const bool has_plates = test->record.kind.takes_confining_pressure && test->results.servo_error.value &&
+                              !test->record.kind.pressure_acts_across;
+      const auto plane = has_plates ? plane_through(*test) : std::nullopt;
+      if (!plane || plane->angle < least_angle)
+        continue;
+      const double height = test->record.size[std::size_t(test->record.dimension()) - 1];
+      const double factor = height / (test->record.size[0] * std::tan(plane->angle));
+      if (factor > least_factor)
+        return fmt::format(
+          "A {} crosses the body from side to side at {:.0f} deg to the platens. Rigid side plates hold each half by one "
+          "plate alone: where the body slides on it, the deviator is that of {:.2f} times the confining pressure, {:.0f} % "
+          "too high (docs/theory.md, section 3.1). A body as high as its width times tan {:.0f} deg has no such error.",
+          plane->name, plane->angle * 180.0 / std::numbers::pi, factor, 100.0 * (factor - 1.0),
+          plane->angle * 180.0 / std::numbers::pi);
+    }
+  return "";
+}
+
+/// Names of strengths mislead where a body has flaws.
+std::string remark_on_flaws(const TestsOfRock& tests)
+{
+  const bool any = std::any_of(tests.begin(), tests.end(), [](const FinishedTest* test) { return test->has_flaws(); });
+  return any ? "The body has flaws: its strengths are highest nominal stresses, load over the whole section, and hold for "
+               "this body. They are no strengths of the rock, nor is their envelope."
+             : "";
 }
 
 std::string out_of_bounds(const TrustCheck& check)
@@ -191,7 +266,8 @@ std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind 
       TrustCheck check{measure, 0, 0, 0.0, 0.0, ""};
       std::vector<double> all;
       for (const FinishedTest* const test : tests)
-        if (const Value value = test->record.failure.empty() ? measure.value(*test) : std::nullopt)
+        if (const Value value = test->record.failure.empty() ? measure.value(*test) : std::nullopt;
+            value && std::isfinite(*value))
           {
             if (all.empty() || (measure.side == BoundSide::at_most ? *value > check.worst : *value < check.worst))
               {
@@ -218,6 +294,9 @@ std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind
   std::vector<std::string> sentences;
   for (const FinishedTest* const test : tests)
     if (const std::string sentence = shortcoming(*test); !sentence.empty())
+      sentences.push_back(sentence);
+  for (const std::string& sentence : {remark_on_flaws(tests), remark_on_side_plates(tests)})
+    if (!sentence.empty())
       sentences.push_back(sentence);
   std::set<std::uint64_t> seeds;
   for (const FinishedTest* const test : tests)

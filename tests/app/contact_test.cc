@@ -1,6 +1,7 @@
 #include "tests/app/run_command.h"
 #include "tests/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <charconv>
@@ -255,6 +256,25 @@ end
   EXPECT_NEAR(table.rows[3][3], -normal_stiffness / 2.3 * polar * 0.2, 1e-9 * 181.0);
   EXPECT_NEAR(table.rows[4][4], -normal_stiffness * 0.5 * polar * 0.4, 1e-9 * 416.0);
   EXPECT_NEAR(table.rows[5][5], -normal_stiffness * 0.5 * polar * 0.4, 1e-9 * 416.0);
+}
+
+TEST(Contact, RefusesAResponseBeyondTheRangeOfNumbers)
+{
+  const TemporaryFolder folder;
+  folder.write("joint.prm", input);
+  for (const char* const row : {"-1e308,0,0", "0,1e308,0", "0,0,-1e308", "1e300,1e300,1e300"})
+    {
+      folder.write("path.csv", fmt::format("normal_m,shear_m,rotation_rad\n1e-9,0,0\n{}\n", row));
+      // Bonds that hold, so that the far row meets the joint as it was made.
+      const auto outcome = run_feldspar(folder.path(), "contact joint.prm --output results --set 'Flat joint/Bond tensile "
+                                                       "strength = 1e300 Pa' --set 'Flat joint/Bond cohesion = 1e300 Pa'");
+      EXPECT_EQ(outcome.exit_code, 2) << row;
+      EXPECT_TRUE(outcome.error.starts_with("feldspar: ") && outcome.error.ends_with(
+                    "path.csv: row 2 below the header: the response is beyond the range of numbers: a displacement, a "
+                    "rotation or a stiffness is far too large\n"))
+        << outcome.error;
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "results")) << row;
+    }
 }
 
 TEST(Contact, WritesTheSameWhereTheDecimalSignIsAComma)

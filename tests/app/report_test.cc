@@ -560,6 +560,130 @@ TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
   EXPECT_EQ(content(folder.path() / "units/tables/comparison.csv"), comparison);
 }
 
+TEST_F(Report, OfMeasuredCurvesHasTheirOwnTitlesAndNothingOfASimulation)
+{
+  const std::string header = "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+  for (const char* const of : {"north", "south"})
+    {
+      fs::create_directories(folder.path() / of);
+      folder.write(fmt::format("{}/core.csv", of), measured_curve(header));
+    }
+  folder.write("uniaxial_compression_seed_1.csv", measured_curve(header)); // the name of a test of the model
+  const std::string page =
+    remade("report out --curve north/core.csv --curve south/core.csv --curve uniaxial_compression_seed_1.csv");
+  holds(page, {"</span>core.csv</h3>", "</span>core.csv (2)</h3>"});
+  for (const auto& [name, title] : {std::pair("core", "core.csv: Uniaxial compression"),
+                                    {"core_2", "core.csv (2): Uniaxial compression"},
+                                    {"uniaxial_compression_seed_1_2",
+                                     "uniaxial_compression_seed_1.csv: Uniaxial compression"}})
+    {
+      const std::string script = content(folder.path() / fmt::format("out/figures/{}_stress_strain.gp", name));
+      EXPECT_NE(script.find(fmt::format("set title '{}'", title)), std::string::npos) << script.substr(0, 300);
+      for (const char* const of_a_simulation : {"seed 0", "broken segments", "cracks"})
+        EXPECT_EQ(script.find(of_a_simulation), std::string::npos) << name << ": " << of_a_simulation;
+    }
+  const std::string of_model = content(folder.path() / "out/figures/uniaxial_compression_seed_1_stress_strain.gp");
+  EXPECT_NE(of_model.find("seed 1"), std::string::npos);
+  EXPECT_NE(of_model.find("broken segments"), std::string::npos);
+  // The table of all tests has what was measured, and no seed, count or cost.
+  const Frame tests = read_frame(folder.path() / "out/tables/tests.csv");
+  const auto measured = std::find_if(tests.begin(), tests.end(), [](const auto& row) { return row.at("test") == "core_2"; });
+  ASSERT_NE(measured, tests.end());
+  EXPECT_EQ(measured->at("peak_stress_Pa"), "160000000");
+  EXPECT_EQ(measured->at("confining_pressure_Pa"), "0");
+  for (const char* const column : {"seed", "strain_rate_per_s", "n_tension_cracks", "n_grains", "energy_imbalance_over_work",
+                                   "steps", "wall_time_s"})
+    EXPECT_EQ(measured->at(column), "") << column;
+}
+
+// The curve has 60 GPa and a peak at 160 MPa, so that the strain there is 160/600 %, and the secant ratio is 0.2375. An
+// extensometer that stands at 0.05 % and -0.02 % when the test begins, and platens that come 0.3 % of the way, add to strains
+// and to nothing else.
+TEST_F(Report, CountsMeasuredStrainsFromWhereTheLoadBegins)
+{
+  const std::string header = "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
+  const auto shifted = [&](const double axial, const double lateral, const std::string& rows_before,
+                           const double first_stress = 0.0) {
+    std::istringstream rows(measured_curve(header));
+    std::string text;
+    std::getline(rows, text);
+    text += "\n" + rows_before;
+    for (std::string row; std::getline(rows, row);)
+      {
+        double values[3] = {};
+        EXPECT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf", &values[0], &values[1], &values[2]), 3);
+        if (values[2] >= first_stress || values[0] > 0.3)
+          text += fmt::format("{:.9f},{:.9f},{},0\n", values[0] + axial, values[1] + lateral, values[2]);
+      }
+    return text;
+  };
+  const auto figures = [&](const std::string& text, const std::string& said) {
+    folder.write("core.csv", text);
+    const auto answer = run_feldspar(folder.path(), "report --curve core.csv --output new --force",
+                                     "PATH=" + (folder.path() / "empty").string());
+    EXPECT_EQ(answer.exit_code, 0) << answer.error;
+    EXPECT_EQ(answer.output.find("core.csv: ") != std::string::npos, !said.empty()) << answer.output;
+    holds(answer.output, {said});
+    holds(words_of(folder.path() / "new/report.html"), {said});
+    const Frame frame = read_comparison(folder.path() / "new");
+    std::vector<double> values;
+    for (const char* const property :
+         {"strain at peak, compression", "Poisson's ratio, secant at 50 % of peak",
+          "Young's modulus, tangent 40-60 % of peak", "uniaxial compressive strength"})
+      values.push_back(std::stod(row_of(frame, "core.csv", property).at("mean")));
+    return values;
+  };
+  const std::vector<double> true_figures = figures(shifted(0.0, 0.0, ""), "");
+  EXPECT_NEAR(true_figures[0], 160.0 / 60e3, 1e-8);
+  EXPECT_NEAR(true_figures[1], 0.2375, 1e-3);
+  const auto expect_true = [&](const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      EXPECT_NEAR(values[k], true_figures[k], 1e-6 * true_figures[k]) << k;
+  };
+  expect_true(figures(shifted(0.05, -0.02, ""),
+                      "core.csv: strains are counted from row 1 below the header, where the load begins; 0.05 % of axial and "
+                      "-0.02 % of lateral strain were taken off every row"));
+  // The platen comes to the specimen: three rows without load.
+  expect_true(figures(shifted(0.3, 0.0, "0,0,0,0\n0.1,0,0.05,0\n0.2,0,0.1,0\n"),
+                      "core.csv: strains are counted from row 4 below the header"));
+  // A record that begins at 8 of 160 MPa has no row by which its zero is known: it is taken as it stands, and that is said.
+  const auto preloaded = figures(shifted(0.0, 0.0, "", 8.0), "core.csv: the first row is under 5.0 % of the peak load already");
+  expect_true(preloaded);
+}
+
+// A cell of nan in a table of grains once broke the script of the page, so that figures behind it stayed still.
+TEST_F(Report, OfTablesWithNumbersThatAreNoneNamesThemAndStaysAlive)
+{
+  const auto spoil = [&](const std::string& table, const std::size_t line, const std::size_t cell, const char* with) {
+    std::string text = content(folder.path() / table);
+    std::size_t at = 0;
+    for (std::size_t k = 1; k < line; ++k)
+      at = text.find('\n', at) + 1;
+    for (std::size_t k = 0; k < cell; ++k)
+      at = text.find(',', at) + 1;
+    text.replace(at, text.find_first_of(",\n", at) - at, with);
+    folder.write(table, text);
+  };
+  spoil("out/grains/uniaxial_compression_seed_1.csv", 17, 1, "nan");
+  spoil("out/grains/triaxial_compression_10_MPa_seed_1.csv", 3, 6, "-inf");
+  spoil("out/curves/uniaxial_compression_seed_1.csv", 20, 3, "inf");
+  spoil("out/cracks.csv", 5, 6, "-nan");
+  const std::string words = remade("report out", true);
+  holds(words, {"out/grains/uniaxial_compression_seed_1.csv: line 17: start_y_m is nan, no finite number",
+                "out/grains/triaxial_compression_10_MPa_seed_1.csv: line 3: radius_m is -inf",
+                "out/curves/uniaxial_compression_seed_1.csv: line 20: axial_stress_Pa is inf",
+                "out/cracks.csv: line 5: "});
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = words.find(data_of_a_script, at)) != std::string::npos; ++n)
+    {
+      at += data_of_a_script.size();
+      const std::string data = words.substr(at, words.find("</script>", at) - at);
+      EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(data))) << data.substr(0, 200);
+    }
+  EXPECT_GE(n, 18u);
+  EXPECT_EQ(count(words, "class=\"absent\""), 0u);
+}
+
 TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
 {
   const std::string header = "axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]";
@@ -575,6 +699,8 @@ TEST_F(Report, RefusesAMeasuredCurveItCannotReadInOneLine)
           "core.csv:1: \"axial_stress\" has no unit in square brackets");
   refused(measured_curve("axial_strain [%],lateral_strain [%],axial_stress [mm],confining_pressure [MPa]"),
           "\"mm\" is not the unit of a stress");
+  refused("axial_strain [%],lateral_strain [%],axial_stress [MPa],confining_pressure [MPa]\n0,0,0,0\n0.1,0,1e308,0\n",
+          "core.csv:3: axial_stress: \"1e308\" is beyond the range of numbers");
   refused(measured_curve("axial_strain [%],axial_stress [MPa],axial_stress [MPa],confining_pressure [MPa]"),
           "axial_stress is there twice");
   refused(measured_curve("axial_strain [%],radial [%],axial_stress [MPa],confining_pressure [MPa]"),

@@ -1765,7 +1765,9 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
   expect(refusal(R"({"experiment": {}, "model": {}})"), "model: no such key; there are rock, citation, experiment");
   expect(of_experiment(R"("tensil_strength_MPa": 9)"),
          "experiment/tensil_strength_MPa: no such property; there are density_kg_per_m3, tensile_strength_MPa");
-  expect(of_experiment(R"("strength_at_depth_MPa": 9)"), "experiment/strength_at_depth_MPa: no such property");
+  for (const char* const pressure : {"depth", "inf", "nan", "1e999"})
+    expect(of_experiment(fmt::format(R"("strength_at_{}_MPa": 9)", pressure)),
+           fmt::format("experiment/strength_at_{}_MPa: no such property", pressure));
   expect(of_experiment(R"("tensile_strength_MPa": {"mean": 200, "sd": 22})"),
          "experiment/tensile_strength_MPa/sd: no such key; there are mean, min, max, standard_deviation, n, note");
   expect(of_experiment(R"("tensile_strength_MPa": {"mean": 9, "min": 12, "max": 7})"), "min = 12 is above max = 7");

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -198,6 +199,43 @@ std::vector<std::string> cut_as_said(const double width, const double height)
           {
           }
   return names;
+}
+
+/// Grains of the lower and the upper pad of the disc that is cut from a specimen of discs: those that set off with a platen.
+std::vector<std::size_t> pads_of(const double width, const double height, const std::uint64_t seed)
+{
+  SpecimenParameters wanted;
+  wanted.width = width;
+  wanted.height = height;
+  FlatJointParameters joint;
+  joint.installation_gap_ratio = 0.05;
+  const auto specimen = make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+  const TestParameters parameters;
+  const auto test = (*brazilian.set_up<2>())(specimen, 0.0, parameters, {});
+  const Specimen<2>& disc = test.dynamics.specimen();
+  const auto& velocity = disc.grains.velocity;
+  const double speed = 0.5 * parameters.brazilian_strain_rate * disc.size[0];
+  std::vector<std::size_t> n_grains;
+  for (const double of_pad : {speed, -speed})
+    n_grains.push_back(std::size_t(std::count(velocity[1].begin(), velocity[1].end(), of_pad)));
+  return n_grains;
+}
+
+// Walls touch the rim of a disc of a square specimen at its poles, where no grain lies wholly within the circle. The pads are
+// then brought to the outermost grains: of 30 mm once all of eight seeds were refused, of 50 mm four of them.
+TEST(BrazilianDisc, OfASquareSpecimenIsHeldByItsOutermostGrains)
+{
+  for (const double width : {0.030, 0.050})
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+      {
+        const auto n_grains = pads_of(width, width, seed);
+        ASSERT_EQ(n_grains.size(), 2u);
+        for (const std::size_t n : n_grains)
+          {
+            EXPECT_GE(n, 1u) << width << " m, seed " << seed;
+            EXPECT_LE(double(n), 1.0 + width * std::sin(10.0 * pi / 180.0) / 1.2e-3) << width << " m, seed " << seed;
+          }
+      }
 }
 
 // What a test that cannot be made would have been made on stands in its record.

@@ -508,6 +508,22 @@ TEST(StrengthEnvelopes, AreSilentAndTheSameBitsEveryTime)
   flat.uniaxial_compressive_strength = 100 * MPa;
   flat.tensile_strength = 1e-9;
   (void)fit_strength_envelopes(flat);
+  // Strengths that are numbers and of no rock, and one in the middle of them.
+  for (const double strength : {5e-324, 1e-300, 1e-30, 0.0, 1e-4, 1e30, 1e300, 1.7e308})
+    {
+      StrengthData strange = independent_program(9.5 * MPa);
+      strange.points.front().sigma_1 = strength;
+      strange.uniaxial_compressive_strength = strength;
+      for (const auto& record : records(fit_strength_envelopes(strange)))
+        EXPECT_FALSE(record.reason.empty()) << record.form << " of " << strength;
+      strange.uniaxial_compressive_strength = 150 * MPa;
+      strange.points.front().sigma_1 = 150 * MPa;
+      strange.tensile_strength = strength;
+      (void)fit_strength_envelopes(strange);
+      strange.tensile_strength = 9.5 * MPa;
+      strange.points.push_back({strength, strength + 200 * MPa});
+      (void)fit_strength_envelopes(strange);
+    }
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   for (std::size_t i = 0; i < first.size(); ++i)

@@ -64,22 +64,44 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
 }
 
 /// As it lies between the platens: of a core on its side, of a plane box with its longer side upright. Where a wall touches
-/// the rim of the disc no grain lies wholly within it, which is where the disc is to be loaded.
+/// the rim of the disc few grains lie wholly within it, which is where the disc is to be loaded.
 template <int dim>
 Specimen<dim> placed(const Specimen<dim>& specimen)
 {
   return dim == 2 && specimen.size[0] > specimen.size[1] ? quarter_turned(specimen) : laid_on_side(specimen);
 }
 
-/// For a disc that has no grain where it is loaded.
+/// The grains by which one end is held, one grain deep within the angle that is loaded: from the rim, or from the outermost
+/// grain where none comes so near to the rim. `outwards`: 1 of the upper end, -1 of the lower.
 template <int dim>
-std::string remedy(const Specimen<dim>& specimen)
+std::vector<std::uint32_t> pad(const Specimen<dim>& disc, const double mean_radius, const double outwards)
 {
-  if (dim == 3 && !specimen.round)
-    return "take Specimen/Shape = cylinder, whose walls are the rim of the disc";
-  const bool is_square = dim == 2 && specimen.size[0] == specimen.size[1];
-  return fmt::format("make the specimen {}, the grains smaller (Specimen/Minimum radius), or take another seed",
-                     is_square ? "higher than wide" : "wider");
+  constexpr int axis = dim - 1;
+  const double radius = 0.5 * disc.size[0];
+  std::vector<std::pair<double, std::uint32_t>> within; // heights above the middle
+  double outermost = 0.0;
+  for (std::uint32_t i = 0; i < disc.grains.size(); ++i)
+    {
+      const Vector<dim> from_middle = at<dim>(disc.grains.position, i) - 0.5 * disc.size;
+      const double height = outwards * from_middle[axis];
+      if (std::abs(from_middle[0]) >= radius * std::sin(loaded_half_angle) || height <= 0.0)
+        continue;
+      within.emplace_back(height, i);
+      outermost = std::max(outermost, height);
+    }
+  double inner_face = radius * std::cos(loaded_half_angle) - 2.0 * mean_radius;
+  if (outermost <= inner_face)
+    inner_face = outermost - mean_radius;
+  std::vector<std::uint32_t> grains;
+  for (const auto& [height, i] : within)
+    if (height > inner_face)
+      grains.push_back(i);
+  if (grains.empty())
+    throw InputError(fmt::format("Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no "
+                                 "grain where it is loaded; make the specimen wider or the grains smaller "
+                                 "(Specimen/Minimum radius)",
+                                 1e3 * disc.size[0], disc.report.resolution));
+  return grains;
 }
 
 template <int dim>
@@ -90,21 +112,9 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confinin
   const Specimen<dim> disc = cut_disc<dim>(placed(specimen), disc_size(specimen, wanted));
   const double diameter = disc.size[0];
   const double length = dim == 2 ? disc.thickness : disc.size[1];
-  // A pad of grains at either end, one grain deep, is held as by a stiff cushion and moved as one.
-  const double half_width = 0.5 * diameter * std::sin(loaded_half_angle);
-  const double inner_face = 0.5 * diameter * std::cos(loaded_half_angle) - 2.0 * specimen.report.mean_radius;
-  std::vector<std::uint32_t> lower_pad, upper_pad;
-  for (std::uint32_t i = 0; i < disc.grains.size(); ++i)
-    {
-      const Vector<dim> from_middle = at<dim>(disc.grains.position, i) - 0.5 * disc.size;
-      if (std::abs(from_middle[0]) < half_width && std::abs(from_middle[axis]) > inner_face)
-        (from_middle[axis] < 0.0 ? lower_pad : upper_pad).push_back(i);
-    }
-  if (lower_pad.empty() || upper_pad.empty())
-    throw InputError(fmt::format(
-      "Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no grain where it is "
-      "loaded; {}",
-      1e3 * diameter, disc.report.resolution, remedy(specimen)));
+  // A pad of grains at either end is held as by a stiff cushion and moved as one.
+  std::vector<std::uint32_t> lower_pad = pad(disc, specimen.report.mean_radius, -1.0);
+  std::vector<std::uint32_t> upper_pad = pad(disc, specimen.report.mean_radius, 1.0);
 
   SetUpTest<dim> test{Dynamics<dim>(disc, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.brazilian_strain_rate);
