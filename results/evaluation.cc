@@ -300,23 +300,6 @@ void evaluate_toughness(const TestRecord& record, const RisingBranch& branch, Te
     unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
 }
 
-/// Of a sheared plane that has its strength, and keeps it while it slides.
-constexpr double share_of_strength = 0.99;
-
-/// The strength of a sheared plane; under a normal stress that grows as it opens, as a share of that stress.
-double mobilised(const TestRecord& record, const CurveSample& row)
-{
-  return record.kind.stress(row) / (record.normal_stiffness ? -row.lateral_stress : 1.0);
-}
-
-/// A plane that slides bears its strength to the end: any row may be the highest by a little, the last one too.
-bool slides_to_the_end(const TestRecord& record)
-{
-  const auto& curve = record.curve;
-  return record.kind.pressure_acts_across &&
-         mobilised(record, curve[9 * (curve.size() - 1) / 10]) > share_of_strength * mobilised(record, curve.back());
-}
-
 /// The way of the platen that holds the normal stress is what the work of the walls is more than that of the shear stress:
 /// dW = A (τ du - σ_n dv).
 void evaluate_shear(const TestRecord& record, const RisingBranch& branch, TestResults& results)
@@ -392,21 +375,6 @@ void evaluate_fragments(const TestRecord& record, TestResults& results)
 }
 } // namespace
 
-std::optional<std::size_t> peak_row(const TestRecord& record)
-{
-  PeakWatch watch(record.kind.peak_rule);
-  std::size_t peak = 0;
-  for (std::size_t k = 0; k < record.curve.size(); ++k)
-    if (watch.is_highest(record.kind.stress(record.curve[k])))
-      peak = k;
-  if (peak == 0 || (peak + 1 == record.curve.size() && !record.came_apart && !slides_to_the_end(record)))
-    return std::nullopt;
-  // Shares of the peak are those of its deviator.
-  if (record.kind.deviator(record.curve[peak], record.confining_pressure) <= 0.0)
-    return std::nullopt;
-  return peak;
-}
-
 std::optional<std::size_t> crack_initiation_row(const TestRecord& record, const std::size_t peak)
 {
   const std::uint64_t at_peak = n_cracks(record.curve[peak]);
@@ -453,13 +421,14 @@ TestResults evaluate(const TestRecord& record)
   evaluate_fragments(record, results);
 
   // What looks like a peak before the stop rule was met may not be one.
-  const auto peak = curve.empty() || record.interrupted ? std::nullopt : peak_row(record);
+  const PeakVerdict verdict = record.interrupted
+                                ? PeakVerdict{std::nullopt, record.failure.empty() ? "interrupted before its end"
+                                                                                   : record.failure}
+                                : find_peak(record);
+  const std::optional<std::size_t> peak = verdict.row;
   if (!peak)
     {
-      const Figure none = unknown(!record.failure.empty()      ? record.failure
-                                  : record.interrupted         ? "interrupted before its end"
-                                  : record.ended_early.empty() ? "the stress never peaked"
-                                                               : "the stress never peaked: " + record.ended_early);
+      const Figure none = unknown(verdict.reason);
       for (const auto member : figures_of_a_peak)
         results.*member = none;
       return results;

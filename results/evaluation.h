@@ -1,5 +1,6 @@
 #pragma once
 
+#include "results/peak.h"
 #include "results/record.h"
 
 #include <cstddef>
@@ -76,9 +77,6 @@ struct StageResults
   std::uint64_t n_cracks = 0;
   double duration = 0.0; ///< [s]
 };
-
-/// The row of the curve where the stress was highest, by the peak rule of the test; none if it was rising to the end.
-std::optional<std::size_t> peak_row(const TestRecord& record);
 
 /// The first row with 1 % of the cracks at the peak; none if there is no crack up to there.
 std::optional<std::size_t> crack_initiation_row(const TestRecord& record, std::size_t peak);

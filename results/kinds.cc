@@ -52,17 +52,4 @@ std::string names(const std::vector<TestKind>& kinds)
 }
 
 std::string name(const TestBody body) { return body == TestBody::grains ? "grains" : "finite_elements"; }
-
-bool PeakWatch::is_highest(const double stress)
-{
-  constexpr double fall = 0.05;
-  constexpr double round_off = 1e-9; // a plateau peaks where it begins
-  const bool is_over = rule == PeakRule::first_before_a_fall && fallen;
-  if (stress < (1.0 - fall) * highest)
-    fallen = true;
-  if (stress <= highest * (1.0 + round_off) || is_over)
-    return false;
-  highest = stress;
-  return true;
-}
 } // namespace feldspar

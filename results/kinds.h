@@ -100,20 +100,4 @@ bool any_takes_confining_pressure(const std::vector<TestKind>& kinds);
 
 /// Their names, separated by commas.
 std::string names(const std::vector<TestKind>& kinds);
-
-/// Follows a curve to its peak, row by row; stresses positive in the sense of the test.
-struct PeakWatch
-{
-  explicit PeakWatch(const PeakRule of_test)
-    : rule(of_test)
-  {
-  }
-
-  /// Whether this stress is the highest so far. By the rule of the first peak nothing is after a fall of 5 %.
-  bool is_highest(double stress);
-
-  PeakRule rule;
-  double highest = 0.0;
-  bool fallen = false;
-};
 } // namespace feldspar

@@ -3,6 +3,7 @@
 #include "dem/specimen/specimen_report.h"
 #include "results/curve.h"
 #include "results/kinds.h"
+#include "results/peak.h"
 
 #include <array>
 #include <cstdint>
@@ -81,6 +82,9 @@ struct TestRecord
   std::vector<Crack> cracks;
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
+  PeakDemands peak_demands = {};      ///< on its highest stress
+  /// How far its walls were brought to the grains before it began; the farthest of them [m].
+  double way_to_grains = 0.0;
   std::vector<StageRecord> stages;    ///< that were begun, of a test that follows a table
   /// The notch of a bending test; none without.
   std::optional<NotchGeometry> notch;

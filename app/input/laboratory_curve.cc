@@ -175,6 +175,8 @@ Series read_laboratory_curve(const std::filesystem::path& file)
                                  "must be the whole axial stress, not the part beyond the pressure",
                                  file.string(), -least_stress / 1e6, test.record.confining_pressure / 1e6));
   test.record.kind = test.record.confining_pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+  // Laboratories choose where a curve ends: right after the peak, or when it has risen again.
+  test.record.peak_demands = {.least_fall = 0.0, .may_end_rising = true};
   const auto peak = peak_row(test.record);
   if (!peak)
     throw InputError(

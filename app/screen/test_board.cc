@@ -11,7 +11,7 @@ TestBoard::TestBoard(Progress& shown, const std::vector<BoardTest>& planned)
 {
   for (const BoardTest& test : planned)
     {
-      entries.push_back({test, PeakWatch(test.test.kind.peak_rule)});
+      entries.push_back({test, PeakWatch(test.test.kind, test.test.confining_pressure, {})});
       if (test.test.kind.follows_stages)
         entries.back().stages.emplace(test.input->tests, expected_modulus(*test.input));
     }
@@ -27,9 +27,7 @@ void TestBoard::update(const std::size_t k, const CurveSample& row, const std::s
   entry.more = more;
   if (entry.stages)
     entry.stages->follow(row);
-  if (entry.peak.is_highest(kind.stress(row)))
-    entry.strain_at_peak = kind.strain(row);
-  entry.has_left_peak = kind.stress(row) < 0.95 * entry.peak.highest;
+  entry.peak.add(row);
   entry.running = true;
   draw();
 }
@@ -60,14 +58,14 @@ void TestBoard::finish(const std::size_t k)
 /// there is none.
 double TestBoard::strain_at_peak(const Entry& entry) const
 {
-  if (entry.strain_at_peak > 0.0 && (entry.has_left_peak || entry.finished))
-    return entry.strain_at_peak;
+  if (entry.peak.strain() > 0.0 && (entry.peak.has_fallen() || entry.finished))
+    return entry.peak.strain();
   const TestCase& test = entry.planned.test;
   const auto sister = std::find_if(entries.begin(), entries.end(), [&](const Entry& other) {
-    return other.finished && other.strain_at_peak > 0.0 && other.planned.test.kind == test.kind &&
+    return other.finished && other.peak.strain() > 0.0 && other.planned.test.kind == test.kind &&
            other.planned.test.confining_pressure == test.confining_pressure;
   });
-  const std::optional<double> guess = sister != entries.end() ? std::optional(sister->strain_at_peak)
+  const std::optional<double> guess = sister != entries.end() ? std::optional(sister->peak.strain())
                                                               : expected_strain_at_peak(test, *entry.planned.input);
   constexpr double beyond = 1.2; // of a curve that still rises
   return guess ? std::max(*guess, beyond * test.kind.strain(entry.row)) : 0.0;

@@ -6,6 +6,7 @@
 #include "app/screen/test_length.h"
 #include "results/curve.h"
 #include "results/kinds.h"
+#include "results/peak.h"
 
 #include <cstddef>
 #include <mutex>
@@ -46,8 +47,6 @@ private:
     std::optional<StageLength> stages = {}; ///< of a test that follows them
     CurveSample row{};
     std::string more = {};
-    double strain_at_peak = 0.0; ///< so far
-    bool has_left_peak = false;
     bool running = false;
     bool finished = false;
   };

@@ -16,7 +16,10 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   : test(which)
   , sample(of)
   , wanted(parameters)
-  , stop_rule(test.kind)
+  , stop_rule(test.kind, test.confining_pressure,
+              {.least_stress = parameters.least_peak_stress.value_or(0.0),
+               .least_fall = parameters.least_fall_after_peak,
+               .end_over_peak_strain = parameters.stop_strain_over_peak_strain})
 {
   if (const std::string objection = objection_to_finite_elements(test.kind); !objection.empty())
     throw InputError(objection);
@@ -24,6 +27,7 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   record.body = TestBody::finite_elements;
   record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
   record.confining_pressure = test.confining_pressure;
+  record.peak_demands = stop_rule.peak.demands();
   if (test.kind.follows_stages)
     {
       stage_walk.emplace(wanted);
@@ -61,7 +65,7 @@ void SampleTest::Parts::seat()
   height_at_seating = body->top_displacement();
   lateral_strain_at_seating = body->lateral_strain();
   seated = true;
-  record.curve.push_back(sample_row());
+  add_row();
   if (stage_walk)
     stage_walk->begin(stage_moment());
 }
@@ -89,7 +93,7 @@ void SampleTest::Parts::load()
 bool SampleTest::Parts::is_over()
 {
   if (!stage_walk)
-    return stop_rule.is_met_by(record.curve.back(), test.confining_pressure, wanted);
+    return stop_rule.is_met_by(record.curve.back(), wanted);
   const bool over = stage_walk->is_over(record.curve, stage_moment());
   record.stages = stage_walk->records();
   record.ended_early = stage_walk->ended_early();
@@ -181,6 +185,12 @@ void SampleTest::Parts::gather_cracks()
   std::stable_sort(broken.begin(), broken.end(),
                    [](const Crack& one, const Crack& other) { return one.joint < other.joint; });
   record.cracks.insert(record.cracks.end(), broken.begin(), broken.end());
+}
+
+void SampleTest::Parts::add_row()
+{
+  record.curve.push_back(sample_row());
+  stop_rule.add(record.curve.back());
 }
 
 CurveSample SampleTest::Parts::sample_row()

@@ -79,7 +79,8 @@ struct SampleTest::Parts
   void share_work();
   /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
   void gather_cracks();
-  CurveSample sample_row();
+  /// To the curve, from where the sample stands.
+  void add_row();
 
   /// The state that all ranks share besides the solid; in sample_checkpoint.cc.
   template <typename Archive>
@@ -99,6 +100,7 @@ private:
   StageMoment stage_moment() const;
   StageRow next_row_of_stage();
   bool stress_falls() const;
+  CurveSample sample_row();
   double width_of_last_row() const { return lateral_strain_at_seating + record.curve.back().gauge_lateral_strain; }
 };
 } // namespace feldspar

@@ -32,7 +32,6 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.text("ended_early", record.ended_early);
   transfer_flag(archive, "came_apart", record.came_apart);
   archive.bytes("curve", record.curve);
-  stop_rule.transfer(archive);
   archive.text("fields_written", fields_written);
   for (const std::string& boundary : body->boundaries())
     archive.value("pressure_" + boundary + "_Pa", solid.pressures[boundary]);
@@ -69,6 +68,9 @@ void SampleTest::Parts::transfer(Archive& archive, std::string& fields_written, 
   archive.value("steps_in_a_row", standing_of_steps.n_in_a_row);
   if constexpr (Archive::reads)
     {
+      stop_rule = StopRule(test.kind, test.confining_pressure, record.peak_demands);
+      for (const CurveSample& row : record.curve)
+        stop_rule.add(row);
       steps.reset();
       if (on_its_way)
         {

@@ -51,7 +51,7 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
       if (!parts->seated)
         parts->seat();
       parts->load();
-      record.curve.push_back(parts->sample_row());
+      parts->add_row();
       parts->ended = parts->is_over();
     }
   catch (const fem::StepFailure& failure)

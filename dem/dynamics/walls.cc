@@ -117,6 +117,16 @@ double wall_coordinate(const Specimen<dim>& body, const Wall& wall, const std::u
 }
 
 template <int dim>
+double gap_at(const Specimen<dim>& body, const Wall& wall, const std::vector<bool>& counts)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < body.grains.size(); ++i)
+    if (counts[i] && is_above(body, wall, i))
+      smallest = std::min(smallest, distance_from(body, wall, i) - body.grains.radius[i]);
+  return smallest;
+}
+
+template <int dim>
 std::size_t Walls<dim>::add(const Wall& wall)
 {
   if (wall.pivots && !std::isfinite(wall.middle()))
@@ -299,6 +309,8 @@ template Vector<2> wall_direction<2>(const Specimen<2>&, const Wall&, std::uint3
 template Vector<3> wall_direction<3>(const Specimen<3>&, const Wall&, std::uint32_t);
 template double wall_coordinate<2>(const Specimen<2>&, const Wall&, std::uint32_t);
 template double wall_coordinate<3>(const Specimen<3>&, const Wall&, std::uint32_t);
+template double gap_at<2>(const Specimen<2>&, const Wall&, const std::vector<bool>&);
+template double gap_at<3>(const Specimen<3>&, const Wall&, const std::vector<bool>&);
 template class Walls<2>;
 template class Walls<3>;
 } // namespace feldspar

@@ -58,6 +58,11 @@ Vector<dim> wall_direction(const Specimen<dim>& body, const Wall& wall, std::uin
 template <int dim>
 double wall_coordinate(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
 
+/// The smallest gap between a wall and those grains in front of it that count [m]: negative where one lies in the wall, infinite
+/// where there is none. `counts`: [n_grains].
+template <int dim>
+double gap_at(const Specimen<dim>& body, const Wall& wall, const std::vector<bool>& counts);
+
 /// A grain near a wall.
 template <int dim>
 struct WallTouch

@@ -2,9 +2,11 @@
 
 #include "base/input_error.h"
 #include "dem/lab/platens.h"
+#include "dem/specimen/fragments.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -28,6 +30,15 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
   if (lower_grains.empty() || upper_grains.empty())
     throw InputError(fmt::format("Tests/Grip ratio = {}: no grain lies in a grip of {:.3g} m; make it larger",
                                  wanted.grip_ratio, grip_height));
+
+  const auto piece = fragments(body);
+  std::vector<bool> is_held_above(body.grains.size(), false);
+  for (const std::uint32_t i : upper_grains)
+    is_held_above[piece[i]] = true;
+  if (std::none_of(lower_grains.begin(), lower_grains.end(),
+                   [&](const std::uint32_t i) { return is_held_above[piece[i]]; }))
+    throw InputError("Tests/List: no bonds lead from one grip to the other, so that nothing is pulled: a flaw without "
+                     "strength goes right through the specimen, whose tensile strength is 0; leave the test out");
 
   SetUpTest<dim> test{Dynamics<dim>(body, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, wanted.tension_strain_rate);

@@ -48,5 +48,8 @@ struct TestParameters
   double stop_strain_over_peak_strain = 1.6;
   std::optional<double> stop_strain;           ///< stop at this axial strain instead
   std::optional<double> stop_stress_over_peak; ///< or when the deviator has fallen to this share of its peak
+  std::optional<double> least_peak_stress;     ///< of a deviator that is a peak [Pa]; none: that of waves
+  double least_transits_to_peak = 4.0;         ///< of a wave along the specimen
+  double least_fall_after_peak = 0.05;         ///< of the deviator, over the peak
 };
 } // namespace feldspar

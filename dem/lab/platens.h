@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/seating.h"
 #include "dem/lab/test_in_progress.h"
 
 namespace feldspar
@@ -12,12 +13,22 @@ struct Platens
   std::size_t upper;
 };
 
-/// Stands both at rest, across the last axis.
+/// Stands both at rest across the last axis, at the ends of a specimen that leads from one to the other.
 template <int dim>
-Platens add_platens(Dynamics<dim>& dynamics, const double lower, const double upper, const double friction)
+Platens add_platens(SetUpTest<dim>& test, const double friction)
 {
   constexpr int axis = dim - 1;
-  return {dynamics.add_wall({axis, 1.0, lower, 0.0, friction}), dynamics.add_wall({axis, -1.0, upper, 0.0, friction})};
+  const Specimen<dim>& body = test.dynamics.specimen();
+  check_leads_from_end_to_end(body);
+  return {stand_wall<dim>(test, {axis, 1.0, 0.0, 0.0, friction}, "lower platen"),
+          stand_wall<dim>(test, {axis, -1.0, body.size[axis], 0.0, friction}, "upper platen")};
+}
+
+/// Between them [m].
+template <int dim>
+double distance(const Dynamics<dim>& dynamics, const Platens& platens)
+{
+  return dynamics.walls()[platens.upper].position - dynamics.walls()[platens.lower].position;
 }
 
 /// Brings the platens together at `speed` [m/s], half of it each.

@@ -1,40 +1,34 @@
 #pragma once
 
-#include "base/byte_archive.h"
 #include "dem/lab/parameters.h"
-#include "results/record.h"
+#include "results/peak.h"
 
 namespace feldspar
 {
-/// Follows the curve of a test, row by row, to its end; docs/theory.md §4.5.
+/// Follows the curve of a test, row by row, to its end; docs/theory.md §4.5. The first row is where the strain is zero. Its
+/// state follows from the rows, so that a test that is taken up hands it its curve again.
 struct StopRule
 {
-  explicit StopRule(const TestKind& of_test)
+  StopRule(const TestKind& of_test, const double confining_pressure, const PeakDemands& demands)
     : kind(of_test)
-    , peak(of_test.peak_rule)
+    , pressure(confining_pressure)
+    , peak(of_test, confining_pressure, demands)
   {
   }
 
   /// For a body that swings at first: its test does not end before a bond has broken, except at a wanted strain.
   bool needs_crack = false;
 
-  /// Whether such a body, loaded without a wanted strain, was moved so far without a crack that it bears nothing.
+  /// Takes the next row.
+  void add(const CurveSample& row) { peak.add(row); }
+  /// Whether the row that was added last ends the test.
+  bool is_met_by(const CurveSample& row, const TestParameters& wanted) const;
+  /// Whether the body, loaded without a wanted strain, was moved so far without a crack, or without a stress that a body
+  /// bears, that nothing holds it.
   bool bears_nothing(const CurveSample& row, const TestParameters& wanted) const;
 
-  /// Whether this row is the last. confining_pressure in Pa, compression positive.
-  bool is_met_by(const CurveSample& row, double confining_pressure, const TestParameters& wanted);
-
-  /// Into or out of a checkpoint.
-  template <typename Archive>
-  void transfer(Archive& archive)
-  {
-    archive.value("peak_deviator", peak.highest);
-    transfer_flag(archive, "fallen", peak.fallen);
-    archive.value("strain_at_peak", strain_at_peak);
-  }
-
   TestKind kind;
-  PeakWatch peak; ///< of the deviator
-  double strain_at_peak = 0.0;
+  double pressure; ///< compression positive [Pa]
+  PeakWatch peak;
 };
 } // namespace feldspar

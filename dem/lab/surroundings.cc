@@ -1,6 +1,7 @@
 #include "dem/lab/surroundings.h"
 
 #include "dem/lab/membrane.h"
+#include "dem/lab/seating.h"
 
 #include <numbers>
 
@@ -13,15 +14,16 @@ double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
 }
 
 template <int dim>
-Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const double confining_pressure,
+Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const double confining_pressure,
                            const TestParameters& wanted)
 {
   using State = const Dynamics<dim>&;
-  const Vector<dim> size = dynamics.specimen().size;
-  const double thickness = dynamics.specimen().thickness;
+  const Specimen<dim>& specimen = test.dynamics.specimen();
+  const Vector<dim> size = specimen.size;
+  const double thickness = specimen.thickness;
   Surroundings<dim> around;
   if constexpr (dim == 3)
-    if (dynamics.specimen().round)
+    if (specimen.round)
       {
         if (wanted.lateral_boundary == LateralBoundary::membrane)
           {
@@ -32,7 +34,7 @@ Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const 
             };
             return around;
           }
-        const std::size_t wall = dynamics.add_wall(round_wall(dynamics.specimen()));
+        const std::size_t wall = stand_wall(test, round_wall(specimen), "side wall");
         const auto radius = [=](State state) { return state.walls()[wall].position; };
         around.sides = {{{wall},
                          [=](State state) { return 2.0 * std::numbers::pi * radius(state) * distance(state, ends); },
@@ -44,8 +46,8 @@ Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const 
   std::vector<WallPair> pairs; // across every axis but the last
   for (int axis = 0; axis < dim - 1; ++axis)
     {
-      const std::size_t low = dynamics.add_wall({axis, 1.0, 0.0});
-      pairs.push_back({low, dynamics.add_wall({axis, -1.0, size[axis]})});
+      const std::size_t low = stand_wall<dim>(test, {axis, 1.0, 0.0}, "side wall");
+      pairs.push_back({low, stand_wall<dim>(test, {axis, -1.0, size[axis]}, "side wall")});
     }
   for (int axis = 0; axis < dim - 1; ++axis)
     {
@@ -65,6 +67,6 @@ Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, const 
 
 template double distance<2>(const Dynamics<2>&, const WallPair&);
 template double distance<3>(const Dynamics<3>&, const WallPair&);
-template Surroundings<2> surround<2>(Dynamics<2>&, const WallPair&, double, const TestParameters&);
-template Surroundings<3> surround<3>(Dynamics<3>&, const WallPair&, double, const TestParameters&);
+template Surroundings<2> surround<2>(SetUpTest<2>&, const WallPair&, double, const TestParameters&);
+template Surroundings<3> surround<3>(SetUpTest<3>&, const WallPair&, double, const TestParameters&);
 } // namespace feldspar

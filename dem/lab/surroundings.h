@@ -2,6 +2,7 @@
 
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/parameters.h"
+#include "dem/lab/test_in_progress.h"
 
 #include <cstddef>
 #include <functional>
@@ -51,6 +52,6 @@ struct Surroundings
 
 /// Stands the walls around the sides of a specimen between two platens, for a confining pressure [Pa].
 template <int dim>
-Surroundings<dim> surround(Dynamics<dim>& dynamics, const WallPair& ends, double confining_pressure,
+Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, double confining_pressure,
                            const TestParameters& wanted);
 } // namespace feldspar

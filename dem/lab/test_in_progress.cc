@@ -1,6 +1,8 @@
 #include "dem/lab/test_in_progress.h"
 
 #include "base/hdf5_archive.h"
+#include "dem/lab/seating.h"
+#include "dem/lab/servo.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/storage/segment_place.h"
@@ -24,7 +26,36 @@ SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specim
   const std::optional<SetUp<dim>>& set_up = test.protocol.set_up<dim>();
   if (!set_up)
     throw std::logic_error(fmt::format("{} has no set-up in {} dimensions", test.protocol.kind.name, dim));
+  check_fills_its_box(specimen);
   return (*set_up)(specimen, test.confining_pressure, wanted, dynamics);
+}
+
+/// Each end that moves at the speed v sends a wave of the stress ρ c v, and v is half of the strain rate times the length; a
+/// rigid end throws it back doubled, and both ends do so.
+template <int dim>
+PeakDemands peak_demands(const Specimen<dim>& body, const TestKind& kind, const double strain_rate,
+                         const TestParameters& wanted)
+{
+  const double speed = wave_speed(body);
+  const double length = body.size[kind.pressure_acts_across ? 0 : dim - 1]; // to which the strain refers
+  const double from_both_ends = 2.0 * body.bulk_density * speed * strain_rate * length;
+  return {.least_stress = wanted.least_peak_stress.value_or(from_both_ends),
+          .least_time = wanted.least_transits_to_peak * body.size[dim - 1] / speed,
+          .least_fall = wanted.least_fall_after_peak,
+          .end_over_peak_strain = wanted.stop_strain_over_peak_strain};
+}
+
+std::string what_bears_nothing(const TestRecord& record)
+{
+  const double percent = 100.0 * std::abs(record.curve.back().axial_strain);
+  if (record.notch)
+    return fmt::format("no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is "
+                       "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
+                       "radius)",
+                       percent);
+  return fmt::format("the stress did not come to {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
+                     "holds the specimen, or it bears nothing",
+                     record.peak_demands.least_stress / 1e6, percent);
 }
 
 template <int dim>
@@ -79,7 +110,7 @@ template <int dim>
 LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
                       const DynamicsParameters& dynamics)
   : wanted(parameters)
-  , stop_rule(test.protocol.kind)
+  , stop_rule(test.protocol.kind, test.confining_pressure, {})
   , set_up(set_up_of(test, specimen, parameters, dynamics))
   , stage_walk(parameters)
 {
@@ -95,29 +126,19 @@ LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen,
   record.bulk_density = tested.bulk_density;
   record.notch = set_up.loading.notch;
   record.normal_stiffness = set_up.loading.normal_stiffness;
+  record.way_to_grains = set_up.loading.way_to_grains;
+  record.peak_demands = peak_demands(tested, test.protocol.kind, record.strain_rate, wanted);
+  stop_rule = StopRule(test.protocol.kind, test.confining_pressure, record.peak_demands);
   stop_rule.needs_crack = record.notch.has_value(); // a slender body
   n_broken_segments.assign(tested.grains.size(), 0);
-  jointed.assign(tested.grains.size(), false);
-  for (std::size_t j = 0; j < tested.joints.size(); ++j)
-    jointed[tested.joints.grain_1[j]] = jointed[tested.joints.grain_2[j]] = true;
-  for (const auto& joint : tested.smooth_joints)
-    jointed[joint.grain_1] = jointed[joint.grain_2] = true;
-  if (tested.groups_are_rigid)
-    {
-      std::vector<bool> group_is_jointed(tested.report.n_clumps, false);
-      for (std::size_t i = 0; i < jointed.size(); ++i)
-        if (jointed[i])
-          group_is_jointed[tested.groups[i]] = true;
-      for (std::size_t i = 0; i < jointed.size(); ++i)
-        jointed[i] = group_is_jointed[tested.groups[i]];
-    }
+  is_part = grains_of_body(tested);
 }
 
 template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
-  gauge = StrainGauge<dim>(specimen.size, specimen.round, BodyCentres<dim>(specimen, gauge_positions).all(), jointed);
+  gauge = StrainGauge<dim>(specimen.size, specimen.round, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
 }
 
 template <int dim>
@@ -129,13 +150,10 @@ bool LabTest<dim>::advance(const std::function<void()>& check)
       if (!seated)
         seat(check);
       load_to_next_row(check);
-      ended = set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment())
-                                         : stop_rule.is_met_by(record.curve.back(), record.confining_pressure, wanted);
-      if (stop_rule.bears_nothing(record.curve.back(), wanted))
-        record.failure = fmt::format(
-          "no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is a "
-          "few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum radius)",
-          100.0 * std::abs(record.curve.back().axial_strain));
+      const CurveSample& row = record.curve.back();
+      ended = set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment()) : stop_rule.is_met_by(row, wanted);
+      if (!set_up.loading.drive_stage && stop_rule.bears_nothing(row, wanted))
+        record.failure = what_bears_nothing(record);
     }
   catch (const Runaway& error)
     {
@@ -165,6 +183,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
   record.curve.push_back(sample());
+  stop_rule.add(record.curve.back());
   energy_watch.has_grown_without_work(record.curve.back().energies);
   take_snapshot();
   if (set_up.loading.drive_stage)
@@ -214,6 +233,7 @@ void LabTest<dim>::add_row()
       fmt::format("energy grows without work ({:.3g} J more than were put in)", -row.energies.unaccounted()));
   row.lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
   record.curve.push_back(row);
+  stop_rule.add(row);
   time_of_last_row = dynamics.time();
   lateral_stress_over_time = 0.0;
   if ((record.curve.size() - 1) % rows_between_snapshots == 0)
@@ -412,7 +432,6 @@ void LabTest<dim>::transfer(Archive& archive)
   archive.value("lateral_stress_over_time", lateral_stress_over_time);
   archive.value("n_tension", n_tension);
   archive.value("n_shear", n_shear);
-  stop_rule.transfer(archive);
   if (set_up.loading.drive_stage)
     {
       archive.value("shortening_at_start", shortening_at_start);
@@ -481,7 +500,10 @@ void LabTest<dim>::read_checkpoint(const std::filesystem::path& file, const std:
   });
   start_gauge();
   for (const CurveSample& row : record.curve)
-    energy_watch.has_grown_without_work(row.energies);
+    {
+      energy_watch.has_grown_without_work(row.energies);
+      stop_rule.add(row);
+    }
   seated = true;
 }
 

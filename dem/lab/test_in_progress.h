@@ -30,6 +30,7 @@ struct Loading
 {
   double strain_rate = 0.0;                  ///< along the last axis, tension positive [1/s]
   double sampling_strain = 0.0;              ///< between two rows of the curve
+  double way_to_grains = 0.0;                ///< by which the farthest wall was brought to the specimen [m]
   std::optional<double> intermediate_stress; ///< σ_2, where it is not the confining pressure [Pa]
   std::optional<NotchGeometry> notch;
   std::optional<double> normal_stiffness; ///< that presses back the opening [Pa/m]
@@ -116,7 +117,7 @@ private:
   std::vector<Snapshot> snapshots;
   EnergyWatch energy_watch;
   double wall_time = 0.0;    ///< [s]
-  std::vector<bool> jointed; ///< each grain, before anything broke
+  std::vector<bool> is_part; ///< each grain, of the body, before anything broke
   StrainGauge<dim> gauge;
   bool seated = false;
   bool ended = false;

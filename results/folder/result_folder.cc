@@ -106,6 +106,25 @@ std::optional<NotchGeometry> notch_of(const Json& json)
     }
 }
 
+/// Of layouts from before they were written, or where a member is missing, those by default.
+PeakDemands peak_demands_of(const Json& json)
+{
+  const auto demands = json.find("peak_demands");
+  if (demands == json.end())
+    return {};
+  try
+    {
+      return {.least_stress = demands->at("least_stress_Pa").get<double>(),
+              .least_time = demands->at("least_time_s").get<double>(),
+              .least_fall = demands->at("least_fall").get<double>(),
+              .end_over_peak_strain = demands->at("end_over_peak_strain").get<double>()};
+    }
+  catch (const Json::exception&)
+    {
+      return {};
+    }
+}
+
 FinishedTest test_of(const Json& json, const TestKind& kind)
 {
   FinishedTest test;
@@ -133,6 +152,9 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   test.appearance.flaws = flaws_of(json);
   test.record.stages = stages_of(json);
   test.record.notch = notch_of(json);
+  test.record.peak_demands = peak_demands_of(json);
+  if (const auto way = json.find("way_to_grains_m"); way != json.end() && way->is_number())
+    test.record.way_to_grains = way->get<double>();
   for (const auto& entry : result_table())
     {
       const std::string key(entry.name);

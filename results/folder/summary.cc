@@ -106,6 +106,12 @@ Json describe(const FinishedTest& test)
                            {"cascades", work->n_cascades},
                            {"seconds_in_points", work->seconds_in_points}};
   json["size_m"] = test.record.size;
+  json["way_to_grains_m"] = json_number(test.record.way_to_grains);
+  const PeakDemands& demands = test.record.peak_demands;
+  json["peak_demands"] = {{"least_stress_Pa", json_number(demands.least_stress)},
+                          {"least_time_s", json_number(demands.least_time)},
+                          {"least_fall", json_number(demands.least_fall)},
+                          {"end_over_peak_strain", json_number(demands.end_over_peak_strain)}};
   if (const RankBalance& ranks = test.bookkeeping.ranks; ranks.mean > 0.0)
     json["ranks"] = {{"mean_s", ranks.mean},
                      {"longest_s", ranks.longest},

@@ -168,6 +168,12 @@ std::string shortcoming(const FinishedTest& test)
       "beyond; a greater Tests/Stop strain shows it.",
       test.name, record.kind.strain(record.curve.back()) / *test.results.strain_at_peak.value,
       100.0 * *test.results.residual_deviator_ratio.value);
+  if (record.kind.follows_stages && ends_rising(record))
+    return fmt::format("{} was still being loaded when its table ended: its highest stress is no strength.", test.name);
+  if (record.way_to_grains > 0.0)
+    return fmt::format("{}: no grain lay at the sides of the specimen's box; walls were brought to the grains by up to {:.3g} "
+                       "mm, and the area of the stress is that of the box.",
+                       test.name, 1e3 * record.way_to_grains);
   return "";
 }
 

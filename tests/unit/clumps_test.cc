@@ -232,8 +232,9 @@ TEST(Clumps, SwingOnTheirJointsWithoutLossAtTheirTimeStep)
 TEST(Clumps, MeanStressIsThatOfThePlatens)
 {
   const Specimen<2> specimen = clumped({0.005});
-  Dynamics<2> dynamics(specimen, {0.7, 0.8}, ZeroForce::as_placed);
-  const Platens platens = add_platens(dynamics, 0.0, 0.040, 0.0);
+  SetUpTest<2> test{Dynamics<2>(specimen, {0.7, 0.8}, ZeroForce::as_placed), {}};
+  const Platens platens = add_platens(test, 0.0);
+  Dynamics<2>& dynamics = test.dynamics;
   start_steadily(dynamics, -0.05);
   close(dynamics, platens, 0.05 * 0.040);
   while (dynamics.time() < 2e-3) // to a strain of 1e-4

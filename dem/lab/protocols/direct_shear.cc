@@ -19,13 +19,13 @@ struct HalfBox
 };
 
 template <int dim>
-HalfBox add_half_box(Dynamics<dim>& dynamics, const double from, const double to)
+HalfBox add_half_box(SetUpTest<dim>& test, const double from, const double to)
 {
   Wall low{.axis = 0, .side = 1.0, .position = 0.0};
-  Wall high{.axis = 0, .side = -1.0, .position = dynamics.specimen().size[0]};
+  Wall high{.axis = 0, .side = -1.0, .position = test.dynamics.specimen().size[0]};
   low.extent = high.extent = {from, to};
-  const std::size_t first = dynamics.add_wall(low);
-  return {first, dynamics.add_wall(high)};
+  const std::size_t first = stand_wall(test, low, "left end of a half of the box");
+  return {first, stand_wall(test, high, "right end of a half of the box")};
 }
 
 /// The force of a half on its grains along the first axis [N].
@@ -48,9 +48,9 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   constexpr double endless = std::numeric_limits<double>::infinity();
 
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const Platens platens = add_platens(test.dynamics, 0.0, height, 0.0);
-  const HalfBox lower = add_half_box(test.dynamics, -endless, 0.5 * height - half_gap);
-  const HalfBox upper = add_half_box(test.dynamics, 0.5 * height + half_gap, endless);
+  const Platens platens = add_platens(test, 0.0);
+  const HalfBox lower = add_half_box(test, -endless, 0.5 * height - half_gap);
+  const HalfBox upper = add_half_box(test, 0.5 * height + half_gap, endless);
 
   const double largest_servo_speed = 10.0 * speed;
   const auto hold = [=](Dynamics<dim>& state, const double pressure) {

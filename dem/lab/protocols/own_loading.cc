@@ -16,8 +16,6 @@ template <int dim>
 SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                   const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  constexpr int axis = dim - 1;
-  const double height = specimen.size[axis];
   if (wanted.loading_stages.empty())
     throw InputError("Tests/Loading table: is missing; own_loading follows its stages");
   const LoadingStage& first = wanted.loading_stages.front();
@@ -26,16 +24,16 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   for (const LoadingStage& stage : wanted.loading_stages)
     fastest = std::max(fastest, stage.lateral_strain ? wanted.compression_strain_rate
                                                      : stage.strain_rate.value_or(wanted.compression_strain_rate));
-  const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
-
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test.dynamics, 0.0, height, wanted.platen_friction);
+  const auto platens = add_platens(test, wanted.platen_friction);
   const WallPair ends{platens.lower, platens.upper};
+  const double height = distance(test.dynamics, ends);
+  const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
   Surroundings<dim> around;
   if (pressure_at_start > 0.0)
-    around = surround(test.dynamics, ends, pressure_at_start, wanted);
+    around = surround(test, ends, pressure_at_start, wanted);
   else
-    around.end_area = [area = specimen.volume() / height](const Dynamics<dim>&) { return area; };
+    around.end_area = [area = specimen.volume() / specimen.size[dim - 1]](const Dynamics<dim>&) { return area; };
 
   const auto hold_sides = [=](Dynamics<dim>& state, const double pressure) {
     for (const Press<dim>& side : around.sides)

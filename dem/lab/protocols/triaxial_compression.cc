@@ -33,15 +33,13 @@ template <int dim>
 SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  constexpr int axis = dim - 1;
-  const double height = specimen.size[axis];
+  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const auto platens = add_platens(test, wanted.platen_friction);
+  const WallPair ends{platens.lower, platens.upper};
+  const double height = distance(test.dynamics, ends);
   const double closing_speed = wanted.compression_strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
-
-  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test.dynamics, 0.0, height, wanted.platen_friction);
-  const WallPair ends{platens.lower, platens.upper};
-  const auto around = surround(test.dynamics, ends, confining_pressure, wanted);
+  const auto around = surround(test, ends, confining_pressure, wanted);
   const bool membrane = around.sides.empty();
   // Fitting the membrane anew at every step of the seating would change the ends' area by nothing to speak of.
   const double area_at_rest = membrane ? around.end_area(test.dynamics) : 0.0;

@@ -12,8 +12,8 @@ SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, double
 {
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -wanted.compression_strain_rate);
-  const auto platens = add_platens(test.dynamics, 0.0, specimen.size[dim - 1], wanted.platen_friction);
-  close(test.dynamics, platens, wanted.compression_strain_rate * specimen.size[dim - 1]);
+  const auto platens = add_platens(test, wanted.platen_friction);
+  close(test.dynamics, platens, wanted.compression_strain_rate * distance(test.dynamics, platens));
 
   test.loading.strain_rate = -wanted.compression_strain_rate;
   test.loading.sampling_strain = wanted.compression_sampling_strain;
