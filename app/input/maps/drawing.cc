@@ -209,6 +209,10 @@ private:
   void read_layer(const DxfRecord& layer)
   {
     constexpr long is_frozen = 1;
+    if (has_entities)
+      throw InputError(
+        fmt::format("{}:{}: the layers stand behind the entities; save the drawing anew by a CAD program",
+                    file.string(), layer.line));
     if ((layer.integer(70, 0) & is_frozen) != 0 || layer.integer(62, 1) < 0)
       hidden_layers.insert(in_capitals(layer.text(2, "")));
   }
@@ -216,9 +220,9 @@ private:
   /// Whether it is to be seen in model space; counts it where it is not.
   bool is_shown(const DxfRecord& entity)
   {
-    std::size_t* const reason = entity.integer(67, 0) == 1                                 ? &n_on_paper
+    std::size_t* const reason = entity.integer(67, 0) != 0                                 ? &n_on_paper
                                 : hidden_layers.contains(in_capitals(entity.text(8, "0"))) ? &n_on_hidden_layers
-                                : entity.integer(60, 0) == 1                               ? &n_invisible
+                                : entity.integer(60, 0) != 0                               ? &n_invisible
                                                                                            : nullptr;
     if (reason)
       ++*reason;
@@ -233,6 +237,7 @@ private:
           polyline->add(entity);
         return;
       }
+    has_entities = true;
     end_polyline();
     if (entity.name == "ENDSEC" || harmless.contains(entity.name))
       return;
@@ -275,6 +280,7 @@ private:
 
   std::filesystem::path file;
   std::set<std::string> hidden_layers;
+  bool has_entities = false;
   bool is_in_polyline = false;      ///< vertices follow
   std::optional<Polyline> polyline; ///< to which they belong; none of one that is not shown
   std::size_t n_corners = 0;
