@@ -307,9 +307,8 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
     for (auto& test : tests)
       if (entry.is_object() && test.name == text_of(entry, "name"))
         for (const auto& rve : rves_in(entry))
-          try_to(problems, [&] {
-            test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points, problems));
-          });
+          try_to(problems,
+                 [&] { test.appearance.rves.push_back(read_rve(rve, test, folder / result_file::points, problems)); });
   try_to(problems, [&] { add_unless_empty(problems, read_cracks(folder / result_file::cracks, tests)); });
 
   const std::filesystem::path whole = std::filesystem::absolute(folder);
