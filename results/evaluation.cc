@@ -343,7 +343,7 @@ void evaluate_splitting(const TestRecord& record, const CurveSample& at_peak, Te
 {
   constexpr double middle_part = 0.68;
   constexpr std::ptrdiff_t share_of_first = 3;
-  constexpr std::ptrdiff_t fewest = 8; // of a brittle disc some of them come after its peak
+  constexpr std::ptrdiff_t fewest = 8;                        // of a brittle disc some of them come after its peak
   if (record.kind.peak_rule != PeakRule::first_before_a_fall) // the rule of discs
     {
       results.first_cracks_at_pads_share = unknown("the test splits no disc");

@@ -50,12 +50,12 @@ struct TestResults
   Figure end_stress_difference;    ///< largest share of the peak deviator, from 5 % of the peak to the peak
   Figure unbalanced_force_ratio;   ///< mean from 5 % of the peak to the peak
   Figure p_wave_transits_to_peak;
-  Figure servo_error;            ///< mean |lateral stress / pressure - 1| from seating to the peak
-  Figure servo_error_largest;    ///< largest of the same
-  Figure fracture_toughness;     ///< K_IC at the peak [Pa √m]
-  Figure fracture_energy;        ///< work of fracture over the ligament [J/m²]
-  Figure normal_stress_at_peak;  ///< on a plane that is sheared, compression positive [Pa]
-  Figure dilation_angle;         ///< of a plane that is sheared, from the peak to the end [rad]
+  Figure servo_error;           ///< mean |lateral stress / pressure - 1| from seating to the peak
+  Figure servo_error_largest;   ///< largest of the same
+  Figure fracture_toughness;    ///< K_IC at the peak [Pa √m]
+  Figure fracture_energy;       ///< work of fracture over the ligament [J/m²]
+  Figure normal_stress_at_peak; ///< on a plane that is sheared, compression positive [Pa]
+  Figure dilation_angle;        ///< of a plane that is sheared, from the peak to the end [rad]
   /// Of the first cracks of a disc that is split, the share at the pads, where tension is low and the disc is crushed.
   Figure first_cracks_at_pads_share;
   Figure n_fragments;            ///< of two grains or more, at the end

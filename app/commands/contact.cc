@@ -129,7 +129,8 @@ std::string csv_row(const FaceResultants<dim, double>& sum, const Segments<Updat
   std::string row;
   const auto append = [&row](const double value) {
     if (!std::isfinite(value))
-      throw InputError("the response is beyond the range of numbers: a displacement, a rotation or a stiffness is far too large");
+      throw InputError(
+        "the response is beyond the range of numbers: a displacement, a rotation or a stiffness is far too large");
     fmt::format_to(std::back_inserter(row), "{}{}", row.empty() ? "" : ",", value + 0.0); // adding zero turns -0 into 0
   };
   append(sum.normal_force);
@@ -171,7 +172,8 @@ std::string response(const Law& law, const typename Law::Parameters& joint, cons
         }
       catch (const InputError& error)
         {
-          throw InputError(fmt::format("{}: row {} below the header: {}", input.contact.path_file, n_rows, error.what()));
+          throw InputError(
+            fmt::format("{}: row {} below the header: {}", input.contact.path_file, n_rows, error.what()));
         }
       before = now;
     }

@@ -104,9 +104,9 @@ double steady_pressure(const std::vector<double>& pressures, const std::filesyst
 /// without its full stop; empty if nothing was.
 std::string count_strains_from_first_load(TestRecord& record, const std::size_t peak, const std::string& file)
 {
-  constexpr double no_load = 1e-3;      // of the peak deviator: such a row changes a secant modulus by 0.2 %
-  constexpr double under_load = 1e-2;   // of the same: beyond it strains may have been counted from before
-  constexpr double least_shift = 1e-9;  // of what is announced
+  constexpr double no_load = 1e-3;     // of the peak deviator: such a row changes a secant modulus by 0.2 %
+  constexpr double under_load = 1e-2;  // of the same: beyond it strains may have been counted from before
+  constexpr double least_shift = 1e-9; // of what is announced
   auto& curve = record.curve;
   const double at_peak = record.kind.deviator(curve[peak], record.confining_pressure);
   const auto share = [&](const std::size_t row) {
@@ -130,9 +130,10 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
     }
   if (std::max(std::abs(zero.axial_strain), std::abs(zero.gauge_lateral_strain)) < least_shift)
     return "";
-  return fmt::format("{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
-                     "{:.4g} % of lateral strain were taken off every row",
-                     file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain);
+  return fmt::format(
+    "{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
+    "{:.4g} % of lateral strain were taken off every row",
+    file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain);
 }
 } // namespace
 

@@ -26,7 +26,7 @@ struct Findings
   bool one_folder;
   std::vector<std::vector<ComparisonRow>> comparisons; ///< of each series
   std::vector<StrengthEnvelopes> envelopes;            ///< of each series
-  std::vector<std::string> repeats;                    ///< sentences on entries of a study that have no effect
+  std::vector<std::string> repeats = {};               ///< sentences on entries of a study that have no effect
   const CalibrationRecord* calibration = nullptr;      ///< of which the first series tests the answer
 
   bool has_several() const { return all.size() > 1; }

@@ -52,7 +52,8 @@ Table strength_table(const Findings& findings)
         };
         const auto strength = statistics(values(group, &TestResults::peak_stress));
         const int decimals = group.kind.strength_decimals;
-        table.rows.push_back({group.title() + (any_has_flaws(series.tests) ? ", body with flaws" : ""), series.label, fmt::format("{}", strength ? strength->n : 0),
+        table.rows.push_back({group.title() + (any_has_flaws(series.tests) ? ", body with flaws" : ""), series.label,
+                              fmt::format("{}", strength ? strength->n : 0),
                               over_seeds(&TestResults::peak_stress, mega, decimals),
                               strength ? interval(*strength, mega, decimals) : none,
                               over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),

@@ -15,7 +15,8 @@ template <typename Row>
 struct TableRows
 {
   std::vector<Row> rows;
-  std::string remark = {}; ///< on cells without a finite number, a sentence without its full stop; empty where there are none
+  std::string remark =
+    {}; ///< on cells without a finite number, a sentence without its full stop; empty where there are none
 };
 
 /// The curve of a test, a row per sample. Stress and strain are positive in the sense of the test: tension in a tension

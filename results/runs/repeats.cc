@@ -109,8 +109,7 @@ std::vector<std::string> remarks_on_repeats(const std::vector<const FinishedTest
       sentences.push_back(fmt::format(
         "{} of {} variants repeat{} the results of {} other{} to ten digits. They differ in {} alone{}: {} no effect {}",
         n_repeating, variants.size(), n_repeating == 1 ? "s" : "", groups.size(), groups.size() == 1 ? "" : "s",
-        fmt::join(entries, " and "),
-        common.empty() ? "" : fmt::format(", and all have {}", fmt::join(common, " and ")),
+        fmt::join(entries, " and "), common.empty() ? "" : fmt::format(", and all have {}", fmt::join(common, " and ")),
         entries.size() == 1 ? "this entry has" : "these entries have",
         together.size() == variants.size() ? "in this study" : "there"));
     }

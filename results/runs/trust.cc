@@ -153,10 +153,11 @@ std::string shortcoming(const FinishedTest& test)
   if (!test.results.peak_stress.value)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
   if (!test.results.is_valid())
-    return fmt::format("{} is not valid as a splitting test, and its figures enter no mean, envelope or calibration: {:.0f} % "
-                       "of its first cracks lie at the pads, where the disc is crushed. A splitting crack begins in the "
-                       "middle (ISRM 1978, ASTM D3967). A larger disc or smaller grains help.",
-                       test.name, 100.0 * *test.results.first_cracks_at_pads_share.value);
+    return fmt::format(
+      "{} is not valid as a splitting test, and its figures enter no mean, envelope or calibration: {:.0f} % "
+      "of its first cracks lie at the pads, where the disc is crushed. A splitting crack begins in the "
+      "middle (ISRM 1978, ASTM D3967). A larger disc or smaller grains help.",
+      test.name, 100.0 * *test.results.first_cracks_at_pads_share.value);
   if (!record.ended_early.empty())
     return fmt::format("{} ended early: {}.", test.name, record.ended_early);
   if (const auto rise = rise_after_first_fall(test))
@@ -239,9 +240,10 @@ std::string remark_on_side_plates(const TestsOfRock& tests)
 std::string remark_on_flaws(const TestsOfRock& tests)
 {
   const bool any = std::any_of(tests.begin(), tests.end(), [](const FinishedTest* test) { return test->has_flaws(); });
-  return any ? "The body has flaws: its strengths are highest nominal stresses, load over the whole section, and hold for "
-               "this body. They are no strengths of the rock, nor is their envelope."
-             : "";
+  return any
+           ? "The body has flaws: its strengths are highest nominal stresses, load over the whole section, and hold for "
+             "this body. They are no strengths of the rock, nor is their envelope."
+           : "";
 }
 
 std::string out_of_bounds(const TrustCheck& check)

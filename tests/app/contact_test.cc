@@ -266,10 +266,12 @@ TEST(Contact, RefusesAResponseBeyondTheRangeOfNumbers)
     {
       folder.write("path.csv", fmt::format("normal_m,shear_m,rotation_rad\n1e-9,0,0\n{}\n", row));
       // Bonds that hold, so that the far row meets the joint as it was made.
-      const auto outcome = run_feldspar(folder.path(), "contact joint.prm --output results --set 'Flat joint/Bond tensile "
-                                                       "strength = 1e300 Pa' --set 'Flat joint/Bond cohesion = 1e300 Pa'");
+      const auto outcome =
+        run_feldspar(folder.path(), "contact joint.prm --output results --set 'Flat joint/Bond tensile "
+                                    "strength = 1e300 Pa' --set 'Flat joint/Bond cohesion = 1e300 Pa'");
       EXPECT_EQ(outcome.exit_code, 2) << row;
-      EXPECT_TRUE(outcome.error.starts_with("feldspar: ") && outcome.error.ends_with(
+      EXPECT_TRUE(outcome.error.starts_with("feldspar: ") &&
+                  outcome.error.ends_with(
                     "path.csv: row 2 below the header: the response is beyond the range of numbers: a displacement, a "
                     "rotation or a stiffness is far too large\n"))
         << outcome.error;

@@ -663,12 +663,12 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
                            "  set Packing relaxation = dynamics\nend\n"
                            "subsection Tests\n  set List = brazilian\nend\n"
                            "subsection Seeds\n  set Seeds = 1, 2\nend\n");
-  // Packed by motion, the disc of the first seed has no grain where it is loaded; it would have been as large.
-  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 2);
+  // Packed by motion, the disc of the first seed has no grain near its poles: its pads are those of the outermost ones.
+  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
   const auto json = summary(folder.path() / "out");
   ASSERT_EQ(json["tests"].size(), 2u);
-  EXPECT_NE(json["tests"][0]["failure"].get<std::string>().find("has no grain where it is loaded"), std::string::npos);
-  EXPECT_TRUE(json["tests"][1]["peak_stress_Pa"].is_number());
+  for (const auto& test : json["tests"])
+    EXPECT_TRUE(test["peak_stress_Pa"].is_number()) << test["name"];
   for (const auto& test : json["tests"])
     EXPECT_EQ(test["size_m"], nlohmann::json({0.02, 0.02, 0})) << test["name"];
   // Its grains lie in a circle of 10 mm about the middle of this size.

@@ -572,10 +572,10 @@ TEST_F(Report, OfMeasuredCurvesHasTheirOwnTitlesAndNothingOfASimulation)
   const std::string page =
     remade("report out --curve north/core.csv --curve south/core.csv --curve uniaxial_compression_seed_1.csv");
   holds(page, {"</span>core.csv</h3>", "</span>core.csv (2)</h3>"});
-  for (const auto& [name, title] : {std::pair("core", "core.csv: Uniaxial compression"),
-                                    {"core_2", "core.csv (2): Uniaxial compression"},
-                                    {"uniaxial_compression_seed_1_2",
-                                     "uniaxial_compression_seed_1.csv: Uniaxial compression"}})
+  for (const auto& [name, title] :
+       {std::pair("core", "core.csv: Uniaxial compression"),
+        {"core_2", "core.csv (2): Uniaxial compression"},
+        {"uniaxial_compression_seed_1_2", "uniaxial_compression_seed_1.csv: Uniaxial compression"}})
     {
       const std::string script = content(folder.path() / fmt::format("out/figures/{}_stress_strain.gp", name));
       EXPECT_NE(script.find(fmt::format("set title '{}'", title)), std::string::npos) << script.substr(0, 300);
@@ -587,12 +587,13 @@ TEST_F(Report, OfMeasuredCurvesHasTheirOwnTitlesAndNothingOfASimulation)
   EXPECT_NE(of_model.find("broken segments"), std::string::npos);
   // The table of all tests has what was measured, and no seed, count or cost.
   const Frame tests = read_frame(folder.path() / "out/tables/tests.csv");
-  const auto measured = std::find_if(tests.begin(), tests.end(), [](const auto& row) { return row.at("test") == "core_2"; });
+  const auto measured =
+    std::find_if(tests.begin(), tests.end(), [](const auto& row) { return row.at("test") == "core_2"; });
   ASSERT_NE(measured, tests.end());
   EXPECT_EQ(measured->at("peak_stress_Pa"), "160000000");
   EXPECT_EQ(measured->at("confining_pressure_Pa"), "0");
-  for (const char* const column : {"seed", "strain_rate_per_s", "n_tension_cracks", "n_grains", "energy_imbalance_over_work",
-                                   "steps", "wall_time_s"})
+  for (const char* const column : {"seed", "strain_rate_per_s", "n_tension_cracks", "n_grains",
+                                   "energy_imbalance_over_work", "steps", "wall_time_s"})
     EXPECT_EQ(measured->at(column), "") << column;
 }
 
@@ -627,9 +628,8 @@ TEST_F(Report, CountsMeasuredStrainsFromWhereTheLoadBegins)
     holds(words_of(folder.path() / "new/report.html"), {said});
     const Frame frame = read_comparison(folder.path() / "new");
     std::vector<double> values;
-    for (const char* const property :
-         {"strain at peak, compression", "Poisson's ratio, secant at 50 % of peak",
-          "Young's modulus, tangent 40-60 % of peak", "uniaxial compressive strength"})
+    for (const char* const property : {"strain at peak, compression", "Poisson's ratio, secant at 50 % of peak",
+                                       "Young's modulus, tangent 40-60 % of peak", "uniaxial compressive strength"})
       values.push_back(std::stod(row_of(frame, "core.csv", property).at("mean")));
     return values;
   };
@@ -640,14 +640,16 @@ TEST_F(Report, CountsMeasuredStrainsFromWhereTheLoadBegins)
     for (std::size_t k = 0; k < values.size(); ++k)
       EXPECT_NEAR(values[k], true_figures[k], 1e-6 * true_figures[k]) << k;
   };
-  expect_true(figures(shifted(0.05, -0.02, ""),
-                      "core.csv: strains are counted from row 1 below the header, where the load begins; 0.05 % of axial and "
-                      "-0.02 % of lateral strain were taken off every row"));
+  expect_true(
+    figures(shifted(0.05, -0.02, ""),
+            "core.csv: strains are counted from row 1 below the header, where the load begins; 0.05 % of axial and "
+            "-0.02 % of lateral strain were taken off every row"));
   // The platen comes to the specimen: three rows without load.
   expect_true(figures(shifted(0.3, 0.0, "0,0,0,0\n0.1,0,0.05,0\n0.2,0,0.1,0\n"),
                       "core.csv: strains are counted from row 4 below the header"));
   // A record that begins at 8 of 160 MPa has no row by which its zero is known: it is taken as it stands, and that is said.
-  const auto preloaded = figures(shifted(0.0, 0.0, "", 8.0), "core.csv: the first row is under 5.0 % of the peak load already");
+  const auto preloaded =
+    figures(shifted(0.0, 0.0, "", 8.0), "core.csv: the first row is under 5.0 % of the peak load already");
   expect_true(preloaded);
 }
 
@@ -669,10 +671,10 @@ TEST_F(Report, OfTablesWithNumbersThatAreNoneNamesThemAndStaysAlive)
   spoil("out/curves/uniaxial_compression_seed_1.csv", 20, 3, "inf");
   spoil("out/cracks.csv", 5, 6, "-nan");
   const std::string words = remade("report out", true);
-  holds(words, {"out/grains/uniaxial_compression_seed_1.csv: line 17: start_y_m is nan, no finite number",
-                "out/grains/triaxial_compression_10_MPa_seed_1.csv: line 3: radius_m is -inf",
-                "out/curves/uniaxial_compression_seed_1.csv: line 20: axial_stress_Pa is inf",
-                "out/cracks.csv: line 5: "});
+  holds(words,
+        {"out/grains/uniaxial_compression_seed_1.csv: line 17: start_y_m is nan, no finite number",
+         "out/grains/triaxial_compression_10_MPa_seed_1.csv: line 3: radius_m is -inf",
+         "out/curves/uniaxial_compression_seed_1.csv: line 20: axial_stress_Pa is inf", "out/cracks.csv: line 5: "});
   std::size_t n = 0;
   for (std::size_t at = 0; (at = words.find(data_of_a_script, at)) != std::string::npos; ++n)
     {

@@ -115,8 +115,7 @@ TEST(Quantity, ErrorsShowTheRightForm)
   EXPECT_EQ(stress_error("22"), "a unit is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_EQ(stress_error("MPa"), "a number is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_NE(error_of([] { parse_quantity("22 m", angle); }).find("\"10 deg\""), std::string::npos);
-  EXPECT_EQ(stress_error("1e308 MPa"),
-            "1e+308 MPa is beyond the range of numbers; write a stress, e.g. \"22 MPa\"");
+  EXPECT_EQ(stress_error("1e308 MPa"), "1e+308 MPa is beyond the range of numbers; write a stress, e.g. \"22 MPa\"");
 }
 
 TEST(Quantity, ListHasItsUnitAtTheEnd)

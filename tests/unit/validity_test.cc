@@ -136,9 +136,10 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
       EXPECT_EQ(strength->ours->n, 1u);
       EXPECT_EQ(strength->ours->mean, 10.0);
       const std::string said = said_of(tests);
-      EXPECT_NE(said.find("brazilian_seed_2 is not valid as a splitting test, and its figures enter no mean, envelope or "
-                          "calibration: 75 % of its first cracks lie at the pads"),
-                std::string::npos)
+      EXPECT_NE(
+        said.find("brazilian_seed_2 is not valid as a splitting test, and its figures enter no mean, envelope or "
+                  "calibration: 75 % of its first cracks lie at the pads"),
+        std::string::npos)
         << said;
       EXPECT_NE(said.find("ISRM 1978, ASTM D3967"), std::string::npos) << said;
       EXPECT_EQ(said.find("brazilian_seed_1 is not valid"), std::string::npos) << said;
@@ -198,7 +199,8 @@ TEST(BodyWithFlaws, HasHighestNominalStressesAndNoStrengths)
   EXPECT_TRUE(as_text(envelopes).starts_with("Envelopes of highest nominal stresses:")) << as_text(envelopes);
   EXPECT_TRUE(remark(envelopes).starts_with("The points are highest nominal stresses of a body with flaws"));
   // The keys of files stay; a notched body has its own name already.
-  EXPECT_EQ(row_of(compare(tests, std::nullopt), "Direct tension, highest nominal stress")->key, "tensile_strength_MPa");
+  EXPECT_EQ(row_of(compare(tests, std::nullopt), "Direct tension, highest nominal stress")->key,
+            "tensile_strength_MPa");
   // An intact body beside it is named alike, so that both stand in one row.
   const auto beside = compare({made(direct_tension.kind, 9e6)}, std::nullopt, {}, true);
   EXPECT_EQ(row_of(beside, "Direct tension, highest nominal stress")->ours->mean, 9.0);
@@ -231,7 +233,8 @@ TEST(PlaneThroughABody, BetweenRigidSidePlatesIsSaidToBeTooStrong)
     << steep;
   EXPECT_EQ(steep.find("crosses the body"), steep.rfind("crosses the body")); // once for the rock
   // 2/tan 45° = 2; downwards as well.
-  EXPECT_NE(with_plane(-45.0, 0.0, 0.02, triaxial_compression.kind, 10e6).find("that of 2.00 times"), std::string::npos);
+  EXPECT_NE(with_plane(-45.0, 0.0, 0.02, triaxial_compression.kind, 10e6).find("that of 2.00 times"),
+            std::string::npos);
   // From corner to corner the formula holds; a plane that ends inside, one that does not slide, and free sides: nothing.
   for (const std::string& said :
        {with_plane(std::atan(2.0) * 180.0 / std::numbers::pi, 0.0, 0.02, triaxial_compression.kind, 10e6),
@@ -273,9 +276,10 @@ TEST(Study, NamesAnEntryWithoutEffect)
                                   1e6 * (50 + 5 * gap + (second ? 30.5 : 0.37 * angle))));
           tests.back().bookkeeping.wall_time = 1.0 * angle; // which repeats nothing
         }
-  EXPECT_EQ(repeats_of(tests),
-            "20 of 50 variants repeat the results of 5 others to ten digits. They differ in Flat joint/Bond friction angle "
-            "alone, and all have Specimen/Joint law = b: this entry has no effect there\n");
+  EXPECT_EQ(
+    repeats_of(tests),
+    "20 of 50 variants repeat the results of 5 others to ten digits. They differ in Flat joint/Bond friction angle "
+    "alone, and all have Specimen/Joint law = b: this entry has no effect there\n");
   // In the eleventh digit alone is the same; in the ninth another.
   tests = {variant({{"Tests/Snapshots", "2"}}, 80e6), variant({{"Tests/Snapshots", "5"}}, 80e6 * (1.0 + 1e-12))};
   EXPECT_EQ(repeats_of(tests), "1 of 2 variants repeats the results of 1 other to ten digits. They differ in "
@@ -295,12 +299,12 @@ TEST(Study, OfTwoEntriesHasAMap)
 {
   std::vector<Series> all;
   const auto add = [&](const std::string& gap, const std::string& strength, const double result) {
-    all.push_back({gap + strength,
-                   SeriesKind::specimens,
-                   {},
-                   {variant({{"Flat joint/Installation gap ratio", gap}, {"Flat joint/Bond tensile strength", strength}},
-                            result)},
-                   {}});
+    all.push_back(
+      {gap + strength,
+       SeriesKind::specimens,
+       {},
+       {variant({{"Flat joint/Installation gap ratio", gap}, {"Flat joint/Bond tensile strength", strength}}, result)},
+       {}});
   };
   const auto map_of_strength = [&] {
     const auto pictures = study_pictures(all);
@@ -346,7 +350,8 @@ std::vector<Series> read_with(const std::string& table, const std::string& from,
 {
   FinishedTest test = made(uniaxial_compression.kind, 80e6);
   test.appearance.grains_at_end.push_back({{0.0125, 0.0125, 0.0}, {0.0125, 0.0125, 0.0}, 0.00075, 0});
-  test.record.cracks.push_back({CrackKind::tension, 3, 0, 700, -7e-4, {0.0175, 0.0225, 0.0}, {1.0, 0.0, 0.0}, 3e-4, 0.1});
+  test.record.cracks.push_back(
+    {CrackKind::tension, 3, 0, 700, -7e-4, {0.0175, 0.0225, 0.0}, {1.0, 0.0, 0.0}, 3e-4, 0.1});
   for (CurveSample& row : test.record.curve)
     row.gauge_lateral_strain = row.gauge_volumetric_strain = std::numeric_limits<double>::quiet_NaN();
   const TemporaryFolder folder;
@@ -370,10 +375,11 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
     {
       const auto of_grains = read_with(grains, "0.0125", none);
       ASSERT_EQ(of_grains[0].problems.size(), 1u) << none;
-      EXPECT_NE(of_grains[0].problems[0].find(fmt::format("{}: line 3: start_x_m is {}, no finite number; rows with such "
-                                                          "cells are left out",
-                                                          grains, none)),
-                std::string::npos)
+      EXPECT_NE(
+        of_grains[0].problems[0].find(fmt::format("{}: line 3: start_x_m is {}, no finite number; rows with such "
+                                                  "cells are left out",
+                                                  grains, none)),
+        std::string::npos)
         << of_grains[0].problems[0];
       EXPECT_EQ(of_grains[0].tests[0].appearance.grains_at_end.size(), 1u);
 
@@ -384,10 +390,11 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
 
       const auto of_curve = read_with(curve, "72000000", none); // 90 % of the strength
       ASSERT_EQ(of_curve[0].problems.size(), 1u) << none;
-      EXPECT_NE(of_curve[0].problems[0].find(fmt::format("line 11: axial_stress_Pa is {}, no finite number; curves have "
-                                                         "gaps there",
-                                                         none)),
-                std::string::npos)
+      EXPECT_NE(
+        of_curve[0].problems[0].find(fmt::format("line 11: axial_stress_Pa is {}, no finite number; curves have "
+                                                 "gaps there",
+                                                 none)),
+        std::string::npos)
         << of_curve[0].problems[0];
       ASSERT_EQ(of_curve[0].tests[0].record.curve.size(), 15u);
       const auto story = nlohmann::json::parse(crack_story(of_curve[0].tests[0])); // throws where a number is nan
