@@ -92,10 +92,13 @@ def study(feldspar, tests):
         with open(os.path.join(folder, "stages.csv"), "w", encoding="utf-8") as file:
             file.write(STAGES)
         first = {body: 1 for body in BODIES}
-        for kind, numbers in tests.items():
-            for body, n in numbers.items():
+        for kind in TESTS:
+            for body in TESTS[kind]:
+                n = tests.get(kind, {}).get(body, 0)
                 seeds = (first[body], first[body] + n - 1)
-                first[body] += n
+                first[body] += TESTS[kind][body]
+                if n == 0:
+                    continue
                 name = f"{kind}-{body}"
                 tested = [record(folder, name, body, test) for test in run(feldspar, folder, name, body, kind, seeds)]
                 if kind in GOES_ON:

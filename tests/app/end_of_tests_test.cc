@@ -51,7 +51,8 @@ protected:
     folder.write("rock.prm", rock);
     const auto made = run_feldspar(folder.path(), "lab rock.prm --output made --quiet");
     ASSERT_EQ(made.exit_code, 0) << made.error;
-    run_command(folder.path(), "awk -F, 'NR > 1 {print $1, $2, $7}' made/grains/uniaxial_compression_seed_1.csv > packing.txt");
+    run_command(folder.path(),
+                "awk -F, 'NR > 1 {print $1, $2, $7}' made/grains/uniaxial_compression_seed_1.csv > packing.txt");
   }
 
   TemporaryFolder folder;
@@ -87,7 +88,8 @@ TEST_F(Packing, ThatDoesNotFillItsBoxIsRefused)
   refused(of_packing("17 mm", "30 mm"), "right side 2 mm");
   refused(of_packing("17 mm", "30 mm") + " --set 'Tests/List = triaxial_compression'", "right side 2 mm");
   // A slot that takes the upper end off, and one that cuts the body in two.
-  refused("lab rock.prm --output out --quiet --set 'Flaws/Shapes = slot from 0, 29 mm to 15, 29 mm width 3 mm'", "upper end ");
+  refused("lab rock.prm --output out --quiet --set 'Flaws/Shapes = slot from 0, 29 mm to 15, 29 mm width 3 mm'",
+          "upper end ");
   refused("lab rock.prm --output out --quiet --set 'Flaws/Shapes = slot from 0, 15 mm to 15, 15 mm width 3 mm'",
           "goes right through it");
 }
@@ -105,7 +107,8 @@ TEST(EndOfATest, IsNotAtAFirstMaximum)
   ASSERT_EQ(run_feldspar(folder.path(), seed_8 + " --set 'Tests/Stop strain = 2e-3'").exit_code, 0);
   const auto cut = first_test(folder.path());
   EXPECT_TRUE(cut["peak_stress_Pa"].is_null());
-  EXPECT_NE(cut["peak_stress_Pa_reason"].get<std::string>().find("still rising when the test ended"), std::string::npos);
+  EXPECT_NE(cut["peak_stress_Pa_reason"].get<std::string>().find("still rising when the test ended"),
+            std::string::npos);
 }
 
 TEST(EndOfATest, NeedsAPeakByTheEntries)
@@ -113,8 +116,10 @@ TEST(EndOfATest, NeedsAPeakByTheEntries)
   const TemporaryFolder folder;
   folder.write("rock.prm", rock);
   const auto reason = [&](const std::string& entry) {
-    const auto answer = run_feldspar(folder.path(), "lab rock.prm --output out --force --quiet --set 'Tests/Stop strain = 3.5e-3' "
-                                                    "--set 'Tests/" + entry + "'");
+    const auto answer =
+      run_feldspar(folder.path(), "lab rock.prm --output out --force --quiet --set 'Tests/Stop strain = 3.5e-3' "
+                                  "--set 'Tests/" +
+                                    entry + "'");
     EXPECT_EQ(answer.exit_code, 0) << answer.error;
     return first_test(folder.path()).value("peak_stress_Pa_reason", "");
   };

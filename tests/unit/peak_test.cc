@@ -90,16 +90,15 @@ TEST(Peak, IsAMaximumWhoseRestOnlyWavers)
 {
   // Left with 30 % of its strength, which wavers by 10 MPa as pieces stick and slip: the last rows rise, and lead to 50 MPa in
   // another 0.6 of the strain at the peak, not to 100.
-  const TestRecord record = curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.2, 25.0}, {2.6, 35.0}, {2.9, 25.0}, {3.3, 35.0}});
+  const TestRecord record =
+    curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.2, 25.0}, {2.6, 35.0}, {2.9, 25.0}, {3.3, 35.0}});
   EXPECT_NEAR(peak_of(record).second, 100.0, 1e-9);
   EXPECT_NEAR(end_of(record), 3.2, 0.011);
 }
 
 TEST(Peak, NeedsAFall)
 {
-  const auto fallen_to = [](const double stress) {
-    return curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.4, stress}});
-  };
+  const auto fallen_to = [](const double stress) { return curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.4, stress}}); };
   EXPECT_EQ(peak_of(fallen_to(96.0)).second, 0.0);
   EXPECT_NEAR(peak_of(fallen_to(94.0)).second, 100.0, 1e-9);
   EXPECT_NE(evaluate(fallen_to(96.0)).peak_stress.reason.find("had not fallen by 5 % from its highest, 100 MPa"),
@@ -113,7 +112,8 @@ TEST(Peak, OfABodyThatYieldsIsWhereItsLevelBegins)
 {
   const auto level_to = [](const double strain) { return curve_through({{0.0, 0.0}, {2.0, 100.0}, {strain, 100.0}}); };
   EXPECT_NEAR(peak_of(level_to(3.3)).first, 2.0, 1e-9);
-  EXPECT_EQ(peak_of(level_to(3.1)).second, 0.0); // 1.6 times 2e-3 are 3.2e-3, and 1.6 times 1.98e-3, where 99 % are reached, 3.17e-3
+  EXPECT_EQ(peak_of(level_to(3.1)).second,
+            0.0); // 1.6 times 2e-3 are 3.2e-3, and 1.6 times 1.98e-3, where 99 % are reached, 3.17e-3
   EXPECT_NEAR(end_of(level_to(5.0)), 3.2, 0.011);
   // One that hardens by a tenth of its stiffness is not level.
   const TestRecord hardens = curve_through({{0.0, 0.0}, {2.0, 100.0}, {6.0, 120.0}});
@@ -124,8 +124,8 @@ TEST(Peak, OfABodyThatYieldsIsWhereItsLevelBegins)
 TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
 {
   // Nothing holds the body at first: waves of 0.2 MPa come and go. Held from 1e-3 on, it bears 67 MPa.
-  const Corners gap{{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.1}, {0.03, 0.2}, {0.1, 0.0}, {1.0, 0.0},
-                    {2.0, 67.0}, {2.2, 10.0}, {4.0, 8.0}};
+  const Corners gap{{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.1}, {0.03, 0.2}, {0.1, 0.0},
+                    {1.0, 0.0}, {2.0, 67.0}, {2.2, 10.0}, {4.0, 8.0}};
   PeakDemands demands;
   demands.least_stress = 0.8e6;
   demands.least_time = 25e-6;
@@ -133,7 +133,8 @@ TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
   TestRecord never_held = curve_through({gap.begin(), gap.begin() + 6});
   never_held.peak_demands = demands;
   EXPECT_EQ(peak_of(never_held).second, 0.0);
-  EXPECT_NE(evaluate(never_held).peak_stress.reason.find("the highest stress, 0.2 MPa, is below 0.8 MPa"), std::string::npos);
+  EXPECT_NE(evaluate(never_held).peak_stress.reason.find("the highest stress, 0.2 MPa, is below 0.8 MPa"),
+            std::string::npos);
 
   // A test so fast that it breaks within one travel of a wave ends, and has no strength.
   TestRecord fast = curve_through({{0.0, 0.0}, {0.02, 67.0}, {0.04, 10.0}, {0.2, 8.0}});
@@ -145,7 +146,8 @@ TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
 TEST(Peak, OfADiscIsNoRipple)
 {
   // The first fall by 5 % is one of waves; the disc splits at 5 MPa, and its halves bear 9.
-  TestRecord record = curve_through({{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.0}, {0.5, 5.0}, {0.55, 4.0}, {1.0, 9.0}}, brazilian.kind);
+  TestRecord record =
+    curve_through({{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.0}, {0.5, 5.0}, {0.55, 4.0}, {1.0, 9.0}}, brazilian.kind);
   EXPECT_NEAR(peak_of(record).second, 0.2, 1e-9); // without demands
   record.peak_demands.least_stress = 0.8e6;
   EXPECT_NEAR(peak_of(record).second, 5.0, 1e-9);

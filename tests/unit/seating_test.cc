@@ -33,7 +33,8 @@ Specimen<dim> in_larger_box(Specimen<dim> specimen, const double below, const do
 }
 
 template <int dim>
-std::string refusal(const LaboratoryProtocol& protocol, const Specimen<dim>& specimen, const TestParameters& wanted = {})
+std::string refusal(const LaboratoryProtocol& protocol, const Specimen<dim>& specimen,
+                    const TestParameters& wanted = {})
 {
   try
     {
@@ -88,7 +89,8 @@ void expect_the_same_in_a_larger_box(const Specimen<dim>& specimen)
           const double area = specimen.volume() / specimen.size[dim - 1];
           const double area_of_box = area * std::pow(1.0 + gap / specimen.size[0], dim - 1);
           const double counted = protocol->kind.takes_confining_pressure ? 1.0 : area_of_box / area;
-          EXPECT_NEAR(wide.kind.deviator(wide.curve.back(), wide.confining_pressure) * counted, expected, 0.1 * expected)
+          EXPECT_NEAR(wide.kind.deviator(wide.curve.back(), wide.confining_pressure) * counted, expected,
+                      0.1 * expected)
             << gap;
         }
     }
@@ -105,7 +107,8 @@ TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
     {
       SCOPED_TRACE(protocol->kind.name);
       const std::string above = refusal(*protocol, in_larger_box(specimen, 0.0, 1e-3), pressed_by_a_table());
-      EXPECT_NE(above.find("lower end 0 mm, upper end 1 mm, left side 0 mm, right side 0 mm"), std::string::npos) << above;
+      EXPECT_NE(above.find("lower end 0 mm, upper end 1 mm, left side 0 mm, right side 0 mm"), std::string::npos)
+        << above;
       EXPECT_EQ(above.find('\n'), std::string::npos);
       const std::string beside = refusal(*protocol, in_larger_box(specimen, 0.0, 0.0, 2e-3), pressed_by_a_table());
       EXPECT_NE(beside.find("left side 2 mm, right side 2 mm"), std::string::npos) << beside;
@@ -146,7 +149,8 @@ TEST(Seating, IsToldInTheVerdict)
     LabTest<2> test({uniaxial_compression}, in_larger_box(specimen, 0.0, gap), wanted, {});
     while (test.advance())
       ;
-    const FinishedTest one = finished(test.finish(false), "uniaxial_compression", "uniaxial_compression_seed_1", "", {});
+    const FinishedTest one =
+      finished(test.finish(false), "uniaxial_compression", "uniaxial_compression_seed_1", "", {});
     return shortcomings({&one}, SeriesKind::specimens).front();
   };
   EXPECT_EQ(verdict(0.0).find("brought"), std::string::npos);
