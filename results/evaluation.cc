@@ -421,10 +421,10 @@ TestResults evaluate(const TestRecord& record)
   evaluate_fragments(record, results);
 
   // What looks like a peak before the stop rule was met may not be one.
-  const PeakVerdict verdict = record.interrupted
-                                ? PeakVerdict{std::nullopt, record.failure.empty() ? "interrupted before its end"
-                                                                                   : record.failure}
-                                : find_peak(record);
+  const PeakVerdict verdict =
+    record.interrupted
+      ? PeakVerdict{std::nullopt, record.failure.empty() ? "interrupted before its end" : record.failure}
+      : find_peak(record);
   const std::optional<std::size_t> peak = verdict.row;
   if (!peak)
     {

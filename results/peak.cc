@@ -12,7 +12,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double round_off = 1e-9;  // a plateau peaks where it begins
+constexpr double round_off = 1e-9;    // a plateau peaks where it begins
 constexpr double level_within = 0.01; // of the highest stress
 
 /// A plane that slides, or a solid that yields, bears its strength to the end: any row may be the highest by a little, the
@@ -24,8 +24,7 @@ bool keeps_its_strength(const TestRecord& record)
   const auto& curve = record.curve;
   const double before = mobilised(record, curve[9 * (curve.size() - 1) / 10]);
   const double last = mobilised(record, curve.back());
-  return before > share_of_strength * last &&
-         (record.kind.pressure_acts_across || last > share_of_strength * before);
+  return before > share_of_strength * last && (record.kind.pressure_acts_across || last > share_of_strength * before);
 }
 
 PeakWatch watch_of(const TestRecord& record)
@@ -43,13 +42,15 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
     return "the stress never peaked";
   const double highest = record.kind.stress(record.curve[watch.row()]) / 1e6;
   if (!watch.is_borne())
-    return fmt::format("the highest stress, {:.3g} MPa, is below {:.3g} MPa, which waves can bring about in a body that "
-                       "nothing holds (Tests/Least peak stress)",
-                       highest, watch.demands().least_stress / 1e6);
+    return fmt::format(
+      "the highest stress, {:.3g} MPa, is below {:.3g} MPa, which waves can bring about in a body that "
+      "nothing holds (Tests/Least peak stress)",
+      highest, watch.demands().least_stress / 1e6);
   if (watch.is_too_early())
-    return fmt::format("the highest stress, {:.3g} MPa, came after {:.3g} µs, when waves had not yet spread it over the "
-                       "specimen, which takes {:.3g} µs (Tests/Least transits to peak); lower the strain rate",
-                       highest, 1e6 * record.curve[watch.row()].time, 1e6 * watch.demands().least_time);
+    return fmt::format(
+      "the highest stress, {:.3g} MPa, came after {:.3g} µs, when waves had not yet spread it over the "
+      "specimen, which takes {:.3g} µs (Tests/Least transits to peak); lower the strain rate",
+      highest, 1e6 * record.curve[watch.row()].time, 1e6 * watch.demands().least_time);
   if (record.came_apart || keeps_its_strength(record) || watch.is_level())
     return "";
   const bool is_last = watch.row() + 1 == record.curve.size();
@@ -57,9 +58,10 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
     return fmt::format("the stress never peaked: it was still rising when the test ended; the highest was {:.4g} MPa",
                        highest);
   if (!watch.has_fallen())
-    return fmt::format("the stress never peaked: when the test ended it had not fallen by {:g} % from its highest, {:.4g} "
-                       "MPa (Tests/Least fall after peak)",
-                       100.0 * watch.demands().least_fall, highest);
+    return fmt::format(
+      "the stress never peaked: when the test ended it had not fallen by {:g} % from its highest, {:.4g} "
+      "MPa (Tests/Least fall after peak)",
+      100.0 * watch.demands().least_fall, highest);
   return "";
 }
 } // namespace
@@ -84,8 +86,8 @@ bool PeakWatch::add(const CurveSample& row)
   strains.push_back(strain);
   deviators.push_back(deviator);
   lowest_since = std::min(lowest_since, deviator);
-  is_first_peak = is_first_peak || (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() &&
-                                    has_fallen());
+  is_first_peak =
+    is_first_peak || (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() && has_fallen());
   if (deviator <= highest_deviator * (1.0 + round_off) || is_first_peak)
     return false;
   highest_deviator = lowest_since = deviator;

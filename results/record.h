@@ -85,7 +85,7 @@ struct TestRecord
   PeakDemands peak_demands = {};      ///< on its highest stress
   /// How far its walls were brought to the grains before it began; the farthest of them [m].
   double way_to_grains = 0.0;
-  std::vector<StageRecord> stages;    ///< that were begun, of a test that follows a table
+  std::vector<StageRecord> stages; ///< that were begun, of a test that follows a table
   /// The notch of a bending test; none without.
   std::optional<NotchGeometry> notch;
   bool interrupted = false;

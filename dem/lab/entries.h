@@ -91,20 +91,22 @@ inline std::vector<Entry<TestParameters>> test_entries()
       "length of the disc, or half disc, that is cut from a cylinder over its diameter, in three dimensions", in_space),
     entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen",
                   of_grains),
-    entry::number("Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
-                  "a test stops at this many times the strain of a peak that has fallen; a test whose stress is rising goes "
-                  "on",
-                  varies),
+    entry::number(
+      "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
+      "a test stops at this many times the strain of a peak that has fallen; a test whose stress is rising goes "
+      "on",
+      varies),
     entry::optional_quantity(
       "Least peak stress", &P::least_peak_stress, Measure::stress, "MPa", ranges::from_zero,
       "a lower highest stress (beyond the confinement) is no peak. none: on grains twice ρ c × strain rate × "
       "height, which waves can bring about in a body that nothing holds (each platen sends one of half of that, "
       "which is doubled where it is thrown back); on samples 0",
       varies),
-    entry::number("Least transits to peak", &P::least_transits_to_peak, ranges::from_zero,
-                  "travel times of a wave along the specimen before the highest stress, if it is to be a peak; after three "
-                  "to four of them the stress is uniform (Davies and Hunter 1963)",
-                  of_grains),
+    entry::number(
+      "Least transits to peak", &P::least_transits_to_peak, ranges::from_zero,
+      "travel times of a wave along the specimen before the highest stress, if it is to be a peak; after three "
+      "to four of them the stress is uniform (Davies and Hunter 1963)",
+      of_grains),
     entry::number(
       "Least fall after peak", &P::least_fall_after_peak, {'[', 0.0, 1.0, ')'},
       "share of the highest stress (beyond the confinement) by which the stress falls after it, if it is to be a peak. "

@@ -45,8 +45,8 @@ std::vector<Side> sides_of_box(const Specimen<dim>& specimen)
     for (int axis = 0; axis < last; ++axis)
       {
         sides.push_back({axis == 0 ? "left side" : "front side", {.axis = axis}});
-        sides.push_back({axis == 0 ? "right side" : "back side",
-                         {.axis = axis, .side = -1.0, .position = specimen.size[axis]}});
+        sides.push_back(
+          {axis == 0 ? "right side" : "back side", {.axis = axis, .side = -1.0, .position = specimen.size[axis]}});
       }
   return sides;
 }
@@ -134,8 +134,9 @@ void check_leads_from_end_to_end(const Specimen<dim>& specimen)
   for (const auto& [one, two] : pairs_within(specimen.grains, 0.0))
     pieces.merge(one, two);
   if (!lead_from_end_to_end())
-    throw InputError("Specimen: no grains that are joined or touch lead from its lower to its upper end: an open flaw or a "
-                     "gap in the packing goes right through it; let a flaw end inside, or close it");
+    throw InputError(
+      "Specimen: no grains that are joined or touch lead from its lower to its upper end: an open flaw or a "
+      "gap in the packing goes right through it; let a flaw end inside, or close it");
 }
 
 template <int dim>

@@ -49,13 +49,15 @@ std::string what_bears_nothing(const TestRecord& record)
 {
   const double percent = 100.0 * std::abs(record.curve.back().axial_strain);
   if (record.notch)
-    return fmt::format("no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is "
-                       "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
-                       "radius)",
-                       percent);
-  return fmt::format("the stress did not come to {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
-                     "holds the specimen, or it bears nothing",
-                     record.peak_demands.least_stress / 1e6, percent);
+    return fmt::format(
+      "no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is "
+      "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
+      "radius)",
+      percent);
+  return fmt::format(
+    "the stress did not come to {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
+    "holds the specimen, or it bears nothing",
+    record.peak_demands.least_stress / 1e6, percent);
 }
 
 template <int dim>
@@ -151,7 +153,8 @@ bool LabTest<dim>::advance(const std::function<void()>& check)
         seat(check);
       load_to_next_row(check);
       const CurveSample& row = record.curve.back();
-      ended = set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment()) : stop_rule.is_met_by(row, wanted);
+      ended =
+        set_up.loading.drive_stage ? stage_walk.is_over(record.curve, moment()) : stop_rule.is_met_by(row, wanted);
       if (!set_up.loading.drive_stage && stop_rule.bears_nothing(row, wanted))
         record.failure = what_bears_nothing(record);
     }

@@ -172,9 +172,10 @@ std::string shortcoming(const FinishedTest& test)
   if (record.kind.follows_stages && ends_rising(record))
     return fmt::format("{} was still being loaded when its table ended: its highest stress is no strength.", test.name);
   if (record.way_to_grains > 0.0)
-    return fmt::format("{}: no grain lay at the sides of the specimen's box; walls were brought to the grains by up to {:.3g} "
-                       "mm, and the area of the stress is that of the box.",
-                       test.name, 1e3 * record.way_to_grains);
+    return fmt::format(
+      "{}: no grain lay at the sides of the specimen's box; walls were brought to the grains by up to {:.3g} "
+      "mm, and the area of the stress is that of the box.",
+      test.name, 1e3 * record.way_to_grains);
   return "";
 }
 
