@@ -3,6 +3,7 @@
 #include "base/fingerprint.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -61,6 +62,29 @@ std::string seal_of(const std::string_view content)
   Fingerprint print;
   add(print, content);
   return seal(content.size(), print);
+}
+
+int append_seal(const std::filesystem::path& path)
+{
+  std::error_code error;
+  const std::uint64_t length = std::filesystem::file_size(path, error);
+  if (error)
+    return error.value();
+  // Streams of the standard library do not promise a cause.
+  const auto cause = [] { return errno != 0 ? errno : EIO; };
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  Fingerprint print;
+  if (!for_each_piece(in, length, [&](const std::string_view piece) {
+        add(print, piece);
+        return true;
+      }))
+    return cause();
+  errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << seal(length, print);
+  out.close();
+  return out ? 0 : cause();
 }
 
 Seal examine_seal(const std::filesystem::path& path)

@@ -31,15 +31,32 @@ int write_all(const std::filesystem::path& file, std::string_view content)
 
 void write_whole_file(const std::filesystem::path& file, const std::string_view content)
 {
+  write_whole_file(file, [&](const std::filesystem::path& unfinished) { return write_all(unfinished, content); });
+}
+
+void write_whole_file(const std::filesystem::path& file, const std::function<int(const std::filesystem::path&)>& fill)
+{
   std::filesystem::path unfinished = file;
   unfinished += ".unfinished";
-  std::error_code error(write_all(unfinished, content), std::generic_category());
+  const auto remove = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+  };
+  std::error_code error;
+  try
+    {
+      error.assign(fill(unfinished), std::generic_category());
+    }
+  catch (...)
+    {
+      remove();
+      throw;
+    }
   if (!error)
     std::filesystem::rename(unfinished, file, error);
   if (error)
     {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
+      remove();
       throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
     }
 }
