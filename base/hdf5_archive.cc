@@ -3,7 +3,10 @@
 #include "base/child_process.h"
 #include "base/readable_file.h"
 #include "base/seal.h"
+#include "base/watched_file.h"
 #include "base/whole_file.h"
+
+#include <sys/mman.h>
 
 #include <optional>
 #include <stdexcept>
@@ -13,51 +16,31 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::size_t growth = std::size_t(1) << 20; ///< of a file in memory, in bytes
-
 void add_notice(const H5::Group& root)
 {
   std::uint32_t sealed = 1;
   Hdf5Writer(root).value(std::string(seal_notice), sealed);
 }
 
-/// The bytes of a file that `write` fills. In memory, because the library hides why a disk refused them, and does not
-/// get over it. Under the lock.
-std::string image_of(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
+/// Under the lock.
+int fill(const int descriptor, const std::string& name, const std::function<void(const H5::Group&)>& write)
 {
-  try
-    {
-      H5::FileAccPropList in_memory;
-      in_memory.setCore(growth, false);
-      const H5::H5File out(file.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
-      {
-        const H5::Group root = out.openGroup("/");
-        add_notice(root);
-        write(root);
-      }
-      out.flush(H5F_SCOPE_GLOBAL);
-      const ssize_t size = H5Fget_file_image(out.getId(), nullptr, 0);
-      std::string image(std::size_t(std::max(ssize_t(0), size)), '\0');
-      if (size <= 0 || H5Fget_file_image(out.getId(), image.data(), image.size()) != size)
-        throw std::runtime_error(fmt::format("{}: HDF5 gives no image of the file", file.string()));
-      return image;
-    }
-  catch (const H5::Exception& error) // which is no std::exception
-    {
-      throw std::runtime_error(fmt::format("{}: {}", file.string(), error.getDetailMsg()));
-    }
+  return make_hdf5(descriptor, name, [&](const H5::Group& root) {
+    add_notice(root);
+    write(root);
+  });
 }
 
 void write_sealed(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
-  std::string image;
-  {
-    const std::lock_guard lock(hdf5_mutex());
-    H5::Exception::dontPrint();
-    image = image_of(file, write);
-  }
-  image += seal_of(image);
-  write_whole_file(file, image);
+  write_whole_file(file, [&](const int descriptor) {
+    const auto error = [&] {
+      const std::lock_guard lock(hdf5_mutex());
+      H5::Exception::dontPrint();
+      return fill(descriptor, file.string(), write);
+    }();
+    return error != 0 ? error : append_seal(descriptor);
+  });
 }
 
 void copy_array(const H5::DataSet& array, const std::string& name, const H5::Group& to)
@@ -112,7 +95,11 @@ std::string copy_by_child(const std::filesystem::path& file, const std::string& 
     "the HDF5 library", limits,
     [&] {
       const H5::H5File in = open_to_read(file, expected);
-      return image_of(file, [&](const H5::Group& root) { read_from(in, size, expected, use, root); });
+      const int copy = memfd_create("copy", 0);
+      if (copy < 0 ||
+          fill(copy, file.string(), [&](const H5::Group& root) { read_from(in, size, expected, use, root); }) != 0)
+        throw InputError("cannot be read safely: there is no memory for a copy");
+      return content_of(fmt::format("/proc/self/fd/{}", copy));
     },
     check);
 }
@@ -181,7 +168,7 @@ void read_foreign_hdf5(const std::filesystem::path& file, const std::string& exp
   read(file, expected, use, [&] {
     const std::string image = copy_by_child(file, expected, use, check);
     H5::FileAccPropList in_memory;
-    in_memory.setCore(growth, false);
+    in_memory.setCore(std::size_t(1) << 20, false);
     if (H5Pset_file_image(in_memory.getId(), const_cast<char*>(image.data()), image.size()) < 0)
       throw std::runtime_error(fmt::format("{}: HDF5 takes no image of the file", file.string()));
     // An image has a name under which there is no file.

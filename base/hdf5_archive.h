@@ -209,8 +209,8 @@ inline std::mutex& hdf5_mutex()
   return mutex;
 }
 
-/// Writes a file whole or not at all, made in memory first, with a seal (base/seal.h). Throws OutputError, which names
-/// file and cause.
+/// Writes a file whole or not at all, with a seal (base/seal.h), an array at a time. Throws OutputError, which names file
+/// and cause.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write);
 
 /// Writes a file of arrays that another library wrote once more: without their times, and with a seal. Throws OutputError.

@@ -6,11 +6,14 @@
 #include "base/whole_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <functional>
 #include <istream>
+#include <vector>
 
 namespace feldspar
 {
@@ -65,6 +68,27 @@ std::string seal_of(const std::string_view content)
   Fingerprint print;
   add(print, content);
   return seal(content.size(), print);
+}
+
+int append_seal(const int descriptor)
+{
+  Fingerprint print;
+  std::uint64_t length = 0;
+  std::vector<char> piece(std::size_t(1) << 20);
+  for (;;)
+    {
+      const ssize_t n = pread(descriptor, piece.data(), piece.size(), off_t(length));
+      if (n < 0 && errno != EINTR)
+        return errno;
+      if (n == 0)
+        break;
+      if (n > 0)
+        {
+          add(print, {piece.data(), std::size_t(n)});
+          length += std::uint64_t(n);
+        }
+    }
+  return write_at(descriptor, length, seal(length, print));
 }
 
 void write_sealed(const std::filesystem::path& file, const std::string_view content)

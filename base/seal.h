@@ -16,6 +16,9 @@ inline constexpr std::string_view seal_notice = "checksum_and_length_follow_the_
 /// The bytes to append to a content.
 std::string seal_of(std::string_view content);
 
+/// Appends its seal to an open file, which is read a piece at a time. Returns 0 or the error number of the system.
+int append_seal(int descriptor);
+
 enum class Seal
 {
   intact,

@@ -38,39 +38,66 @@ OutputError cannot_be_written(const std::filesystem::path& file, const std::stri
   return OutputError(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// 0, or the error number. Streams of the standard library do not tell the cause.
-int write_all(const std::filesystem::path& file, std::string_view content)
+/// Takes away what lies in the place of a temporary file, which a killed run may have left, and opens a new one; a link that
+/// lies there is not followed. Returns the descriptor, or -1 with errno.
+int open_new(const std::filesystem::path& file)
 {
-  // A killed run may have left one; a link that lies there is not followed.
   if (unlink(file.c_str()) != 0 && errno != ENOENT)
-    return errno;
-  const int out = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (out < 0)
-    return errno;
-  int error = 0;
-  while (!content.empty() && error == 0)
-    if (const ssize_t n = write(out, content.data(), content.size()); n >= 0)
-      content.remove_prefix(std::size_t(n));
-    else if (errno != EINTR)
-      error = errno;
-  if (close(out) != 0 && error == 0)
-    error = errno;
-  return error;
+    return -1;
+  return open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 } // namespace
 
+int write_at(const int descriptor, std::uint64_t place, std::string_view content)
+{
+  while (!content.empty())
+    if (const ssize_t n = pwrite(descriptor, content.data(), content.size(), off_t(place)); n >= 0)
+      {
+        content.remove_prefix(std::size_t(n));
+        place += std::uint64_t(n);
+      }
+    else if (errno != EINTR)
+      return errno;
+  return 0;
+}
+
 void write_whole_file(const std::filesystem::path& file, const std::string_view content)
+{
+  write_whole_file(file, [&](const int descriptor) { return write_at(descriptor, 0, content); });
+}
+
+void write_whole_file(const std::filesystem::path& file, const std::function<int(int)>& fill)
 {
   tell(file);
   std::filesystem::path unfinished = file;
   unfinished += ".unfinished";
-  std::error_code error(write_all(unfinished, content), std::generic_category());
+  const auto remove = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+  };
+  const int descriptor = open_new(unfinished);
+  int problem = descriptor < 0 ? errno : 0;
+  if (problem == 0)
+    {
+      try
+        {
+          problem = fill(descriptor);
+        }
+      catch (...)
+        {
+          close(descriptor);
+          remove();
+          throw;
+        }
+      if (close(descriptor) != 0 && problem == 0)
+        problem = errno;
+    }
+  std::error_code error(problem, std::generic_category());
   if (!error)
     std::filesystem::rename(unfinished, file, error);
   if (error)
     {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
+      remove();
       throw cannot_be_written(file, error.message());
     }
 }

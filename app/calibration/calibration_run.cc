@@ -14,7 +14,6 @@
 #include "app/run/jobs.h"
 #include "app/screen/progress.h"
 #include "base/input_error.h"
-#include "base/parallel.h"
 #include "base/text.h"
 #include "base/whole_file.h"
 #include "calibration/calibration_file.h"
@@ -96,7 +95,7 @@ private:
       of_specimen.push_back({&test, &rock, &first});
     const double of_waves = std::sqrt(guess.modulus / input.flat_joint.modulus); // steps are as short as they are fast
     const double seconds = of_waves * expected_effort<dim>(of_specimen).seconds +
-                           expected_effort(input.specimen).seconds / double(number_of_threads());
+                           expected_effort(input.specimen).seconds / n_threads_served();
     const auto cost = [&](const std::size_t n_specimens) {
       return fmt::format("{} specimens ({})", n_specimens, duration_in_words(seconds * double(n_specimens)));
     };

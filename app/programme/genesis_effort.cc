@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace feldspar
 {
@@ -51,6 +52,39 @@ std::optional<double> free_memory()
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && std::ifstream("/sys/fs/cgroup/memory.current") >> used)
     take(std::max(0.0, limit - used));
   return least;
+}
+
+namespace
+{
+/// Processes that run or wait for a processor, as a mean over a minute. Of the beginning of the run: later it counts the run itself.
+double load_at_start()
+{
+  static const double load = [] {
+    double of_minute = 0.0;
+    std::ifstream("/proc/loadavg") >> of_minute;
+    return of_minute;
+  }();
+  return load;
+}
+
+double n_processors() { return std::max(1u, std::thread::hardware_concurrency()); }
+} // namespace
+
+double n_threads_served()
+{
+  const auto n = double(number_of_threads());
+  return n * std::min(1.0, n_processors() / (n + load_at_start()));
+}
+
+std::string load_in_words(const double bytes)
+{
+  std::string words;
+  if (const auto free = free_memory(); free && bytes > 0.5 * *free)
+    words += fmt::format("; {:.1f} GB of memory are free", *free / 1e9);
+  if (load_at_start() > 0.5 * n_processors())
+    words += fmt::format("; others keep {:.1f} of {:.0f} processors busy", std::min(load_at_start(), n_processors()),
+                         n_processors());
+  return words;
 }
 
 // The peak of `feldspar specimen` less that of a tiny specimen, over the number of grains, rounded up (75 000 discs, 9000
@@ -114,10 +148,11 @@ std::string describe_effort(const std::vector<Variant>& variants, const std::vec
   const GenesisEffort sum = together(efforts(variants, orders));
   if (sum.n_grains == 0.0)
     return "";
-  const double n_at_a_time = std::min(double(orders.size()), double(number_of_threads()));
-  return fmt::format("genesis of {} specimen{}, some {:.0f} grains{}: about {:.0f} MB, {}", orders.size(),
+  const double n_at_a_time = std::min(double(orders.size()), n_threads_served());
+  return fmt::format("genesis of {} specimen{}, some {:.0f} grains{}: about {:.0f} MB, {}{}", orders.size(),
                      orders.size() == 1 ? "" : "s", sum.n_grains, orders.size() == 1 ? "" : " each at most",
-                     std::max(1.0, sum.bytes / 1e6), duration_in_words(sum.seconds / n_at_a_time));
+                     std::max(1.0, sum.bytes / 1e6), duration_in_words(sum.seconds / n_at_a_time),
+                     load_in_words(sum.bytes));
 }
 
 void check_memory(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)

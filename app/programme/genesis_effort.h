@@ -12,6 +12,14 @@ namespace feldspar
 /// Free memory of the machine, or what is left of the limit of the control group [bytes]; none where that is not told.
 std::optional<double> free_memory();
 
+/// How many threads' work this run gets done at a time. Threads of ours and what ran on the machine when this was first asked,
+/// at the beginning of the run, share its processors evenly.
+double n_threads_served();
+
+/// What of the machine is taken already, where a forecast depends on it: memory of which the run will need more than half of
+/// what is free, processors of which others use half. With a semicolon before it; else empty.
+std::string load_in_words(double bytes);
+
 /// The memory that a grain of a specimen takes.
 double bytes_of_grain(int dimension);
 

@@ -103,7 +103,7 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
       most_joints = std::max(most_joints, double(specimen->joints.size()));
     }
   // Threads help each other within a test too.
-  effort.seconds = seconds / double(number_of_threads());
+  effort.seconds = seconds / n_threads_served();
   effort.bytes = bytes_of_tests(dim, double(tests.size()), most_grains, most_joints);
   return effort;
 }
@@ -112,10 +112,10 @@ template <int dim>
 std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
 {
   const TestEffort effort = expected_effort(tests);
-  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}",
+  const double bytes = bytes_of_program + bytes_of_specimens(tests) + effort.bytes;
+  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}{}",
                      effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,
-                     (bytes_of_program + bytes_of_specimens(tests) + effort.bytes) / 1e6,
-                     duration_in_words(effort.seconds));
+                     bytes / 1e6, duration_in_words(effort.seconds), load_in_words(effort.bytes));
 }
 
 void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)

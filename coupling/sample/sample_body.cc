@@ -6,6 +6,7 @@
 #include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_run.h"
 #include "coupling/sample/softening.h"
+#include "fem/mesh/boundary_places.h"
 #include "fem/solid/platens.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -101,6 +102,7 @@ fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
           throw fem::MeshError(fmt::format("{}: its axis lies at {} = {:g} m; a cylinder stands on x = y = 0",
                                            sample.mesh_file, "xy"[axis], centre));
     }
+  fem::check_places(mesh, sample.geometry == SampleGeometry::axisymmetric);
   return mesh;
 }
 

@@ -31,11 +31,13 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
           entry::choice("Material", &P::material, materials,
                         "at the points of the sample of `feldspar multiscale`: the representative volume, or, for "
                         "comparison, what Continuum says"),
-          entry::file("Mesh file", &P::mesh_file,
-                      "of Gmsh (format 2 or 4, text or binary), instead of Width, Height and both Elements: "
-                      "quadrilaterals with the lines of the physical groups left, right, bottom and top, in r-z "
-                      "axis, side, bottom and top with the axis at x = 0, or hexahedra about x = y = 0 along z "
-                      "with the surfaces side, bottom and top"),
+          entry::file(
+            "Mesh file", &P::mesh_file,
+            "of Gmsh (format 2 or 4, text or binary), instead of Width, Height and both Elements: "
+            "quadrilaterals with the lines of the physical groups left, right, bottom and top, in r-z "
+            "axis, side, bottom and top with the axis at x = 0, or hexahedra about x = y = 0 along z "
+            "with the surfaces side, bottom and top; the last coordinate counts upwards, and each name must be that of "
+            "the place where its lines or surfaces lie"),
           entry::choice("Mesh unit", &P::mesh_unit,
                         {{"none", MeshUnit::not_said},
                          {"m", MeshUnit::metre},

@@ -29,6 +29,7 @@ struct PrincipalUpdate
 {
   Principal stress;
   Eigen::Matrix3d tangent; ///< dσ_i/dε_j
+  int n_active;            ///< planes of the yield surface that the stress lies on; 3 at the apex
 };
 
 /// The plane k σ_i - σ_j = q_u, as its normal and that of the plastic potential.
@@ -84,7 +85,7 @@ std::optional<PrincipalUpdate> return_to(const std::array<YieldPlane, n>& planes
   if (((inverse * excess).array() < 0.0).any())
     return std::nullopt;
   const Eigen::Matrix<double, 3, n> towards = D * B * inverse;
-  return PrincipalUpdate{trial - towards * excess, D - towards * A.transpose() * D};
+  return PrincipalUpdate{trial - towards * excess, D - towards * A.transpose() * D, n};
 }
 
 PrincipalUpdate principal_update(const YieldSurface& yield, const Eigen::Matrix3d& D, const Principal& trial)
@@ -92,7 +93,7 @@ PrincipalUpdate principal_update(const YieldSurface& yield, const Eigen::Matrix3
   const double round_off = 1e-12 * (trial.cwiseAbs().maxCoeff() + yield.q_u);
   const YieldPlane main = yield.plane(0, 2);
   if (main.normal.dot(trial) <= yield.q_u)
-    return {trial, D};
+    return {trial, D, 0};
   if (const auto onto_plane = return_to<1>({main}, yield.q_u, D, trial);
       onto_plane && in_order(onto_plane->stress, round_off))
     return *onto_plane;
@@ -101,7 +102,7 @@ PrincipalUpdate principal_update(const YieldSurface& yield, const Eigen::Matrix3
     if (const auto onto_edge = return_to<2>({main, neighbour}, yield.q_u, D, trial);
         onto_edge && in_order(onto_edge->stress, round_off))
       return *onto_edge;
-  return {Principal::Constant(yield.q_u / (yield.k - 1.0)), Eigen::Matrix3d::Zero()};
+  return {Principal::Constant(yield.q_u / (yield.k - 1.0)), Eigen::Matrix3d::Zero(), 3};
 }
 
 /// Voigt stress in the sample's axes from Voigt stress in the axes given as columns; its transpose takes strains the
@@ -197,6 +198,8 @@ MohrCoulombUpdate update(const MohrCoulombParameters& parameters, const MohrCoul
   MohrCoulombUpdate result;
   result.response.stress = rotation.leftCols<3>() * updated.stress;
   result.response.tangent = rotation * tangent_in_principal_axes(updated, trial, C(3, 3)) * rotation.transpose();
+  if (updated.n_active > 1)
+    result.response.tangent += elastic_share * (C - result.response.tangent);
   const StrainVector<3> flow = C.ldlt().solve(s - result.response.stress);
   result.state.plastic_strain = old.plastic_strain + flow;
   result.state.dissipated = old.dissipated + result.response.stress.dot(flow);

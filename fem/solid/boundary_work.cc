@@ -4,17 +4,14 @@
 
 namespace feldspar::fem
 {
-namespace
-{
-std::vector<double> entries(const NodalVector& vector, const dealii::IndexSet& owned)
+std::vector<double> entries(const NodalVector& vector, const dealii::IndexSet& wanted)
 {
   std::vector<dealii::types::global_dof_index> indices;
-  owned.fill_index_vector(indices);
+  wanted.fill_index_vector(indices);
   std::vector<double> values(indices.size());
   vector.extract_subvector_to(indices, values);
   return values;
 }
-} // namespace
 
 PathVertex::PathVertex(const NodalVector& its_displacement, const NodalVector& its_internal_force,
                        const NodalVector& its_external_force, const dealii::IndexSet& owned)

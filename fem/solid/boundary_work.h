@@ -29,6 +29,9 @@ struct BoundaryWork
   }
 };
 
+/// The entries of a vector for some of the degrees of freedom of this rank.
+std::vector<double> entries(const NodalVector& vector, const dealii::IndexSet& wanted);
+
 /// The degrees of freedom of this rank at a vertex of the path.
 struct PathVertex
 {

@@ -1,11 +1,13 @@
 #include "fem/solid/newton.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace feldspar::fem
@@ -23,6 +25,7 @@ NewtonSearch<dim, material_dim>::NewtonSearch(const Discretisation<dim>& its_ele
   , parameters(its_parameters)
   , matrix(its_matrix)
   , round_done(std::move(its_round_done))
+  , axial(DoFTools::extract_dofs(elements.dof_handler, only<dim>(dim - 1)))
   , right_side(elements.owned_vector())
 {
 }
@@ -42,7 +45,7 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
   std::optional<PathVertex> vertex = vertex_of(start);
   bool boundary_moves = !constraints.following;
   unsigned int n_iterations_left = parameters.most_iterations;
-  double force_scale = start.internal_force.l2_norm();
+  const CarriedForce before = carried_by(start);
   for (;;)
     {
       const NodalForces forces = assemble_forces(elements, points.volumes, tried, constraints.standing);
@@ -52,12 +55,17 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
       if (!vertex)
         vertex = vertex_of(tried);
       const double unbalanced = right_side.l2_norm();
-      force_scale = std::max({force_scale, tried.internal_force.l2_norm(), tried.external_force.l2_norm()});
-      report.residuals.push_back(force_scale > 0.0 ? unbalanced / force_scale : 0.0);
+      // The state's own, never that of an iterate before it, which may be far off. Of a body that is being unloaded, which in
+      // the end carries nothing to measure by, that of the state it comes from.
+      const CarriedForce now = carried_by(tried);
+      const CarriedForce carried{std::max(now.norm, before.norm), std::max(now.along_axis, before.along_axis)};
+      report.residuals.push_back(carried.norm > 0.0 ? unbalanced / carried.norm : 0.0);
       if (!std::isfinite(unbalanced))
         return failed("the unbalanced force is not finite");
 
-      if (!boundary_moves && unbalanced <= parameters.newton_tolerance * force_scale && follows(constraints))
+      const bool is_balanced = unbalanced <= parameters.newton_tolerance * carried.norm &&
+                               unbalanced_resultant() <= parameters.newton_tolerance * carried.along_axis;
+      if (!boundary_moves && is_balanced && follows(constraints))
         {
           work += work_between(*vertex, vertex_of(tried), held);
           vertex.reset();
@@ -102,6 +110,24 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
         }
       parameters.watch(report);
     }
+}
+
+template <int dim, int material_dim>
+auto NewtonSearch<dim, material_dim>::carried_by(const SolidState<material_dim>& state) const -> CarriedForce
+{
+  const double norm = std::max(state.internal_force.l2_norm(), state.external_force.l2_norm());
+  double of_both_ends = 0.0;
+  for (const double force : entries(state.internal_force, axial))
+    of_both_ends += std::abs(force);
+  return {norm, std::max(norm, 0.5 * Utilities::MPI::sum(of_both_ends, elements.communicator()))};
+}
+
+/// Along the axis; by so much the forces of the ends differ.
+template <int dim, int material_dim>
+double NewtonSearch<dim, material_dim>::unbalanced_resultant() const
+{
+  const std::vector<double> forces = entries(right_side, axial);
+  return std::abs(Utilities::MPI::sum(std::accumulate(forces.begin(), forces.end(), 0.0), elements.communicator()));
 }
 
 template <int dim, int material_dim>

@@ -33,6 +33,14 @@ public:
   Outcome run(SolidConstraints constraints, const SolidState<material_dim>& start);
 
 private:
+  /// The forces that a state carries, by which those that are unbalanced are measured [N].
+  struct CarriedForce
+  {
+    double norm;       ///< of the internal or external forces, whichever is larger
+    double along_axis; ///< from end to end, which is the last coordinate; at least the norm
+  };
+  CarriedForce carried_by(const SolidState<material_dim>& state) const;
+  double unbalanced_resultant() const;
   PathVertex vertex_of(const SolidState<material_dim>& state) const;
   std::vector<bool> held_by(const dealii::AffineConstraints<double>& constraints) const;
   /// How a round over the points of all ranks ended: of any the worst, which is the last.
@@ -60,6 +68,7 @@ private:
   dealii::PETScWrappers::MPI::SparseMatrix& matrix;
   std::function<void()> round_done;
 
+  dealii::IndexSet axial; ///< the degrees of freedom of this rank along the axis
   SolidState<material_dim> tried;
   NodalVector right_side; ///< unbalanced force on what is free to move
 };

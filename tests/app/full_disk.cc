@@ -46,6 +46,12 @@ extern "C"
     return has_room(descriptor) ? real(descriptor, buffers, n) : -1;
   }
 
+  ssize_t pwrite(const int descriptor, const void* const buffer, const size_t size, const off_t offset)
+  {
+    static auto* const real = next<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+    return has_room(descriptor) ? real(descriptor, buffer, size, offset) : -1;
+  }
+
   ssize_t pwrite64(const int descriptor, const void* const buffer, const size_t size, const off64_t offset)
   {
     static auto* const real = next<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");

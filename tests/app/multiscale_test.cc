@@ -125,6 +125,15 @@ std::vector<double> column(const std::filesystem::path& curve, const std::string
   return values;
 }
 
+/// The forces of both ends are equal to Newton's tolerance, 1e-5, of what an end carries in this row or the one before.
+void expect_ends_to_agree(const std::filesystem::path& curve)
+{
+  const auto stress = column(curve, "axial_stress_Pa");
+  const auto difference = column(curve, "end_stress_difference_Pa");
+  for (std::size_t k = 1; k < stress.size(); ++k)
+    EXPECT_LE(std::abs(difference[k]), 1e-5 * std::max(std::abs(stress[k]), std::abs(stress[k - 1]))) << curve << k;
+}
+
 // Past the peak the sample widens from row to row by the step, and where it breaks the platens go back, which no test does
 // that drives them; the stress falls without an end of the test. Columns of a curve have compression positive.
 TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
@@ -139,6 +148,7 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
   const auto axial = column(curve, "axial_strain");
   const auto stress = column(curve, "axial_stress_Pa");
   ASSERT_GT(width.size(), 10u);
+  expect_ends_to_agree(curve);
   std::size_t n_widened = 0;
   bool went_back = false;
   for (std::size_t k = 1; k < width.size(); ++k)
@@ -399,6 +409,7 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   const auto stress = [&](const std::string& name) {
     return cell(folder.path() / name / "curves/direct_tension_seed_1.csv", "axial_stress_Pa", 10);
   };
+  expect_ends_to_agree(folder.path() / "own/curves/direct_tension_seed_1.csv");
   EXPECT_NEAR(stress("mesh"), stress("own"), 1e-9 * stress("own"));
   EXPECT_NEAR(stress("scaled"), stress("own"), 1e-9 * stress("own"));
   EXPECT_GT(stress("own"), 1e6);
@@ -421,6 +432,14 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
   refused(two_squares("top", squares, "-0.001 0.012"), "bad.msh: the cell at");
   refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
           "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
+  // A second coordinate that counts the depth.
+  const auto named = [](const std::string& low, const std::string& high) {
+    std::string mesh = two_squares("name", squares);
+    mesh.replace(mesh.find("\"bottom\""), 8, '"' + low + '"');
+    return mesh.replace(mesh.find("\"name\""), 6, '"' + high + '"');
+  };
+  refused(named("top", "bottom"), "top lies below bottom: top at y = 0 m, bottom at y = 0.024 m; y counts upwards, so "
+                                  "mirror a depth (y -> -y)");
   refused(two_squares_in_millimetres(),
           "in metres the mesh is 12 m wide and 24 m high; if its coordinates are in another unit, set "
           "Mesh unit = mm");

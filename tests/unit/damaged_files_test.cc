@@ -1,5 +1,6 @@
 #include "base/hdf5_archive.h"
 #include "base/seal.h"
+#include "base/whole_file.h"
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/rve_file.h"
 #include "dem/lab/protocols/protocols.h"
@@ -11,17 +12,21 @@
 #include "tests/unit/small_rve.h"
 #include "tests/unit/small_specimen.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 /// Files that were damaged, cut short or made up: one line, and nothing else.
@@ -80,6 +85,10 @@ TEST(Seal, SeesEveryChangeOfAFile)
     return examine_seal(file);
   };
   EXPECT_EQ(examined(sealed), Seal::intact);
+  folder.write("sealed", content);
+  EXPECT_EQ(append_seal(file), 0);
+  EXPECT_EQ(content_of(file), sealed);
+  EXPECT_EQ(append_seal(folder.path() / "missing"), ENOENT);
   EXPECT_EQ(examined("another file, without any"), Seal::none);
   EXPECT_EQ(examined(""), Seal::none);
   EXPECT_EQ(examine_seal(folder.path() / "missing"), Seal::broken);
@@ -372,6 +381,57 @@ TEST(DamagedFiles, AnArrayIsNotLongerThanItsFile)
   EXPECT_NE(reading([&](Hdf5Reader& root) { root.text("several", text); }), "");
   // Read as one that this version wrote.
   EXPECT_NE(refusal([&] { read_hdf5(file, "a test", [](Hdf5Reader&) {}); }).find("no checksum"), std::string::npos);
+}
+
+/// The most memory this process has had [bytes].
+double most_memory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
+}
+
+// An array at a time passes through memory, with the copy that its checksum takes: never the file.
+TEST(Hdf5File, IsWrittenAndSealedWithoutAnImageInMemory)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "large.h5";
+  std::vector<double> values(500'000);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = double(k);
+  constexpr int n_arrays = 25; // 100 MB
+  const double before = most_memory();
+  write_hdf5(file, [&](Hdf5Writer& root) {
+    for (int k = 0; k < n_arrays; ++k)
+      root.array(fmt::format("array_{}", k), values);
+  });
+  const double bytes_of_array = 8.0 * double(values.size());
+  EXPECT_LT(most_memory() - before, 5.0 * bytes_of_array);
+  EXPECT_GT(double(std::filesystem::file_size(file)), n_arrays * bytes_of_array);
+  EXPECT_EQ(examine_seal(file), Seal::intact);
+  std::vector<double> last;
+  read_hdf5(file, "a test", [&](Hdf5Reader& root) { root.array("array_24", last); });
+  EXPECT_EQ(last, values);
+}
+
+TEST(Hdf5File, ThatCannotBeWrittenLeavesTheOneBefore)
+{
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "kept.h5";
+  const auto write = [&](double value) {
+    write_hdf5(file, [&](Hdf5Writer& root) {
+      root.value("number", value);
+      if (value < 0.0)
+        throw std::runtime_error("left amid the writing");
+    });
+  };
+  write(1.0);
+  EXPECT_THROW(write(-1.0), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "kept.h5.unfinished"));
+  double number = 0.0;
+  read_hdf5(file, "a test", [&](Hdf5Reader& root) { root.value("number", number); });
+  EXPECT_EQ(number, 1.0);
+  EXPECT_THROW(write_hdf5(folder.path() / "nowhere/file.h5", [](Hdf5Writer&) {}), OutputError);
 }
 
 TEST(DamagedFiles, FieldsOfSamplesAreRefused)

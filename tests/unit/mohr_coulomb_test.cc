@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 namespace feldspar::fem
 {
@@ -82,8 +83,9 @@ TEST(MohrCoulomb, ReturnsToThePartOfTheYieldSurfaceThatEachTrialBelongsTo)
 TEST(MohrCoulomb, HasTheTangentOfItsResponse)
 {
   // Central differences of a function linear but for the turning of axes: their error is that of round-off, 1e-16 σ over
-  // 1e-8, and curvature, (1e-8/1e-3)².
+  // 1e-8, and curvature, (1e-8/1e-3)². The tangent at edges and at the apex has a share of the elastic one.
   const double step = 1e-8;
+  const StiffnessMatrix<3> elastic = isotropic_stiffness<3>(rock.youngs_modulus, rock.poissons_ratio);
   for (const Region& region : regions)
     {
       SCOPED_TRACE(region.name);
@@ -96,7 +98,10 @@ TEST(MohrCoulomb, HasTheTangentOfItsResponse)
           const StressVector<3> by_difference =
             (update(rock, {}, strain + change).response.stress - update(rock, {}, strain - change).response.stress) /
             (2.0 * step);
-          EXPECT_LT((response.tangent.col(c) - by_difference).cwiseAbs().maxCoeff(), 1e-6 * rock.youngs_modulus) << c;
+          const std::string name = region.name;
+          const double share = name == "elastic" || name == "plane" ? 0.0 : elastic_share;
+          const StressVector<3> expected = (1.0 - share) * by_difference + share * elastic.col(c);
+          EXPECT_LT((response.tangent.col(c) - expected).cwiseAbs().maxCoeff(), 2e-7 * rock.youngs_modulus) << c;
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <exception>
 
 namespace feldspar
@@ -72,5 +73,42 @@ TEST(SampleTest, IsLeftAmidARoundOverItsPointsAndGoesOnToTheSameBits)
       EXPECT_EQ(found[k].axial_strain, expected[k].axial_strain) << k;
       EXPECT_EQ(found[k].axial_stress, expected[k].axial_stress) << k;
     }
+}
+
+// σ_1 = q_u + k σ_3 in whatever geometry, and as much above as below. To Newton's tolerance, of which the forces of all nodes
+// take their share.
+TEST(SampleTest, MohrCoulombHoldsTheStressOfItsClosedFormInEachGeometry)
+{
+  const ContinuumParameters rock;
+  const double k = (1.0 + std::sin(rock.friction_angle)) / (1.0 - std::sin(rock.friction_angle));
+  const double q_u = 2.0 * rock.cohesion * std::sqrt(k);
+  for (const SampleGeometry geometry :
+       {SampleGeometry::plane, SampleGeometry::plane_strain, SampleGeometry::axisymmetric, SampleGeometry::cylinder})
+    for (const double pressure : {0.0, 5e6, 10e6, 20e6, 60e6})
+      for (const double step : {1e-4, 4e-4})
+        {
+          SampleParameters sample;
+          sample.geometry = geometry;
+          sample.material = "Mohr-Coulomb";
+          sample.elements_across = 3;
+          sample.elements_along = 2;
+          sample.compression_step = step;
+          const double strain_at_yield = (q_u + (k - 1.0) * pressure) / rock.modulus;
+          TestParameters wanted;
+          wanted.stop_strain = strain_at_yield + 6.0 * step;
+          const auto& kind = pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
+          SampleTest test({kind, pressure}, sample, wanted, rock);
+          go_to_the_end(test);
+          const TestRecord record = test.finish(false).record;
+          SCOPED_TRACE(testing::Message() << int(geometry) << ", " << pressure << ", " << step << record.ended_early);
+          EXPECT_GE(-record.curve.back().axial_strain, wanted.stop_strain * (1.0 - 1e-9));
+          const double exact = q_u + k * pressure;
+          EXPECT_NEAR(-record.curve.back().axial_stress, exact, sample.newton_tolerance * exact);
+          for (const CurveSample& row : record.curve)
+            {
+              EXPECT_LE(std::abs(row.end_stress_difference), sample.newton_tolerance * std::abs(row.axial_stress));
+              EXPECT_LE(-row.axial_stress, exact * (1.0 + 2.0 * sample.newton_tolerance));
+            }
+        }
 }
 } // namespace feldspar

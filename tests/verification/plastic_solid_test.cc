@@ -71,6 +71,35 @@ TEST(MohrCoulombElement, InTriaxialCompressionOfACylinder)
     }
 }
 
+// In space nothing but the elastic share of the tangent tells how the body distorts across its axis: it stays round.
+TEST(MohrCoulombCylinder, YieldsEvenlyInSpaceAtAnyPressureAndStep)
+{
+  const auto mesh = cylinder_sample(MPI_COMM_WORLD, 0.025, 0.1, {3, 4}, 0);
+  for (const double p : {0.0, 10e6, 60e6})
+    for (const unsigned int n_steps : {1u, 5u})
+      {
+        Solid<3> solid(mesh, {.kinematics = Kinematics::full}, mohr_coulomb(rock));
+        const PlatenTest<3> test{.kinematics = Kinematics::full, .confining_pressure = p};
+        ASSERT_TRUE(solid.solve(test.seating()).converged);
+        solid.accept();
+        std::vector<double> axial_strain, widening;
+        for (const double strain : {-0.02, -0.03})
+          {
+            advance<3, 3>(solid, test.pressing(strain * 0.1), StepControl(1.0 / n_steps, 1e-3, 1.0 / n_steps));
+            const double top = solid.reaction("top", 2);
+            EXPECT_NEAR(top / solid.area("top"), -(q_u + k * p), 1e-8 * q_u) << p << ", " << n_steps;
+            EXPECT_NEAR(top + solid.reaction("bottom", 2), 0.0, 1e-9 * std::abs(top)) << p << ", " << n_steps;
+            axial_strain.push_back(solid.mean_displacement("top", 2) / 0.1);
+            widening.push_back(solid.mean_strain()[0] + solid.mean_strain()[1]);
+            EXPECT_NEAR(solid.mean_strain()[0], solid.mean_strain()[1], 1e-6 * std::abs(strain))
+              << p << ", " << n_steps;
+          }
+        // On the edge both planes flow: dε_x + dε_y = -m dε_z, however they share it.
+        EXPECT_NEAR((widening[1] - widening[0]) / (axial_strain[1] - axial_strain[0]), -m, 1e-6)
+          << p << ", " << n_steps;
+      }
+}
+
 // ---- Newton's method
 
 /// Mohr and Coulomb's stress with the elastic tangent, as a wrong scheme.
@@ -152,6 +181,39 @@ TEST(Newton, GoesOnlyAsFarAsThePointsRespond)
   report = short_of_breath.solve(test.seating());
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.failure, "a material point has no response to its strain");
+}
+
+// The first iterate goes to P/E, where the cubic term makes the force 1e6 P. A tolerance of that force would be 1e-3 P; of the
+// state's own it is 1e-9 P.
+TEST(Newton, MeasuresTheUnbalancedForceByTheStateItself)
+{
+  const double pressure = 10e6;
+  const double first = pressure / E;
+  const double cubic = 1e6 * pressure / (first * first * first);
+  const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 2}, 0);
+  Solid<2> solid(mesh, {.most_iterations = 40},
+                 {[&](const PointPlace&) { return std::make_unique<StiffeningPoint>(cubic, 1.0); }, {}});
+  PlatenTest<2> test;
+  test.confining_pressure = pressure;
+  const auto report = solid.solve(test.seating());
+  ASSERT_TRUE(report.converged) << report.failure;
+  EXPECT_GT(report.n_iterations, 10u); // its way leads through such iterates
+  solid.accept();
+  EXPECT_NEAR(solid.mean_stress()[0], -pressure, 2e-9 * pressure);
+  EXPECT_NEAR(solid.mean_stress()[1], -pressure, 2e-9 * pressure);
+}
+
+// A body that is unloaded ends without any force to measure by.
+TEST(Newton, FindsTheEquilibriumWithoutLoad)
+{
+  const auto mesh = plane_sample(MPI_COMM_WORLD, 0.05, 0.1, {2, 2}, 0);
+  Solid<2, 3> solid(mesh, {}, mohr_coulomb(rock));
+  ASSERT_TRUE(solid.solve(PlatenTest<2>().holding(0.5 * q_u)).converged);
+  solid.accept();
+  const auto report = solid.solve(PlatenTest<2>().holding(0.0));
+  ASSERT_TRUE(report.converged) << report.failure;
+  solid.accept();
+  EXPECT_NEAR(solid.mean_stress()[2], 0.0, 1e-9 * q_u);
 }
 
 // ---- freeze, solve, break
