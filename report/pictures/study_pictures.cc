@@ -357,7 +357,7 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
     .height = 480,
     .script = fmt::format("$map << EOD\n{}EOD\n", rows) +
               frame(with_unit(x, over[0].varied.unit), with_unit(y, over[1].varied.unit)) +
-              "unset grid\nset palette defined (0 '#f7fbff', 1 '#c6dbef', 2 '#6baed6')\nset offsets graph 0.01, graph "
+              "unset grid\nset palette defined (0 '#deebf7', 1 '#9ecae1', 2 '#4292c6')\nset offsets graph 0.01, graph "
               "0.01, graph 0.01, graph 0.01\n" +
               fmt::format("set cblabel {}\n", gnuplot_text(with_unit(property.title, property.unit))) + plots + "\n"};
 }

@@ -217,7 +217,7 @@ public:
     if (n == 0)
       return "";
     return fmt::format("{}: {}{}, no finite number; {}", printable(file), first,
-                       n > 1 ? fmt::format(" (and {} more such cells)", n - 1) : "", fate);
+                       n > 1 ? fmt::format(" (and {} more such cell{})", n - 1, n > 2 ? "s" : "") : "", fate);
   }
 
 private:

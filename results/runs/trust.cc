@@ -154,10 +154,10 @@ std::string shortcoming(const FinishedTest& test)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
   if (!test.results.is_valid())
     return fmt::format(
-      "{} is not valid as a splitting test, and its figures enter no mean, envelope or calibration: {:.0f} % "
-      "of its first cracks lie at the pads, where the disc is crushed. A splitting crack begins in the "
-      "middle (ISRM 1978, ASTM D3967). A larger disc or smaller grains help.",
-      test.name, 100.0 * *test.results.first_cracks_at_pads_share.value);
+      "{}, {:.2f} MPa, is not valid as a splitting test: {:.0f} % of its first cracks lie at the pads, where "
+      "the disc is crushed, and a splitting crack begins in the middle (ISRM 1978, ASTM D3967). Its figures "
+      "enter no mean, envelope or calibration. A larger disc or smaller grains help.",
+      test.name, *test.results.peak_stress.value / 1e6, 100.0 * *test.results.first_cracks_at_pads_share.value);
   if (!record.ended_early.empty())
     return fmt::format("{} ended early: {}.", test.name, record.ended_early);
   if (const auto rise = rise_after_first_fall(test))

@@ -680,7 +680,7 @@ TEST_F(Report, OfTablesWithNumbersThatAreNoneNamesThemAndStaysAlive)
     {
       at += data_of_a_script.size();
       const std::string data = words.substr(at, words.find("</script>", at) - at);
-      EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(data))) << data.substr(0, 200);
+      EXPECT_TRUE(nlohmann::json::accept(data)) << data.substr(0, 200);
     }
   EXPECT_GE(n, 18u);
   EXPECT_EQ(count(words, "class=\"absent\""), 0u);
