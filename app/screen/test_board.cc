@@ -22,7 +22,6 @@ void TestBoard::update(const std::size_t k, const CurveSample& row, const std::s
 {
   const std::lock_guard lock(showing);
   Entry& entry = entries[k];
-  const TestKind& kind = entry.planned.test.kind;
   entry.row = row;
   entry.more = more;
   if (entry.stages)
