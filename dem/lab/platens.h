@@ -46,15 +46,28 @@ EndStress stress_of(const Dynamics<dim>& dynamics, const Platens& platens, const
   return {-dynamics.wall_force(platens.lower) / area, -dynamics.wall_force(platens.upper) / area};
 }
 
-/// Gives the grains, on top of what they have, the velocities of a steady, uniform stretch [1/s] about the middle: set
-/// off from rest, the ends would send waves through the specimen that spoil the first tenth of the curve.
+/// Halfway between them [m].
 template <int dim>
-void start_steadily(Dynamics<dim>& dynamics, const double strain_rate)
+double middle(const Dynamics<dim>& dynamics, const Platens& platens)
+{
+  return 0.5 * (dynamics.walls()[platens.lower].position + dynamics.walls()[platens.upper].position);
+}
+
+/// Gives the grains, on top of what they have, the velocities of a steady, uniform stretch [1/s] about a place of the last axis
+/// [m]: set off from rest, the ends would send waves through the specimen that spoil the first tenth of the curve.
+template <int dim>
+void start_steadily(Dynamics<dim>& dynamics, const double strain_rate, const double about)
 {
   constexpr int axis = dim - 1;
   const auto& grains = dynamics.specimen().grains;
   for (std::uint32_t i = 0; i < grains.size(); ++i)
-    dynamics.push(i, strain_rate * (grains.position[axis][i] - 0.5 * dynamics.specimen().size[axis]) *
-                       Vector<dim>::Unit(axis));
+    dynamics.push(i, strain_rate * (grains.position[axis][i] - about) * Vector<dim>::Unit(axis));
+}
+
+/// About the middle of the specimen's box.
+template <int dim>
+void start_steadily(Dynamics<dim>& dynamics, const double strain_rate)
+{
+  start_steadily(dynamics, strain_rate, 0.5 * dynamics.specimen().size[dim - 1]);
 }
 } // namespace feldspar

@@ -61,16 +61,16 @@ protected:
 TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
 {
   constexpr double strength = 66.67e6; // of the specimen that was packed in its box
-  // A gap leaves the platen on the grains that stand out by some ten thousandths of a radius: the strain at the peak, 2.2e-3 of 30
-  // mm, is a thousand times that. Scatter from such a change of the ends is what is left, given 2 %.
+  // A platen that is brought lies on the grains on which the wall of the packing lay; rounding, and the 1 % by which the strain
+  // gauge lies higher, are what is left.
   for (const char* const height : {"30.001 mm", "30.1 mm", "30.3 mm"})
     {
       const auto answer = run_feldspar(folder.path(), of_packing("15 mm", height));
       ASSERT_EQ(answer.exit_code, 0) << answer.error;
       const auto test = first_test(folder.path());
-      EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), strength, 0.02 * strength) << height;
-      EXPECT_NEAR(test["strain_at_peak"].get<double>(), 2.20e-3, 0.03 * 2.20e-3) << height;
-      EXPECT_GT(test["way_to_grains_m"].get<double>(), 0.9e-6) << height;
+      EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), strength, 0.01 * strength) << height;
+      EXPECT_NEAR(test["strain_at_peak"].get<double>(), 2.20e-3, 0.01 * 2.20e-3) << height;
+      EXPECT_GT(test["way_to_grains_m"].get<double>(), 0.5e-6) << height;
       EXPECT_NE(content(folder.path() / "out/log.txt").find("walls were brought to the grains"), std::string::npos);
     }
 }

@@ -28,6 +28,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   const auto platens = add_platens(test, wanted.platen_friction);
   const WallPair ends{platens.lower, platens.upper};
   const double height = distance(test.dynamics, ends);
+  const double about = middle(test.dynamics, platens);
   const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
   Surroundings<dim> around;
   if (pressure_at_start > 0.0)
@@ -76,7 +77,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       }
     const bool presses = first.axial_strain ? *first.axial_strain > 0.0 : first.axial_stress > pressure_at_start;
     if (presses && !first.duration)
-      start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate));
+      start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate), about);
   };
   // The widening answers the platens after some half of a wave's travel. Mending in it less than a sixth of what is missed
   // leaves the loop stable even where a broken specimen widens by several times what it is shortened.

@@ -37,6 +37,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
   const auto platens = add_platens(test, wanted.platen_friction);
   const WallPair ends{platens.lower, platens.upper};
   const double height = distance(test.dynamics, ends);
+  const double about = middle(test.dynamics, platens);
   const double closing_speed = wanted.compression_strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
   const auto around = surround(test, ends, confining_pressure, wanted);
@@ -83,7 +84,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
                          check);
     if (membrane)
       press_membrane(state, ends, confining_pressure);
-    start_steadily(state, -wanted.compression_strain_rate);
+    start_steadily(state, -wanted.compression_strain_rate, about);
     close(state, platens, closing_speed);
   };
   test.loading.drive = [=](Dynamics<dim>& state) {

@@ -11,8 +11,8 @@ SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, double
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  start_steadily(test.dynamics, -wanted.compression_strain_rate);
   const auto platens = add_platens(test, wanted.platen_friction);
+  start_steadily(test.dynamics, -wanted.compression_strain_rate, middle(test.dynamics, platens));
   close(test.dynamics, platens, wanted.compression_strain_rate * distance(test.dynamics, platens));
 
   test.loading.strain_rate = -wanted.compression_strain_rate;
