@@ -57,7 +57,7 @@ void expect_refused(const TemporaryFolder& folder, const std::string& arguments,
   EXPECT_EQ(outcome.exit_code, 2) << arguments;
   EXPECT_NE(outcome.error.find(words), std::string::npos) << arguments << ": " << outcome.error;
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-  EXPECT_EQ(all_files(folder.path()), before) << arguments;
+  EXPECT_TRUE(all_files(folder.path()) == before) << arguments << ": files were changed";
 }
 
 std::set<std::string> lines_of(const fs::path& file)
@@ -382,8 +382,8 @@ TEST(CommandLine, IsToldInOneShortPrintableLineWhateverIsInIt)
 {
   const TemporaryFolder folder;
   folder.write("a.prm", rock);
-  const std::string escape = R"("$(printf 'a\033]0;x\007\033[31m\nb')")";
-  const std::string longest = R"("$(head -c 100000 /dev/zero | tr '\0' y)")";
+  const std::string escape = R"sh("$(printf 'a\033]0;x\007\033[31m\nb')")sh";
+  const std::string longest = R"sh("$(head -c 100000 /dev/zero | tr '\0' y)")sh";
   for (const std::string& word : {escape, longest})
     for (const std::string& arguments :
          {word, "--" + word, "lab --" + word, "lab a.prm " + word, "lab a.prm --threads " + word, "help " + word,
@@ -410,7 +410,7 @@ TEST(Report, SaysInOneLineThatManyTestsAreMissing)
   ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
   auto summary = nlohmann::ordered_json::parse(content(folder.path() / "out/summary.json"));
   const auto test = summary["tests"][0];
-  constexpr std::size_t n = 5000;
+  constexpr std::size_t n = 1000;
   for (std::size_t k = 2; k <= n; ++k)
     {
       summary["tests"].push_back(test);

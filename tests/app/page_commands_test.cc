@@ -40,8 +40,8 @@ struct Circumstances
   std::optional<std::vector<std::string>> pieces;
 };
 
-const std::vector<std::string> small_rock{"Tests/List = direct_tension", "Specimen/Width = 12 mm",
-                                          "Specimen/Height = 24 mm"};
+const std::vector<std::string> settings_of_a_small_rock{"Tests/List = direct_tension", "Specimen/Width = 12 mm",
+                                                        "Specimen/Height = 24 mm"};
 
 /// Of pages that are not named here runs are begun. Those of mpirun go to their end.
 const std::map<std::string, Circumstances> circumstances{
@@ -77,12 +77,12 @@ END
 cp -r granite slate
 cp examples/beishan-granite/reference.json rock.json
 )",
-    small_rock}},
+    settings_of_a_small_rock}},
   {"examples/contact-models/README.md",
    {"",
     {{"Tests/List = direct_tension", "Tests/Stop strain = 5e-5", "Seeds/Seeds = 1", "Specimen/Width = 12 mm",
       "Specimen/Height = 24 mm"}}}},
-  {"examples/first-run/README.md", {"", small_rock}},
+  {"examples/first-run/README.md", {"", settings_of_a_small_rock}},
   {"examples/multiscale-beishan/README.md",
    {"", {{"Tests/List = direct_tension", "Tests/Stop strain = 2e-5", "Seeds/Seeds = 1"}}}},
 };
