@@ -20,9 +20,10 @@ namespace feldspar
 {
 namespace
 {
-// Measured on lattices of 30 000 and 100 000 discs and of 8 000 and 40 000 spheres, as differences of the peak between
-// runs of one and of four tests, on one and on two threads (benchmarks/load.py has them larger).
-constexpr double bytes_of_running_joint = 1300.0;
+// Measured on lattices of 50 000 discs and of 8 000 spheres, as differences of the peak between runs of one and of four
+// tests, on one and on two threads (benchmarks/load.py has them larger): 542 and 728 bytes of a joint, rounded up; 282 of
+// a disc kept after so few rows that no states of its grains were.
+constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
 constexpr double bytes_of_program = 4e7;
 /// Of a step: with the cracks of a test past its peak (benchmarks/README.md).
@@ -31,7 +32,7 @@ constexpr double seconds_of_joint_and_step(const int dimension) { return dimensi
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
 {
   const double at_a_time = std::min(n_tests, double(number_of_threads()));
-  return at_a_time * n_joints * bytes_of_running_joint + n_tests * n_grains * bytes_of_kept_grain(dimension);
+  return at_a_time * n_joints * bytes_of_running_joint(dimension) + n_tests * n_grains * bytes_of_kept_grain(dimension);
 }
 
 /// [s]; of an intact body, by the mean of its directions.

@@ -90,7 +90,7 @@ TEST(Fault, ADiskThatIsFullAtAnyWriteIsSaidInOneLine)
   folder.write("rock.prm", quick_rock);
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   int n_met = 0;
-  for (const int n_writes : {0, 1, 2, 4, 6, 8, 12})
+  for (const int n_writes : {0, 1, 2, 12, 40, 200, 400}) // of some 450, most of them of checkpoints
     {
       const std::string out = fmt::format("out-{}", n_writes);
       const auto outcome =
@@ -103,7 +103,7 @@ TEST(Fault, ADiskThatIsFullAtAnyWriteIsSaidInOneLine)
         continue; // not even begun
       expect_nothing_half_written(folder.path() / out);
       ++n_met;
-      if (n_writes == 4 || n_writes == 12)
+      if (n_writes == 12 || n_writes == 400)
         {
           EXPECT_EQ(run_feldspar(folder.path(), "lab --resume " + out + " --quiet").exit_code, 0) << n_writes;
           EXPECT_EQ(content(folder.path() / out / "curves/direct_tension_seed_1.csv"),

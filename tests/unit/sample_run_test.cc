@@ -84,9 +84,11 @@ TEST(SampleTest, MohrCoulombHoldsTheStressOfItsClosedFormInEachGeometry)
   const double q_u = 2.0 * rock.cohesion * std::sqrt(k);
   for (const SampleGeometry geometry :
        {SampleGeometry::plane, SampleGeometry::plane_strain, SampleGeometry::axisymmetric, SampleGeometry::cylinder})
-    for (const double pressure : {0.0, 5e6, 10e6, 20e6, 60e6})
-      for (const double step : {1e-4, 4e-4})
+    for (const double pressure : {0.0, 10e6, 60e6})
+      for (const double step : {4e-4, 1e-4})
         {
+          if (step == 1e-4 && pressure != 10e6)
+            continue; // more of the same
           SampleParameters sample;
           sample.geometry = geometry;
           sample.material = "Mohr-Coulomb";
@@ -95,13 +97,14 @@ TEST(SampleTest, MohrCoulombHoldsTheStressOfItsClosedFormInEachGeometry)
           sample.compression_step = step;
           const double strain_at_yield = (q_u + (k - 1.0) * pressure) / rock.modulus;
           TestParameters wanted;
-          wanted.stop_strain = strain_at_yield + 6.0 * step;
+          const double last_strain = strain_at_yield + 6.0 * step;
+          wanted.stop_strain = last_strain;
           const auto& kind = pressure > 0.0 ? triaxial_compression.kind : uniaxial_compression.kind;
           SampleTest test({kind, pressure}, sample, wanted, rock);
           go_to_the_end(test);
           const TestRecord record = test.finish(false).record;
           SCOPED_TRACE(testing::Message() << int(geometry) << ", " << pressure << ", " << step << record.ended_early);
-          EXPECT_GE(-record.curve.back().axial_strain, wanted.stop_strain * (1.0 - 1e-9));
+          EXPECT_GE(-record.curve.back().axial_strain, last_strain * (1.0 - 1e-9));
           const double exact = q_u + k * pressure;
           EXPECT_NEAR(-record.curve.back().axial_stress, exact, sample.newton_tolerance * exact);
           for (const CurveSample& row : record.curve)

@@ -74,8 +74,8 @@ TEST(MohrCoulombElement, InTriaxialCompressionOfACylinder)
 // In space nothing but the elastic share of the tangent tells how the body distorts across its axis: it stays round.
 TEST(MohrCoulombCylinder, YieldsEvenlyInSpaceAtAnyPressureAndStep)
 {
-  const auto mesh = cylinder_sample(MPI_COMM_WORLD, 0.025, 0.1, {3, 4}, 0);
-  for (const double p : {0.0, 10e6, 60e6})
+  const auto mesh = cylinder_sample(MPI_COMM_WORLD, 0.025, 0.1, {3, 2}, 0);
+  for (const double p : {0.0, 60e6})
     for (const unsigned int n_steps : {1u, 5u})
       {
         Solid<3> solid(mesh, {.kinematics = Kinematics::full}, mohr_coulomb(rock));
