@@ -43,7 +43,7 @@ end
 
 const std::string along_file = "subsection Strain path\n  set File = path.csv\nend\n";
 
-nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
+nlohmann::json summary_of(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
 
 /// A table by columns.
 std::map<std::string, std::vector<double>> read_table(const fs::path& file)
@@ -77,7 +77,7 @@ TEST(Rve, AnswersAnIntactStrainByItsStiffness)
   for (const char* file : {"summary.json", "cracks.csv", "log.txt", "specimen.h5", "curves/rve.csv"})
     EXPECT_GT(fs::file_size(folder.path() / "out" / file), 50u) << file;
 
-  const auto json = summary(folder.path() / "out");
+  const auto json = summary_of(folder.path() / "out");
   const auto& stiffness = json["stiffness_Pa"];
   auto table = read_table(folder.path() / "out/curves/rve.csv");
   // Steps of 1e-5 at most: 1 + 3 + 2 + 3, and the rest before them.
@@ -164,7 +164,7 @@ TEST(Rve, GivesTheValuesOfVariantsWithTheirUnits)
                                         "  set Values = 0 deg; 30 deg\nend\n");
   const auto run = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.error;
-  const auto rves = summary(folder.path() / "out")["rves"];
+  const auto rves = summary_of(folder.path() / "out")["rves"];
   ASSERT_EQ(rves.size(), 2u);
   EXPECT_EQ(rves[1]["variant_values"]["Strain path/Cell angle"], (nlohmann::json{{"value", 30}, {"unit", "deg"}}));
 }
@@ -179,7 +179,7 @@ TEST(Rve, HoldsACellByEachBoundary)
                                         "end\n");
   const auto run = run_feldspar(folder.path(), "rve cell.prm --output out --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.error;
-  const auto rves = summary(folder.path() / "out")["rves"];
+  const auto rves = summary_of(folder.path() / "out")["rves"];
   ASSERT_EQ(rves.size(), 5u);
   const std::vector<std::string> names{"minimal kinematic", "weakly periodic, 4 pieces", "edge, x free", "periodic",
                                        "affine"};
@@ -209,7 +209,7 @@ TEST(Rve, TakesSpheres)
                            "1e-5,0,2e-5,-1e-5,0,5e-6\n0,1e-5,-1e-5,0,1e-5,0\n");
   const auto outcome = run_feldspar(folder.path(), "rve cell.prm --output out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const auto json = summary(folder.path() / "out");
+  const auto json = summary_of(folder.path() / "out");
   auto table = read_table(folder.path() / "out/curves/rve.csv");
   ASSERT_GT(table["strain_zz"].size(), 3u);
   for (std::size_t row = 0; row < table["strain_zz"].size(); ++row)
@@ -237,7 +237,7 @@ TEST(Rve, TakesSpheres)
   auto cracks = read_table(folder.path() / "pull/cracks.csv");
   ASSERT_EQ(double(cracks["normal_z"].size()), table["n_tension_cracks"].back() + table["n_shear_cracks"].back());
   ASSERT_GT(cracks["normal_z"].size(), 5u);
-  const auto orientation = summary(folder.path() / "pull")["rves"][0]["at_end"]["crack_orientation_per_m"];
+  const auto orientation = summary_of(folder.path() / "pull")["rves"][0]["at_end"]["crack_orientation_per_m"];
   EXPECT_GT(orientation[2][2].get<double>(), orientation[0][0].get<double>() + orientation[1][1].get<double>());
 }
 
@@ -267,7 +267,7 @@ TEST(Rve, TakesFlaws)
       const auto run = run_feldspar(folder.path(), fmt::format("rve {0}.prm --output {0} --quiet", path));
       ASSERT_EQ(run.exit_code, 0) << run.error;
       // The hole takes 28 mm² out of 400 mm².
-      const auto rves = summary(folder.path() / path)["rves"];
+      const auto rves = summary_of(folder.path() / path)["rves"];
       ASSERT_EQ(rves.size(), 4u);
       const double n_grains = rves[0]["n_grains"];
       EXPECT_NEAR(rves[3]["n_grains"].get<double>() / n_grains, 1.0 - 28.3 / 400.0, 0.02);
@@ -436,7 +436,7 @@ TEST(Rve, GoesItsPathByExplicitDynamicsToo)
       EXPECT_LT(std::abs(table.at("stress_xx_Pa")[row]), 0.05 * peak(table)) << row; // also as the crack runs
       EXPECT_LT(table.at("energy_imbalance")[row], 0.01) << row; // forces jump within a step: as in the laboratory
     }
-  const auto rve = summary(folder.path() / "explicit")["rves"][0];
+  const auto rve = summary_of(folder.path() / "explicit")["rves"][0];
   EXPECT_LT(rve["energy_imbalance"].get<double>(), 0.01);
   const std::string cracks = content(folder.path() / "explicit/cracks.csv");
   EXPECT_EQ(std::count(cracks.begin(), cracks.end(), '\n') - 1,
@@ -453,7 +453,7 @@ TEST(Rve, CountsNoErrorsBeforeAPathSetsOff)
   folder.write("rest.prm", small_cell + "subsection Strain path\n  set File = path.csv\n" + by_dynamics + "end\n");
   ASSERT_EQ(run_feldspar(folder.path(), "rve rest.prm --output out").exit_code, 0);
   EXPECT_EQ(read_table(folder.path() / "out/curves/rve.csv").at("strain_yy").at(1), 0.0);
-  const auto rve = summary(folder.path() / "out")["rves"][0];
+  const auto rve = summary_of(folder.path() / "out")["rves"][0];
   EXPECT_LT(rve["energy_imbalance"].get<double>(), 1e-6);
   EXPECT_LT(rve["boundary_stress_error"].get<double>(), 1e-2);
 }
@@ -648,7 +648,7 @@ TEST(Rve, PulledBeyondItsStrengthByStressSaysSoAndKeepsWhatWasBefore)
   EXPECT_GT(table["stress_yy_Pa"].back(), 5e6);
   EXPECT_LT(table["stress_yy_Pa"].back(), 20e6);
   EXPECT_LT(table["unbalanced_force_ratio"].back(), 1e-6);
-  EXPECT_NE(summary(folder.path() / "out")["rves"][0]["ended_early"], "");
+  EXPECT_NE(summary_of(folder.path() / "out")["rves"][0]["ended_early"], "");
 }
 } // namespace
 } // namespace feldspar::tests
