@@ -1,9 +1,23 @@
 #include "dem/lab/stage_walk.h"
 
+#include "results/peak.h"
+
 #include <algorithm>
 
 namespace feldspar
 {
+namespace
+{
+/// Whether the stress leads above its highest in the rows of a stage.
+bool is_rising(const std::vector<CurveSample>& curve, const std::uint64_t first_row, const TestParameters& wanted)
+{
+  PeakWatch watch({.sign = -1.0}, 0.0, {.end_over_peak_strain = wanted.stop_strain_over_peak_strain});
+  for (std::size_t k = first_row; k < curve.size(); ++k)
+    watch.add(curve[k]);
+  return watch.is_rising();
+}
+} // namespace
+
 void StageWalk::begin(const StageMoment& now) { begin_next(0, now); }
 
 void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
@@ -119,7 +133,8 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
   const double share = wanted.stop_stress_over_peak.value_or(0.5);
   const double last_strain = wanted.stop_strain_over_peak_strain * strain_at_highest;
   if (has_cracked && risen > 0.1 * (*running.axial_stress - start.axial_stress) &&
-      (now.axial_stress <= start.axial_stress + share * risen || now.axial_strain >= last_strain))
+      (now.axial_stress <= start.axial_stress + share * risen ||
+       (now.axial_strain >= last_strain && !is_rising(curve, record.first_row, wanted))))
     return give_up(fmt::format("the stress rose to {:.1f} MPa and no further", highest_stress / 1e6));
   return false;
 }

@@ -1,11 +1,15 @@
 // The peak of a curve, and the end of a test by it.
 
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/stage_walk.h"
 #include "dem/lab/stop_rule.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -173,6 +177,29 @@ TEST(Peak, OfATableOfStagesIsItsHighestStress)
   EXPECT_EQ(peak_of(measured).second, 0.0);
   measured.peak_demands = {.least_fall = 0.0, .may_end_rising = true};
   EXPECT_NEAR(peak_of(measured).second, 60.0, 1e-9);
+}
+
+TEST(StopRules, GiveUpAStageWhereItsStressNoLongerRises)
+{
+  // A stage towards 200 MPa: it goes on behind the first maximum, and is given up behind the second, when half of it is lost.
+  TestRecord record = curve_through(two_maxima, own_loading.kind);
+  for (CurveSample& row : record.curve)
+    row.n_tension_cracks = row.step; // it cracks
+  TestParameters wanted;
+  wanted.loading_stages = {{.axial_stress = 200e6}};
+  StageWalk walk(wanted);
+  walk.begin({0.0, 0.0, 0.0});
+  std::vector<CurveSample> curve{record.curve.front()};
+  for (std::size_t k = 1; k < record.curve.size(); ++k)
+    {
+      const CurveSample& row = record.curve[k];
+      curve.push_back(row);
+      if (walk.is_over(curve, {row.time, -row.axial_strain, -row.axial_stress}))
+        break;
+    }
+  EXPECT_NEAR(-curve.back().axial_strain, 2.64e-3,
+              0.02e-3); // 138 MPa fall by 98 over 0.2e-3, and 69 come after 0.14e-3
+  EXPECT_NE(walk.ended_early().find("rose to 138.0 MPa and no further"), std::string::npos) << walk.ended_early();
 }
 
 TEST(StopRules, EndATestThatNothingHolds)
