@@ -1,9 +1,9 @@
 #include "base/hdf5_archive.h"
 
-#include "base/child_process.h"
 #include "base/readable_file.h"
 #include "base/seal.h"
-#include "base/watched_file.h"
+#include "base/system/child_process.h"
+#include "base/system/watched_file.h"
 #include "base/whole_file.h"
 
 #include <sys/mman.h>

@@ -1,5 +1,7 @@
 #include "base/whole_file.h"
 
+#include "base/system/write_at.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -47,19 +49,6 @@ int open_new(const std::filesystem::path& file)
   return open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 } // namespace
-
-int write_at(const int descriptor, std::uint64_t place, std::string_view content)
-{
-  while (!content.empty())
-    if (const ssize_t n = pwrite(descriptor, content.data(), content.size(), off_t(place)); n >= 0)
-      {
-        content.remove_prefix(std::size_t(n));
-        place += std::uint64_t(n);
-      }
-    else if (errno != EINTR)
-      return errno;
-  return 0;
-}
 
 void write_whole_file(const std::filesystem::path& file, const std::string_view content)
 {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -21,10 +20,6 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
 /// The same where `fill` writes the temporary file, which is empty and open for reading and writing, by its descriptor, and
 /// returns 0 or the error number of the system.
 void write_whole_file(const std::filesystem::path& file, const std::function<int(int descriptor)>& fill);
-
-/// Writes all of a content at a place of an open file. Returns 0 or the error number of the system, which streams of the
-/// standard library do not tell.
-int write_at(int descriptor, std::uint64_t place, std::string_view content);
 
 /// The same for a file that another library or program is about to write: takes away what lies in its place, so that nothing
 /// is written through a link. Throws OutputError.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/simd_transpose.h"
+#include "dem/storage/simd_transpose.h"
 
 #include <array>
 #include <cstddef>

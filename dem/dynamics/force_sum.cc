@@ -1,7 +1,7 @@
 #include "dem/dynamics/force_sum.h"
 
 #include "base/parallel.h"
-#include "base/simd_transpose.h"
+#include "dem/storage/simd_transpose.h"
 
 #include <algorithm>
 #include <array>

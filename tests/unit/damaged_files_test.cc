@@ -1,5 +1,6 @@
 #include "base/hdf5_archive.h"
 #include "base/seal.h"
+#include "base/system/write_at.h"
 #include "base/whole_file.h"
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/rve_file.h"

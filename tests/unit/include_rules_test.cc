@@ -29,7 +29,8 @@ struct Room
 
 // From the ground up: a room sees rooms above its own line only, so that no two of them depend on each other.
 const std::vector<Room> rooms = {
-  {"base", {}},
+  {"base/system", {}, {"base/input_error.h"}},
+  {"base", {"base/system"}},
   {"dem/laws", {"base"}},
   {"dem/storage", {"base", "dem/laws"}},
   {"dem/specimen", {"base", "dem/laws", "dem/storage"}},
@@ -50,11 +51,12 @@ const std::vector<Room> rooms = {
   {"fem/solid", {"base", "fem/mesh", "fem/materials"}},
   {"fem", {"base", "fem/mesh", "fem/materials", "fem/solid"}},
   {"coupling/network", {"base", "dem/laws", "dem/storage", "dem/specimen"}},
-  {"coupling/rve", {"coupling/network", "base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
+  {"coupling/rve",
+   {"coupling/network", "base", "base/system", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
   {"coupling/sample/continua", {"base", "fem/materials"}, {"coupling/sample/sample_parameters.h"}},
   {"coupling/sample",
-   {"coupling/sample/continua", "base", "dem/laws", "dem/storage", "dem/specimen", "results", "fem", "fem/mesh",
-    "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
+   {"coupling/sample/continua", "base", "base/system", "dem/laws", "dem/storage", "dem/specimen", "results", "fem",
+    "fem/mesh", "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
    {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stage_walk.h", "dem/lab/stop_rule.h"}},
   {"report/live", {"base", "results", "results/runs"}},
   {"report/pictures/maps",

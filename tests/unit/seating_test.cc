@@ -115,7 +115,7 @@ TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
     }
   EXPECT_EQ(refusal(uniaxial_compression, in_larger_box(specimen, 0.0, 0.45 * radius)), "");
   const std::string round = refusal(triaxial_compression, in_larger_box(small_cylinder(), 0.0, 0.0, 1e-3));
-  EXPECT_NE(round.find("round side 1 mm"), std::string::npos) << round;
+  EXPECT_NE(round.find("round side 0.999 mm"), std::string::npos) << round; // a grain lies in its wall by a micrometre
 }
 
 TEST(Seating, RefusesABodyInTwoPieces)

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/parallel.h"
-#include "base/simd_transpose.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/laws/joint_law.h"
+#include "dem/storage/simd_transpose.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "dem/lab/grips.h"
-#include "dem/lab/notch.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
 

@@ -1,4 +1,4 @@
-#include "dem/lab/bending.h"
+#include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
 

@@ -1,4 +1,4 @@
-#include "dem/lab/notch.h"
+#include "dem/lab/protocols/notch.h"
 
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"

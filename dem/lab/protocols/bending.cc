@@ -1,7 +1,7 @@
-#include "dem/lab/bending.h"
+#include "dem/lab/protocols/bending.h"
 
 #include "base/input_error.h"
-#include "dem/lab/notch.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/specimen/fragments.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "base/child_process.h"
+#include "base/system/child_process.h"
 
 #include "base/input_error.h"
 
