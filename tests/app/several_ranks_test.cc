@@ -348,7 +348,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
   resumed(
     "torn", [](const fs::path& file) { fs::resize_file(file, fs::file_size(file) / 2); }, "damaged or cut short");
   resumed(
-    "missing", [](const fs::path& file) { fs::remove(file); }, "No such file");
+    "missing", [](const fs::path& file) { fs::remove(file); }, "cannot be read: No such file");
   std::string other = pull_of_ranks;
   other.replace(other.find("2.2e-4"), 6, "2e-5  ");
   folder.write("other.prm", other);

@@ -118,6 +118,9 @@ subsection Tests
   set Stop strain over peak strain = 1.5
   set Stop strain = 0.004
   set Stop stress over peak = 0.5
+  set Least peak stress = 3 MPa
+  set Least transits to peak = 2
+  set Least fall after peak = 0.04
 end
 subsection Variants
   set Entry = Flat joint/Segments
@@ -368,6 +371,9 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.stop_strain_over_peak_strain, 1.5);
   EXPECT_EQ(input.tests.stop_strain, 0.004);
   EXPECT_EQ(input.tests.stop_stress_over_peak, 0.5);
+  EXPECT_EQ(input.tests.least_peak_stress, 3e6);
+  EXPECT_EQ(input.tests.least_transits_to_peak, 2.0);
+  EXPECT_EQ(input.tests.least_fall_after_peak, 0.04);
   EXPECT_EQ(input.confinements, (std::vector<double>{2e6, 4e6}));
   EXPECT_EQ(input.tests.brazilian_strain_rate, 0.3);
   EXPECT_EQ(input.tests.brazilian_sampling_strain, 3e-6);
@@ -820,7 +826,8 @@ end
 TEST(Input, RefusesWhatNoProgrammeCanBe)
 {
   EXPECT_EQ(error_of_entry("Flat joint", "Modulus = 1e300 GPa"),
-            "a.prm:2: Flat joint/Modulus = 1e300 GPa: is larger than any number this program can hold");
+            "a.prm:2: Flat joint/Modulus = 1e300 GPa: 1e+300 GPa is beyond the range of numbers; write a stress, e.g. "
+            "\"22 MPa\"");
   EXPECT_EQ(error_of_entry("Flat joint", "Installation gap ratio = 1.5"),
             "a.prm:2: Flat joint/Installation gap ratio = 1.5: must lie in [0, 1], or be none");
   EXPECT_EQ(error_of_entry("Tests", "Confinements = 5, -10 MPa"),
