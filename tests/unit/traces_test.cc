@@ -208,7 +208,7 @@ TEST(Drawing, ThatShowsMoreThanLinesIsRefusedByName)
   refused("0 LINE 67 1 10 4 20 8 11 11 21 16", "1 in paper space; no LINE, LWPOLYLINE or POLYLINE is left");
   EXPECT_NE(words_of(groups("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES " + plain_line +
                             " 0 ENDSEC 0 SECTION 2 TABLES 0 LAYER 2 rock 70 1 0 ENDSEC 0 EOF"))
-              .find("map.dxf:42: the layers stand behind the entities"),
+              .find("map.dxf:38: the layers stand behind the entities"),
             std::string::npos);
   // A line that is missing makes codes of values.
   EXPECT_NE(words_of(groups("0 SECTION 2 ENTITIES 0 LINE 8 10 4 20 8 0 ENDSEC 0 EOF")).find("map.dxf:"),
