@@ -30,8 +30,8 @@ std::optional<double> scatter_of(const TargetMean& mean)
 std::string deviation_in_words(const TargetMean& mean)
 {
   const auto half_width = mean.half_width();
-  return half_width ? fmt::format("{} {:+.1f} ± {:.1f} %", mean.title, 100.0 * mean.deviation, 100.0 * *half_width)
-                    : mean.title;
+  const double shown = std::abs(mean.deviation) < 0.0005 ? 0.0 : mean.deviation; // no -0.0
+  return half_width ? fmt::format("{} {:+.1f} ± {:.1f} %", mean.title, 100.0 * shown, 100.0 * *half_width) : mean.title;
 }
 
 std::string undecided_in_words(const TargetMean& mean, const double tolerance)
