@@ -152,7 +152,7 @@ std::function<void(const std::filesystem::path&)> write_over(const CommonOptions
   if (!options.force)
     return {};
   std::vector<std::filesystem::path> inputs = named_files(input);
-  inputs.push_back(options.input);
+  inputs.insert(inputs.begin(), options.input);
   return [=, &places](const std::filesystem::path& folder) {
     check_write_over(folder, places, inputs);
     read_bodies(input);

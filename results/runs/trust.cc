@@ -152,12 +152,6 @@ std::string shortcoming(const FinishedTest& test)
                        record.failure);
   if (!test.results.peak_stress.value)
     return fmt::format("{} has no strength: {}.", test.name, test.results.peak_stress.reason);
-  if (!test.results.is_valid())
-    return fmt::format(
-      "{}, {:.2f} MPa, is not valid as a splitting test: {:.0f} % of its first cracks lie at the pads, where "
-      "the disc is crushed, and a splitting crack begins in the middle (ISRM 1978, ASTM D3967). Its figures "
-      "enter no mean, envelope or calibration. A larger disc or smaller grains help.",
-      test.name, *test.results.peak_stress.value / 1e6, 100.0 * *test.results.first_cracks_at_pads_share.value);
   if (!record.ended_early.empty())
     return fmt::format("{} ended early: {}.", test.name, record.ended_early);
   if (const auto rise = rise_after_first_fall(test))
@@ -176,6 +170,18 @@ std::string shortcoming(const FinishedTest& test)
       "{}: no grain lay at the sides of the specimen's box; walls were brought to the grains by up to {:.3g} "
       "mm, and the area of the stress is that of the box.",
       test.name, 1e3 * record.way_to_grains);
+  return "";
+}
+
+/// Why a splitting test is not valid; empty if it is, or is none.
+std::string remark_on_splitting(const FinishedTest& test)
+{
+  if (!test.results.is_valid() && test.results.peak_stress.value)
+    return fmt::format(
+      "{}, {:.2f} MPa, is not valid as a splitting test: {:.0f} % of its first cracks lie at the pads, where "
+      "the disc is crushed, and a splitting crack begins in the middle (ISRM 1978, ASTM D3967). Its figures "
+      "enter no mean, envelope or calibration. A larger disc or smaller grains help.",
+      test.name, *test.results.peak_stress.value / 1e6, 100.0 * *test.results.first_cracks_at_pads_share.value);
   return "";
 }
 
@@ -302,8 +308,9 @@ std::vector<std::string> shortcomings(const TestsOfRock& tests, const SeriesKind
 {
   std::vector<std::string> sentences;
   for (const FinishedTest* const test : tests)
-    if (const std::string sentence = shortcoming(*test); !sentence.empty())
-      sentences.push_back(sentence);
+    for (const std::string& sentence : {shortcoming(*test), remark_on_splitting(*test)})
+      if (!sentence.empty())
+        sentences.push_back(sentence);
   for (const std::string& sentence : {remark_on_flaws(tests), remark_on_side_plates(tests)})
     if (!sentence.empty())
       sentences.push_back(sentence);

@@ -85,6 +85,7 @@ TEST(WriteOver, IsRefusedInTheFolderOfTheInput)
   // By another name of the same folder, and by a link to the input.
   fs::create_symlink("rock", folder.path() / "same");
   expect_refused(folder, "lab rock/input.prm --output same --force", "input.prm is read by this run");
+  folder.write("rock/input.prm", rock);
   fs::create_symlink("rock/input.prm", folder.path() / "link.prm");
   expect_refused(folder, "lab link.prm --output rock --force", "link.prm is read by this run");
   // Without --force the words suggest nothing that would cost a file.
@@ -272,13 +273,15 @@ TEST(Links, LeadNoWriterOutOfTheFolder)
   // Links in the place of files are replaced, those of temporary files too.
   for (const char* const file : {"report.html", "report.html.unfinished", ".feldspar-files.unfinished"})
     link("../victim.txt", file);
-  for (const char* const file : {"figures/overview.gp", "figures/overview.gp.unfinished", "figures/overview.svg",
-                                 "figures/overview.pdf", "tables/strengths.csv"})
+  for (const char* const file :
+       {"figures/overview.gp", "figures/overview.gp.unfinished", "figures/overview.png",
+        "figures/direct_tension_stress.svg", "figures/direct_tension_stress.pdf", "tables/strengths.csv"})
     link("../../victim.txt", file);
   const Outcome report = run_feldspar(folder.path(), "report out --quiet");
   EXPECT_EQ(report.exit_code, 0) << report.error;
   EXPECT_EQ(content(folder.path() / "victim.txt"), "precious");
-  for (const char* const file : {"report.html", "figures/overview.svg", "tables/strengths.csv"})
+  for (const char* const file :
+       {"report.html", "figures/overview.png", "figures/direct_tension_stress.svg", "tables/strengths.csv"})
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(out / file))) << file;
 
   // A run that is taken up writes tables, fields and its record.
@@ -390,14 +393,14 @@ TEST(CommandLine, IsToldInOneShortPrintableLineWhateverIsInIt)
           "parameters --check a.prm --for " + word, "parameters " + word, "lab " + word, "lab --resume " + word,
           "lab a.prm --set " + word, "lab a.prm --output a.prm/" + word, "report " + word, "report --curve " + word,
           "report a --reference " + word, "multiscale a.prm --extract " + word})
-  {
-    const Outcome outcome = run_feldspar(folder.path(), arguments);
-    EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3) << arguments << outcome.exit_code;
-    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << arguments << outcome.error;
-    EXPECT_FALSE(has_control(outcome.error)) << arguments;
-    // "feldspar: ", 2000 characters and the line's end; an ellipsis takes three bytes.
-    EXPECT_LE(outcome.error.size(), 2015u) << arguments;
-  }
+      {
+        const Outcome outcome = run_feldspar(folder.path(), arguments);
+        EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3) << arguments << outcome.exit_code;
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << arguments << outcome.error;
+        EXPECT_FALSE(has_control(outcome.error)) << arguments;
+        // "feldspar: ", 2000 characters and the line's end; an ellipsis takes three bytes.
+        EXPECT_LE(outcome.error.size(), 2015u) << arguments;
+      }
   const Outcome unknown = run_feldspar(folder.path(), "lab a.prm --" + longest);
   EXPECT_LT(unknown.error.size(), 800u);
   EXPECT_NE(unknown.error.find("; see feldspar lab --help"), std::string::npos) << unknown.error;
