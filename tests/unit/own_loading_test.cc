@@ -168,7 +168,7 @@ TEST(OwnLoading, EndsWhereTheLateralStrainCannotBeLed)
 TEST(OwnLoading, RefusesALateralStrainThatTheGaugeCannotTell)
 {
   // A grain without a joint does not count to the gauge.
-  const auto loose = placed_specimen({0.25, 0.25}, {std::vector{0.25, 0.25}, std::vector{0.75, 0.75}});
+  const auto loose = placed_specimen({0.25, 0.25}, {std::vector{0.25, 0.75}, std::vector{0.25, 0.75}});
   const auto start = [&](const LoadingStage& stage) {
     LabTest<2> test({own_loading}, loose, following({stage}), {});
     test.advance();

@@ -469,6 +469,7 @@ TEST(Verdict, OfADiscThatBearsMoreAfterItsFirstFallSaysSo)
   test.record.kind = brazilian.kind;
   test.name = "brazilian_seed_1";
   test.record.curve.clear();
+  test.record.cracks.clear();
   for (const double stress : {0.0, 4e6, 8e6, 10e6, 7e6, 9e6, 12e6})
     {
       CurveSample row;
