@@ -152,6 +152,7 @@ build_release()
 install_feldspar()
 {
   local prefix=${1:-/usr/local} parent
+  umask 022 # what is installed or packed is everybody's to read
   need_packages "${build_packages[@]}"
   build_release
   say "installing into $prefix"
@@ -167,6 +168,7 @@ install_feldspar()
 
 package()
 {
+  umask 022
   need_packages "${build_packages[@]}" dpkg-dev file
   build package "$joined_units"
   build package-avx512 "$joined_units"

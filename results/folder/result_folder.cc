@@ -248,7 +248,7 @@ void try_to(std::vector<std::string>& problems, Read&& read)
 /// A few problems of one kind as they are; of more the first, and how many there are.
 void add_few(std::vector<std::string>& problems, const std::vector<std::string>& of_one_kind)
 {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 20;
   if (of_one_kind.size() <= most)
     problems.insert(problems.end(), of_one_kind.begin(), of_one_kind.end());
   else
