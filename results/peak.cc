@@ -12,8 +12,9 @@ namespace feldspar
 {
 namespace
 {
-constexpr double round_off = 1e-9;    // a plateau peaks where it begins
-constexpr double level_within = 0.01; // of the highest stress
+constexpr double round_off = 1e-9;     // a plateau peaks where it begins
+constexpr double level_within = 0.01;  // of the highest stress
+constexpr double fall_of_level = 0.05; // more is a fall, if less than the least one wanted
 
 /// A plane that slides, or a solid that yields, bears its strength to the end: any row may be the highest by a little, the
 /// last one too.
@@ -54,7 +55,8 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
   if (record.came_apart || keeps_its_strength(record) || watch.is_level())
     return "";
   const bool is_last = watch.row() + 1 == record.curve.size();
-  if (is_last || (!watch.demands().may_end_rising && watch.is_rising()))
+  const bool is_in_a_fall = watch.has_fallen() && watch.is_at_its_lowest();
+  if (is_last || (!watch.demands().may_end_rising && watch.is_rising() && !is_in_a_fall))
     return fmt::format("the stress never peaked: it was still rising when the test ended; the highest was {:.4g} MPa",
                        highest);
   if (!watch.has_fallen())
@@ -122,9 +124,15 @@ bool PeakWatch::is_rising() const
   return now + moments.slope() * way_to_end > (1.0 + level_within) * highest_deviator;
 }
 
+bool PeakWatch::is_at_its_lowest() const
+{
+  constexpr double regained = 0.1; // of the fall: waves behind it
+  return !deviators.empty() && deviators.back() <= lowest_since + regained * (highest_deviator - lowest_since);
+}
+
 bool PeakWatch::is_level() const
 {
-  return highest_deviator > 0.0 && !has_fallen() &&
+  return highest_deviator > 0.0 && !has_fallen() && lowest_since >= (1.0 - fall_of_level) * highest_deviator &&
          strains.back() >= (1.0 - round_off) * wanted.end_over_peak_strain * strains[begin_of_level] && !is_rising();
 }
 

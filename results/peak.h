@@ -45,6 +45,8 @@ public:
   /// Whether the curve leads above its highest stress: the straight line through the last tenth of its way would pass it by
   /// 1 %, before the strain has grown by as much as lies between a peak and the end of a test.
   bool is_rising() const;
+  /// Whether the last row lies where the curve has fallen to, but for a tenth of its fall: a test that ends in a fall.
+  bool is_at_its_lowest() const;
   /// Whether the curve has stayed level, as long as a test goes on after its peak: a body that yields, or slides.
   bool is_level() const;
 

@@ -14,6 +14,7 @@
 #include "base/input_error.h"
 #include "coupling/sample/ranks.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/seating.h"
 #include "report/sections/comparison.h"
 #include "report/sections/study_text.h"
 #include "report/sections/test_tables.h"
@@ -112,6 +113,25 @@ void share_out_tests(const Run& run, Progress& progress)
   });
 }
 
+/// Throws InputError where no specimen fills its box, once in place of once for each test.
+template <int dim>
+void check_that_one_fills_its_box(const std::vector<Specimen<dim>>& specimens)
+{
+  std::optional<InputError> refusal;
+  for (const Specimen<dim>& specimen : specimens)
+    try
+      {
+        check_fills_its_box(specimen);
+        return;
+      }
+    catch (const InputError& error)
+      {
+        refusal = error;
+      }
+  if (refusal)
+    throw InputError(*refusal);
+}
+
 /// Specimens, tests and report of a run in its folder, from wherever it stands, by this process.
 template <int dim>
 RunEnd test_alone(const Run& run, Progress& progress)
@@ -129,6 +149,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
     with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });
 
   // Break it.
+  check_that_one_fills_its_box(specimens);
   const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
   const auto failed =
     std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });

@@ -20,9 +20,14 @@ namespace
 /// ends of twenty mean radii, the least width of a specimen, it is 5 % of the length, as much as strengths of specimens scatter.
 constexpr double largest_gap = 0.5;
 
-/// Grains that a packing pressed into one wall stand out by some thousandths of a radius more or less: a wall that is brought
-/// to them lies on all, as the ground end of a core does, which is flat to 0.02 mm (ISRM), over the mean radius.
-constexpr double bed_of_brought_wall = 0.01;
+/// Grains that a packing pressed into one wall stand out differently, by no more than grains that it pressed together overlap,
+/// over the mean radius: a wall that is brought to them lies on all. Never more than the end of a ground core, which is flat to
+/// 0.02 mm (ISRM).
+template <int dim>
+double bed_of_brought_wall(const Specimen<dim>& specimen)
+{
+  return std::min(specimen.report.largest_overlap_ratio, 0.01);
+}
 
 template <int dim>
 double mean_radius(const Specimen<dim>& specimen)
@@ -156,7 +161,7 @@ std::size_t stand_wall(SetUpTest<dim>& test, Wall wall, const std::string_view n
   if (gap > 0.0)
     {
       wall.position += wall.side * gap;
-      wall.bed = bed_of_brought_wall * radius;
+      wall.bed = bed_of_brought_wall(body) * radius;
       test.loading.way_to_grains = std::max(test.loading.way_to_grains, gap);
     }
   return test.dynamics.add_wall(wall);

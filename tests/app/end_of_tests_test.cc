@@ -60,16 +60,20 @@ protected:
 
 TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
 {
-  constexpr double strength = 66.67e6; // of the specimen that was packed in its box
-  // A platen that is brought lies on the grains on which the wall of the packing lay; rounding, and the 1 % by which the strain
-  // gauge lies higher, are what is left.
+  // Of the specimen that was packed in its box. A platen that is brought lies on the grains on which the wall of the packing
+  // lay: until the first crack nothing differs but the strain gauge, which lies up to 1 % higher. Then the last digits of the
+  // positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001 and 1.001 /s the specimen
+  // that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
+  constexpr double strength = 66.67e6, tolerance = 0.12;
+  ASSERT_EQ(run_feldspar(folder.path(), of_packing("15 mm", "30 mm")).exit_code, 0);
+  const double modulus = first_test(folder.path())["youngs_modulus_initial_Pa"].get<double>();
   for (const char* const height : {"30.001 mm", "30.1 mm", "30.3 mm"})
     {
       const auto answer = run_feldspar(folder.path(), of_packing("15 mm", height));
       ASSERT_EQ(answer.exit_code, 0) << answer.error;
       const auto test = first_test(folder.path());
-      EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), strength, 0.01 * strength) << height;
-      EXPECT_NEAR(test["strain_at_peak"].get<double>(), 2.20e-3, 0.01 * 2.20e-3) << height;
+      EXPECT_NEAR(test["youngs_modulus_initial_Pa"].get<double>(), modulus, 0.01 * modulus) << height;
+      EXPECT_NEAR(test["peak_stress_Pa"].get<double>(), strength, tolerance * strength) << height;
       EXPECT_GT(test["way_to_grains_m"].get<double>(), 0.5e-6) << height;
       EXPECT_NE(content(folder.path() / "out/log.txt").find("walls were brought to the grains"), std::string::npos);
     }
@@ -91,7 +95,7 @@ TEST_F(Packing, ThatDoesNotFillItsBoxIsRefused)
   refused("lab rock.prm --output out --quiet --set 'Flaws/Shapes = slot from 0, 29 mm to 15, 29 mm width 3 mm'",
           "upper end ");
   refused("lab rock.prm --output out --quiet --set 'Flaws/Shapes = slot from 0, 15 mm to 15, 15 mm width 3 mm'",
-          "goes right through it");
+          "shape 1, slot: leaves a free piece of 73 grains");
 }
 
 TEST(EndOfATest, IsNotAtAFirstMaximum)

@@ -97,7 +97,7 @@ struct StatedFigure
 
 const std::map<std::string, std::vector<StatedFigure>> figures_of_pages{
   {"first-run.md",
-   {{"bears {} MPa in compression", "first/summary.json", {"/tests/1/peak_stress_Pa"}, 1e6, 0},
+   {{"in compression is {} MPa", "first/summary.json", {"/tests/1/peak_stress_Pa"}, 1e6, 0},
     {"with {} grains", "first/summary.json", {"/tests/1/n_grains"}, 1.0, 0}}},
   {"hole-and-notch.md",
    {{"the fracture toughness, {} MPa √m", "beam/summary.json", {"/tests/0/fracture_toughness_Pa_sqrt_m"}, 1e6, 2},

@@ -100,6 +100,14 @@ TEST(Peak, IsAMaximumWhoseRestOnlyWavers)
   EXPECT_NEAR(end_of(record), 3.2, 0.011);
 }
 
+TEST(Peak, OfATestThatEndsInAFallIsBeforeIt)
+{
+  // By Stop stress over peak, or by a Stop strain: two rows before the end the curve still rose.
+  EXPECT_NEAR(peak_of(curve_through({{0.0, 0.0}, {8.30, 102.0}, {8.32, 70.0}})).second, 102.0, 1e-9);
+  // Behind an earlier maximum, on its way up again.
+  EXPECT_EQ(peak_of(curve_through({{0.0, 0.0}, {2.0, 71.0}, {2.1, 50.0}, {2.5, 65.0}})).second, 0.0);
+}
+
 TEST(Peak, NeedsAFall)
 {
   const auto fallen_to = [](const double stress) { return curve_through({{0.0, 0.0}, {2.0, 100.0}, {2.4, stress}}); };
