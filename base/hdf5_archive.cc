@@ -22,7 +22,8 @@ void add_notice(const H5::Group& root)
   Hdf5Writer(root).value(std::string(seal_notice), sealed);
 }
 
-/// Under the lock.
+/// Writes an HDF5 file with its notice into an empty open file. Returns 0 or the error number of the system. The caller
+/// holds the lock of the library.
 int fill(const int descriptor, const std::string& name, const std::function<void(const H5::Group&)>& write)
 {
   return make_hdf5(descriptor, name, [&](const H5::Group& root) {

@@ -25,7 +25,7 @@ void write_whole_file(const std::filesystem::path& file, const std::function<int
 /// is written through a link. Throws OutputError.
 void make_way_for(const std::filesystem::path& file);
 
-/// From now on `hear` is told of each file before it is written, one at a time; without it, nobody is. Of the process: files
-/// are written everywhere. What `hear` throws keeps the file from being written.
+/// Calls `hear` with each file before this process writes it, from now on and one call at a time; an empty `hear` ends
+/// this. A file for which `hear` throws is not written.
 void hear_of_files(std::function<void(const std::filesystem::path& file)> hear);
 } // namespace feldspar

@@ -34,7 +34,8 @@ std::vector<TargetOutcome> predicted_outcomes(const std::vector<Target>& targets
                                               const ResponseModel& model, double tolerance, std::size_t n_packings);
 bool any_is_out_of_reach(const std::vector<TargetOutcome>& outcomes);
 
-/// By the tests; a target that they did not give is not decided, and one that is predicted out of reach is missed.
+/// The verdict on a target by its tests: not decided where they did not give it, missed where it is predicted out of
+/// reach.
 TargetVerdict verdict_on(const TargetOutcome& outcome, double tolerance);
 TargetVerdict verdict_on(const std::vector<TargetOutcome>& outcomes, double tolerance);
 

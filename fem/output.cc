@@ -68,7 +68,7 @@ std::vector<CellField> cell_fields(const Solid<dim, material_dim>& solid)
   return fields;
 }
 
-/// What the first rank does before the others go on. Its failure is that of all.
+/// Does work on the first rank while the others wait. An OutputError there is thrown on all ranks.
 void by_first(const MPI_Comm communicator, const std::function<void()>& work)
 {
   std::string problem;

@@ -18,7 +18,7 @@ struct PeakDemands
 {
   double least_stress = 0.0;         ///< deviator [Pa]
   double least_time = 0.0;           ///< from where the strain is zero [s]
-  double least_fall = 0.05;          ///< after it, over it
+  double least_fall = 0.05;          ///< fall after the highest deviator, as a share of it
   double end_over_peak_strain = 1.6; ///< strain to which a curve that does not fall stays level, over that at its peak
   bool may_end_rising = false;       ///< where it ends says nothing about the body: a measured curve, a table of stages
 };
@@ -80,7 +80,7 @@ std::optional<std::size_t> peak_row(const TestRecord& record);
 
 /// The strength of a sheared plane; under a normal stress that grows as the plane opens, its share of that stress.
 double mobilised(const TestRecord& record, const CurveSample& row);
-/// Of a sheared plane that has its strength, and keeps it while it slides.
+/// Share of its strength that a plane must carry at a row to count as sliding at its strength there.
 inline constexpr double share_of_strength = 0.99;
 
 /// Whether the stress of a test led by a table of stages was rising towards a higher one when it ended.

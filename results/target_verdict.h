@@ -7,7 +7,7 @@
 
 /// Decision on whether the mean of a rock's packings lies within the tolerance of a target. It rests on the 95 % interval of
 /// the mean by Student's t, so that a mean beyond the tolerance is called reached in one case of twenty at most
-/// (docs/theory.md, "Reached, missed, not decided").
+/// (docs/theory.md §5.1).
 namespace feldspar
 {
 enum class TargetVerdict

@@ -82,7 +82,7 @@ std::string load_in_words(const double bytes)
   if (const auto free = free_memory(); free && bytes > 0.5 * *free)
     words += fmt::format("; {:.1f} GB of memory are free", *free / 1e9);
   if (load_at_start() > 0.5 * n_processors())
-    words += fmt::format("; others keep {:.1f} of {:.0f} processors busy", std::min(load_at_start(), n_processors()),
+    words += fmt::format("; other programs use {:.1f} of {:.0f} processors", std::min(load_at_start(), n_processors()),
                          n_processors());
   return words;
 }

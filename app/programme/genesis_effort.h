@@ -12,12 +12,13 @@ namespace feldspar
 /// Free memory of the machine, or what is left of the limit of the control group [bytes]; none where that is not told.
 std::optional<double> free_memory();
 
-/// How many threads' work this run gets done at a time. Threads of ours and what ran on the machine when this was first asked,
-/// at the beginning of the run, share its processors evenly.
+/// The number of threads of this run that the processors serve at a time. The threads share the processors evenly with
+/// the programs that ran on the machine at the beginning of the run, when this is first called.
 double n_threads_served();
 
-/// What of the machine is taken already, where a forecast depends on it: memory of which the run will need more than half of
-/// what is free, processors of which others use half. With a semicolon before it; else empty.
+/// A clause on the load of the machine, where a forecast depends on it: the free memory, if the run needs more than
+/// half of it, and the processors, if other programs use more than half of them. It begins with a semicolon; else it is
+/// empty.
 std::string load_in_words(double bytes);
 
 /// The memory that a grain of a specimen takes.

@@ -21,8 +21,8 @@ namespace feldspar
 namespace
 {
 // Measured on lattices of 50 000 discs and of 8 000 spheres, as differences of the peak between runs of one and of four
-// tests, on one and on two threads (benchmarks/load.py has them larger): 542 and 728 bytes of a joint, rounded up; 282 of
-// a disc kept after so few rows that no states of its grains were.
+// tests, on one and on two threads (benchmarks/load.py has them larger): 542 and 728 bytes of a joint, rounded up. A
+// disc that was kept without states of its grains, after few rows, took 282 bytes.
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
 constexpr double bytes_of_program = 4e7;

@@ -44,7 +44,7 @@ fs::path plain(const fs::path& path)
   return normal.has_filename() ? normal : normal.parent_path();
 }
 
-/// Empty where the file does not lie below the folder.
+/// The path of a file relative to a folder; empty where the file does not lie below the folder.
 fs::path relative_to(const fs::path& folder, const fs::path& file)
 {
   const fs::path relative = file.lexically_relative(folder);
@@ -107,7 +107,7 @@ void remove_listed(const fs::path& file)
     remove_file(part);
 }
 
-/// From the innermost on; a folder with something in it stays.
+/// Removes the empty folders of a tree, the innermost first.
 void remove_empty_folders(const fs::path& folder)
 {
   if (!fs::is_directory(fs::symlink_status(folder)))

@@ -16,7 +16,7 @@ struct Places
   std::vector<std::string_view> folders; ///< with all that is in them
   bool specimens;                        ///< specimen.h5, specimen_seed_1.h5, ...
 
-  /// Of a path that is relative to the folder.
+  /// Whether a path relative to the folder is one of these files, or lies in one of these folders.
   bool include(const std::filesystem::path& relative) const;
 };
 
@@ -25,8 +25,8 @@ const Places& places_of_specimens();
 const Places& places_of_contacts();
 const Places& places_of_reports();
 
-/// Writes down each file that this process writes into a folder, before it is written, for as long as it lives. The list lies
-/// in the folder and is gone on with by the next process there.
+/// Keeps a list of the files that this process writes into a folder: each is listed before it is written. The list lies
+/// in the folder, and the next process there adds to it.
 class FileList
 {
 public:
@@ -54,7 +54,7 @@ void check_write_over(const std::filesystem::path& folder, const Places& places,
 /// Whether a run has written into the folder.
 bool holds_a_run(const std::filesystem::path& folder);
 
-/// Takes out the files that runs wrote into the folder, those alone whose path begins with `below` if it is not empty;
-/// else their list too. Folders of results that are empty then go with them.
+/// Removes the files that runs wrote into the folder and whose path begins with `below`, and the folders of results
+/// that are then empty. Where `below` is empty, it removes all files of runs, and their list too.
 void remove_listed_files(const std::filesystem::path& folder, const std::string& below = "");
 } // namespace feldspar

@@ -72,7 +72,8 @@ int go_on(const RunCommand& command, const Run& run)
     }
 }
 
-/// Reads the files of grains that an input names, to object before anything goes. Throws InputError.
+/// Reads the files of grains that an input names, so that a wrong one is refused before any file is removed. Throws
+/// InputError.
 void read_bodies(const Input& input)
 {
   std::set<std::string> read;

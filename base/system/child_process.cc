@@ -164,7 +164,7 @@ std::string made_by_child(const std::string& worker, const ProcessLimits& limits
     {
       const int signal = WTERMSIG(*status);
       throw InputError(signal == SIGXCPU || signal == SIGKILL
-                         ? fmt::format("damaged: {} finds no end in it", worker)
+                         ? fmt::format("damaged: {} does not end on it within its limit of time", worker)
                          : fmt::format("damaged: {} fails on it (SIG{})", worker, sigabbrev_np(signal)));
     }
   if (reply.empty() || reply[0] != is_text)

@@ -15,8 +15,9 @@ namespace feldspar
 {
 namespace
 {
-/// A file that HDF5 writes by way of us. Its own driver hides why a disk refuses bytes, and the library does not get over
-/// a write that failed. This one notes the first error and lets all later writes pass for done.
+/// A file that HDF5 writes through the driver below. The library's own driver hides why a disk refuses bytes, and the
+/// library does not recover from a write that failed. This driver keeps the first error and reports all later writes as
+/// done.
 struct WatchedFile
 {
   H5FD_t of_library; ///< first, as the library asks
@@ -48,7 +49,7 @@ herr_t close_watched(H5FD_t* const file)
   return 0;
 }
 
-/// In the order of the file as HDF5's own driver of files has it.
+/// Sets the features that HDF5's own driver of files has, so that both give a file the same order.
 herr_t tell_features(const H5FD_t* /*file*/, unsigned long* const features)
 {
   *features =

@@ -79,7 +79,7 @@ struct SampleTest::Parts
   void share_work();
   /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
   void gather_cracks();
-  /// To the curve, from where the sample stands.
+  /// Adds the present state of the sample to the curve as a row.
   void add_row();
 
   /// The state that all ranks share besides the solid; in sample_checkpoint.cc.

@@ -101,7 +101,7 @@ struct FlawParameters
   std::vector<Shape> traces; ///< of a file, after the others
   std::string text;          ///< of the shapes, as it was written; empty: none
   std::string traces_file;   ///< empty: none
-  std::string left_out;      ///< what the file has besides and does not show, a sentence; empty: nothing
+  std::string left_out;      ///< a sentence on entities of the file that are not visible and not read; empty: none
 
   std::vector<Shape> all() const
   {

@@ -93,25 +93,25 @@ inline std::vector<Entry<TestParameters>> test_entries()
                   of_grains),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
-      "a test stops at this many times the strain of a peak that has fallen; a test whose stress is rising goes "
-      "on",
+      "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "
+      "stress is rising goes on",
       varies),
     entry::optional_quantity(
       "Least peak stress", &P::least_peak_stress, Measure::stress, "MPa", ranges::from_zero,
       "a lower highest stress (beyond the confinement) is no peak. none: on grains twice ρ c × strain rate × "
-      "height, which waves can bring about in a body that nothing holds (each platen sends one of half of that, "
-      "which is doubled where it is thrown back); on samples 0",
+      "height, which waves can bring about in a body that nothing holds (each platen sends a wave of a quarter of "
+      "this, which the other platen doubles); on samples 0",
       varies),
     entry::number(
       "Least transits to peak", &P::least_transits_to_peak, ranges::from_zero,
-      "travel times of a wave along the specimen before the highest stress, if it is to be a peak; after three "
+      "a highest stress that comes before so many travel times of a wave along the specimen is no peak; after three "
       "to four of them the stress is uniform (Davies and Hunter 1963)",
       of_grains),
     entry::number(
       "Least fall after peak", &P::least_fall_after_peak, {'[', 0.0, 1.0, ')'},
-      "share of the highest stress (beyond the confinement) by which the stress falls after it, if it is to be a peak. "
-      "0.05: single cracks and waves make smaller falls in a curve that rises. A curve that stays "
-      "level up to the end by the rule above has a peak too",
+      "a highest stress (beyond the confinement) is no peak if the stress then falls by less than this share of it, "
+      "unless the curve stays level up to the end by the rule above. 0.05: single cracks and waves make smaller falls "
+      "in a curve that rises",
       varies),
     entry::optional_number("Stop strain", &P::stop_strain, {'(', 0.0, 1.0, ']'},
                            "a test stops at this axial strain, instead of the rule above", varies),

@@ -4,8 +4,8 @@ namespace feldspar
 {
 namespace
 {
-// Rock breaks before a hundredth, of a notched body over its depth or length, and in tension before a thousandth; a body that
-// rocks, or closes an open flaw, at first soon after it.
+// Rock breaks at strains below 0.01 (of a notched body over its depth or length), in tension below 0.001. A body that
+// rocks at first, or first closes an open flaw, breaks soon after these.
 constexpr double farthest_unheld_pressed = 0.05;
 constexpr double farthest_unheld_pulled = 0.01;
 

@@ -54,10 +54,9 @@ std::string what_bears_nothing(const TestRecord& record)
       "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
       "radius)",
       percent);
-  return fmt::format(
-    "the stress did not come to {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
-    "holds the specimen, or it bears nothing",
-    record.peak_demands.least_stress / 1e6, percent);
+  return fmt::format("the stress stayed below {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
+                     "holds the specimen, or it has no strength",
+                     record.peak_demands.least_stress / 1e6, percent);
 }
 
 template <int dim>

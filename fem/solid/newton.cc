@@ -55,8 +55,9 @@ auto NewtonSearch<dim, material_dim>::run(SolidConstraints constraints, const So
       if (!vertex)
         vertex = vertex_of(tried);
       const double unbalanced = right_side.l2_norm();
-      // The state's own, never that of an iterate before it, which may be far off. Of a body that is being unloaded, which in
-      // the end carries nothing to measure by, that of the state it comes from.
+      // The unbalanced force is measured by the forces of this state, never by those of an earlier iterate, which may
+      // be far from equilibrium. A body that is being unloaded carries little in the end: the forces of the accepted
+      // state before count if they are larger.
       const CarriedForce now = carried_by(tried);
       const CarriedForce carried{std::max(now.norm, before.norm), std::max(now.along_axis, before.along_axis)};
       report.residuals.push_back(carried.norm > 0.0 ? unbalanced / carried.norm : 0.0);
@@ -122,7 +123,7 @@ auto NewtonSearch<dim, material_dim>::carried_by(const SolidState<material_dim>&
   return {norm, std::max(norm, 0.5 * Utilities::MPI::sum(of_both_ends, elements.communicator()))};
 }
 
-/// Along the axis; by so much the forces of the ends differ.
+/// The sum of the unbalanced forces along the axis: the difference between the forces of the two ends [N].
 template <int dim, int material_dim>
 double NewtonSearch<dim, material_dim>::unbalanced_resultant() const
 {

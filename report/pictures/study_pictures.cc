@@ -287,7 +287,7 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const Property&
 /// Results over two entries.
 using Cells = std::map<std::array<double, 2>, std::vector<double>>;
 
-/// Of the tests of one kind and pressure.
+/// The results of the tests of one kind and pressure, by the values of the two entries.
 Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over, const Property& property,
                const TestGroup& wanted)
 {
@@ -309,7 +309,7 @@ Cells cells_of(const std::vector<Series>& all, const std::vector<Abscissa>& over
   return cells;
 }
 
-/// From halfway to the value before to halfway to the next; at the ends as far outwards as inwards.
+/// Lower and upper end of the cell of a value: halfway to the values beside it; at the ends as far outwards as inwards.
 std::array<double, 2> cell_about(const double value, const std::set<double>& values)
 {
   const auto at = values.find(value);

@@ -47,7 +47,8 @@ struct FinishedTest
   bool was_made() const { return record.failure.empty() && !record.interrupted; }
   /// Whether its figures may be averaged with those of others: it ran to its end and is a valid test of its kind.
   bool counts() const { return was_made() && results.is_valid(); }
-  /// Holes, slots, joints: the highest stress is then a nominal one, load over the whole section, and no strength of the rock.
+  /// Whether the body has holes, slots or joints: its highest stress is then nominal, load over the whole section, and
+  /// not a strength of the rock.
   bool has_flaws() const { return !appearance.flaws.empty(); }
 };
 

@@ -217,8 +217,8 @@ std::optional<PlaneThrough> plane_through(const FinishedTest& test)
   return steepest;
 }
 
-/// What rigid side plates do to a body that slides on a plane through it (docs/theory.md §3.1); empty where they do nothing.
-/// Bodies of one rock have the same flaws.
+/// A warning that rigid side plates make the body too strong, where it slides on a plane through it (docs/theory.md
+/// §3.1); empty where they do not. Bodies of one rock have the same flaws.
 std::string remark_on_side_plates(const TestsOfRock& tests)
 {
   constexpr double least_angle = 10.0 * std::numbers::pi / 180.0; // faces of rock with less friction are not known
@@ -243,7 +243,7 @@ std::string remark_on_side_plates(const TestsOfRock& tests)
   return "";
 }
 
-/// Names of strengths mislead where a body has flaws.
+/// A remark that the strengths of a body with flaws are nominal stresses; empty for a body without flaws.
 std::string remark_on_flaws(const TestsOfRock& tests)
 {
   const bool any = std::any_of(tests.begin(), tests.end(), [](const FinishedTest* test) { return test->has_flaws(); });

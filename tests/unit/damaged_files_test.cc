@@ -263,7 +263,7 @@ TEST(ForeignFiles, OnWhichTheLibraryCrashesOrFindsNoEndAreRefusedInOneLine)
          for (volatile int n = 0;;) // the limit of time ends it
            n = 1 - n;
        }),
-       "damaged: the HDF5 library finds no end in it");
+       "damaged: the HDF5 library does not end on it within its limit of time");
 }
 
 TEST(ForeignFiles, CanBeLeftWhileTheyAreRead)

@@ -157,7 +157,7 @@ private:
   Line line;
 };
 
-/// What a drawing shows: its lines, and how many other entities it has that are not to be seen.
+/// The lines of a drawing, and the numbers of its entities that are not visible in model space.
 class Drawing
 {
 public:
@@ -265,7 +265,8 @@ private:
     is_in_polyline = false;
   }
 
-  /// Each corner takes time with every joint of a specimen.
+  /// Keeps a line of a drawing. Throws InputError for too many corners, each of which takes time with every joint of a
+  /// specimen.
   void take(Line line)
   {
     constexpr std::size_t most_corners_of_all = 100000;
@@ -273,7 +274,8 @@ private:
     if (line.corners.size() > most_corners)
       throw refusal(line, fmt::format("has {} vertices; it must have at most {}", line.corners.size(), most_corners));
     if (n_corners > most_corners_of_all)
-      throw refusal(line, fmt::format("is one too many: all lines must have at most {} vertices", most_corners_of_all));
+      throw refusal(
+        line, fmt::format("exceeds the limit: all lines together must have at most {} vertices", most_corners_of_all));
     lines.push_back(std::move(line));
     check_number_of_traces(lines.size(), file);
   }

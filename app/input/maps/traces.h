@@ -13,13 +13,14 @@ namespace feldspar
 /// The header of a joint map in CSV: a trace a line, y along the axis of the tests [m].
 inline constexpr std::string_view header_of_traces = "from_x_m,from_y_m,to_x_m,to_y_m";
 
-/// Of a line or an outline. Each takes time with every joint of a specimen, those of an outline with each other too.
+/// The most corners of a line or an outline. The time grows with the number of corners times that of the joints of a
+/// specimen; of an outline also with the square of the number of corners.
 inline constexpr std::size_t most_corners = 10000;
 
 struct Traces
 {
   std::vector<Shape> shapes;
-  std::string left_out; ///< what a drawing has besides and does not show, a sentence; empty: nothing
+  std::string left_out; ///< a sentence on entities of a drawing that are not visible and not read; empty: none
 };
 
 /// The traces of a drawing (.dxf; the lines and polylines of its model space that are to be seen, in the unit that the
