@@ -81,8 +81,7 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
           tests.push_back(&test);
       findings.repeats = remarks_on_repeats(tests);
     }
-  const bool any_flaws =
-    std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });
+  const bool any_flaws = any_has_flaws(all);
   for (const auto& series : all)
     findings.comparisons.push_back(compare(
       series.tests, input.reference, input.calibration ? input.calibration->elastic : ElasticFigures(), any_flaws));

@@ -80,7 +80,7 @@ PeakWatch::PeakWatch(const TestKind& of_test, const double confining_pressure, c
     }
 }
 
-bool PeakWatch::add(const CurveSample& row)
+void PeakWatch::add(const CurveSample& row)
 {
   const double strain = kind.strain(row);
   const double deviator = kind.deviator(row, pressure);
@@ -91,14 +91,13 @@ bool PeakWatch::add(const CurveSample& row)
   is_first_peak =
     is_first_peak || (kind.peak_rule == PeakRule::first_before_a_fall && is_borne() && !is_too_early() && has_fallen());
   if (deviator <= highest_deviator * (1.0 + round_off) || is_first_peak)
-    return false;
+    return;
   highest_deviator = lowest_since = deviator;
   row_of_highest = deviators.size() - 1;
   strain_at_highest = strain;
   time_of_highest = row.time;
   while (deviators[begin_of_level] < (1.0 - level_within) * highest_deviator)
     ++begin_of_level;
-  return true;
 }
 
 bool PeakWatch::is_rising() const

@@ -29,9 +29,8 @@ class PeakWatch
 public:
   PeakWatch(const TestKind& kind, double confining_pressure, const PeakDemands& demands);
 
-  /// Takes the next row. Returns whether its deviator is the highest so far; by the rule of the first peak none is after a
-  /// fall.
-  bool add(const CurveSample& row);
+  /// Takes the next row. By the rule of the first peak no row after a fall is the highest.
+  void add(const CurveSample& row);
 
   double highest() const { return highest_deviator; } ///< [Pa]
   std::size_t row() const { return row_of_highest; }  ///< of the highest

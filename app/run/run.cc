@@ -82,7 +82,8 @@ void read_bodies(const Input& input)
       const SpecimenParameters& specimen = variant.input.specimen;
       const bool is_plane = specimen.dimension == 2;
       if (!specimen.specimen_file.empty() && read.insert(specimen.specimen_file).second)
-        is_plane ? void(read_specimen<2>(specimen.specimen_file)) : void(read_specimen<3>(specimen.specimen_file));
+        is_plane ? void(read_specimen<2>(specimen.specimen_file, end_if_interrupted))
+                 : void(read_specimen<3>(specimen.specimen_file, end_if_interrupted));
       if (!specimen.packing_file.empty() && read.insert(specimen.packing_file).second)
         is_plane ? void(read_packing<2>(specimen, end_if_interrupted))
                  : void(read_packing<3>(specimen, end_if_interrupted));

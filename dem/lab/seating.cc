@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,13 +26,6 @@ template <int dim>
 double bed_of_brought_wall(const Specimen<dim>& specimen)
 {
   return std::min(specimen.report.largest_overlap_ratio, 0.01);
-}
-
-template <int dim>
-double mean_radius(const Specimen<dim>& specimen)
-{
-  const auto& radius = specimen.grains.radius;
-  return std::accumulate(radius.begin(), radius.end(), 0.0) / double(radius.size());
 }
 
 struct Side
@@ -99,7 +91,7 @@ void check_fills_its_box(const Specimen<dim>& specimen)
       largest = std::max(largest, gap);
       gaps.push_back(fmt::format("{} {:.3g} mm", name, 1e3 * gap));
     }
-  if (const double most = largest_gap * mean_radius(specimen); largest > most)
+  if (const double most = largest_gap * specimen.grains.mean_radius(); largest > most)
     throw InputError(fmt::format("Specimen: its grains end inside of its box, by more than half of a mean radius, "
                                  "{:.3g} mm: {}; {}",
                                  1e3 * most, fmt::join(gaps, ", "), advice));
@@ -126,7 +118,7 @@ void check_leads_from_end_to_end(const Specimen<dim>& specimen)
           pieces.merge(first, i);
         }
     }
-  const double depth = 2.0 * largest_gap * mean_radius(specimen);
+  const double depth = 2.0 * largest_gap * specimen.grains.mean_radius();
   const auto lead_from_end_to_end = [&] {
     std::vector<bool> is_below(n, false);
     const auto& height = specimen.grains.position[dim - 1];
@@ -153,7 +145,7 @@ std::size_t stand_wall(SetUpTest<dim>& test, Wall wall, const std::string_view n
 {
   const Specimen<dim>& body = test.dynamics.specimen();
   const double gap = gap_at(body, wall, grains_of_body(body));
-  const double radius = mean_radius(body);
+  const double radius = body.grains.mean_radius();
   if (const double most = largest_gap * radius; gap > most)
     throw InputError(fmt::format("Specimen: the nearest grain is {:.3g} mm away from the {}, more than half of a mean "
                                  "radius, {:.3g} mm; {}",

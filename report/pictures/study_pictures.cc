@@ -366,7 +366,7 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
 std::vector<Property> properties_of(const std::vector<Series>& all)
 {
   std::vector<Property> named(properties.begin(), properties.end());
-  if (std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); }))
+  if (any_has_flaws(all))
     named.front().title = "highest nominal stress";
   return named;
 }

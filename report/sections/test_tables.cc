@@ -33,8 +33,7 @@ bool has_toughness(const Findings& findings)
 Table strength_table(const Findings& findings)
 {
   Table table{"strengths",
-              std::any_of(findings.all.begin(), findings.all.end(),
-                          [](const Series& series) { return any_has_flaws(series.tests); })
+              any_has_flaws(findings.all)
                 ? "Strengths of every kind of test, of bodies with flaws highest nominal stresses [MPa]"
                 : "Strengths of every kind of test [MPa]",
               {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",

@@ -2,6 +2,7 @@
 
 #include "results/runs/run.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,4 +25,9 @@ struct Series
   std::vector<FinishedTest> tests;
   std::vector<std::string> problems; ///< what of it could not be had and why, each in a sentence
 };
+
+inline bool any_has_flaws(const std::vector<Series>& all)
+{
+  return std::any_of(all.begin(), all.end(), [](const Series& series) { return any_has_flaws(series.tests); });
+}
 } // namespace feldspar
