@@ -452,7 +452,8 @@ TEST(EqualRuns, HaveEqualFilesOfHdf5)
   std::size_t n = 0;
   for (const char* const of : {"grains", "sample"})
     for (const auto& [file, bytes] : all_files(folder.path() / (of + std::string("1"))))
-      if (file.ends_with(".h5"))
+      if (file.ends_with(".h5") &&
+          !file.starts_with("states/")) // a state has its computing time, for the run that goes on
         {
           ++n;
           EXPECT_TRUE(content(folder.path() / (of + std::string("2")) / file) == bytes) << file;
