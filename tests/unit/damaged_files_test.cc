@@ -386,8 +386,10 @@ TEST(DamagedFiles, AnArrayIsNotLongerThanItsFile)
   EXPECT_NE(refusal([&] { read_hdf5(file, "a test", [](Hdf5Reader&) {}); }).find("no checksum"), std::string::npos);
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) // of g++
 constexpr bool under_address_sanitizer = true;
+#elif defined(__has_feature) // of clang
+constexpr bool under_address_sanitizer = __has_feature(address_sanitizer);
 #else
 constexpr bool under_address_sanitizer = false;
 #endif
