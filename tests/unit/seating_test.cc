@@ -84,7 +84,8 @@ void expect_the_same_in_a_larger_box(const Specimen<dim>& specimen)
         {
           const TestRecord wide =
             loaded(*protocol, in_larger_box(specimen, 0.5 * gap, gap, 0.5 * gap), pressed_by_a_table());
-          EXPECT_NEAR(wide.way_to_grains, gap, 0.002 * radius); // grains lie up to a thousandth of a radius in their walls
+          EXPECT_NEAR(wide.way_to_grains, gap,
+                      0.002 * radius); // grains lie up to a thousandth of a radius in their walls
           // The area of the box is larger by the gaps, at most by 0.4 radii in a width of 14 or 7; where only the grains that
           // protrude furthest touch a wall at first, the stress lags by their overlap at the packing stress, some 1e-5 of the
           // strain.
