@@ -116,7 +116,7 @@ TEST(Example, TheEnsembleIsTheRock)
 TEST(Example, PackingsByDescentAreTheRockOfThoseByMotion)
 {
   const std::string readme = content(example + "README.md");
-  const auto by_descent = results("ensemble");
+  const auto by_descent = results("ensemble-by-coordination");
   const auto by_motion = results("ensemble-by-motion");
   const std::vector<Row> compared{
     {"porosity", "direct_tension", "porosity", 1.0, 4},
@@ -142,6 +142,28 @@ TEST(Example, PackingsByDescentAreTheRockOfThoseByMotion)
       const std::string row =
         fmt::format("| {} | {} | {} | {:.1f} |", name, mean_and_deviation(by_motion, kind, key, scale, decimals),
                     mean_and_deviation(by_descent, kind, key, scale, decimals), difference);
+      EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
+    }
+}
+
+TEST(Example, TheReadmeOfBeishanGraniteShowsWhatTheNumberOfJointsChanges)
+{
+  const std::string readme = content(example + "README.md");
+  const auto by_gap = results("ensemble");
+  const auto by_number = results("ensemble-by-coordination");
+  const std::vector<Row> compared{
+    {"installation gap over mean radius", "direct_tension", "installation_gap_ratio", 1.0, 4},
+    {"coordination number far from the walls", "direct_tension", "coordination_number_core", 1.0, 3},
+    {"tensile strength [MPa]", "direct_tension", "peak_stress_Pa", 1e6, 2},
+    {"uniaxial compressive strength [MPa]", "uniaxial_compression", "peak_stress_Pa", 1e6, 1},
+    {"strength at 20 MPa [MPa]", "triaxial_compression_20_MPa", "peak_stress_Pa", 1e6, 1},
+    {"strength at 60 MPa [MPa]", "triaxial_compression_60_MPa", "peak_stress_Pa", 1e6, 1},
+    {"Young's modulus, tangent [GPa]", "uniaxial_compression", "youngs_modulus_tangent_Pa", 1e9, 1}};
+  for (const auto& [name, kind, key, scale, decimals] : compared)
+    {
+      const std::string row =
+        fmt::format("| {} | {} | {} |\n", name, mean_and_deviation(by_gap, kind, key, scale, decimals),
+                    mean_and_deviation(by_number, kind, key, scale, decimals));
       EXPECT_NE(readme.find("\n" + row), std::string::npos) << "missing: " << row;
     }
 }
@@ -744,8 +766,10 @@ TEST(Example, BenchmarksShowTheCommittedPackings)
                                           nine["user_time_s"].get<double>());
       EXPECT_NE(page.find(row), std::string::npos) << "missing: " << row;
       // The program chooses its instructions by the processor, and they do not change a bit.
-      for (const auto& test : results_of("beishan-granite", "beishan")["tests"])
-        EXPECT_EQ(nine["peak_stress_Pa"][test["name"].get<std::string>()], test["peak_stress_Pa"]) << test["name"];
+      const auto by_coordination = results_of("beishan-granite", "ensemble-by-coordination");
+      EXPECT_EQ(nine["peak_stress_Pa"].size(), 9u);
+      for (const auto& [name, peak] : nine["peak_stress_Pa"].items())
+        EXPECT_EQ(peak, test_of(by_coordination, name)["peak_stress_Pa"]) << name;
     }
 }
 
