@@ -57,8 +57,11 @@ TEST(Example, TheReadmeShowsTheCommittedResults)
   for (const auto& [name, kind, key, scale, decimals] : rows)
     {
       const std::string over_seeds = mean_and_deviation(ten, kind, key, scale, decimals);
-      shown(fmt::format("| {} | {} | {} | {} |", name, number(test_of(one, kind + "_seed_1")[key], scale, decimals),
-                        over_seeds, number(ten["ensemble"][kind][key]["standard_error"], scale, decimals)));
+      const auto& figure = ten["ensemble"][kind][key];
+      shown(fmt::format("| {} | {} | {} | {} to {} |", name,
+                        number(test_of(one, kind + "_seed_1")[key], scale, decimals), over_seeds,
+                        number(figure["standard_deviation_low_95"], scale, decimals),
+                        number(figure["standard_deviation_high_95"], scale, decimals)));
       shown(fmt::format("| {} | {} | {} |", name, over_seeds, mean_and_deviation(fine, kind, key, scale, decimals)));
     }
   for (const int pressure : {5, 10, 20, 30, 40, 50, 60})
