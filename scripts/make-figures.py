@@ -22,7 +22,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FIGURES = os.path.join(ROOT, "docs", "figures")
 RECORD = os.path.join(FIGURES, "figures.json")
 
-GRANITE = "examples/beishan-granite/results/ensemble-by-motion.json"
+GRANITE = "examples/beishan-granite/results/ensemble.json"
 CONTACT_MODELS = "examples/contact-models/results/"
 PLANE_SAMPLE = "examples/multiscale-beishan/results/beishan.json"
 
@@ -47,7 +47,7 @@ FIGURES_OF_RUNS = {
 }
 FIGURES_OF_RESULTS = {
     "multiscale-envelopes.svg": (
-        {"finite elements, gap 0.0237": PLANE_SAMPLE, "grains, gap 0.0457": GRANITE},
+        {"finite elements": PLANE_SAMPLE, "grains": GRANITE},
         "envelopes.svg",
     ),
     "contact-models-envelopes.svg": (
