@@ -116,9 +116,14 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
     return fmt::format("{}: the first row is under {:.1f} % of the peak load already; strains are taken as they stand, "
                        "and strain at the peak, secant modulus and secant Poisson's ratio rest on their zero",
                        file, 100.0 * share(0));
-  std::size_t start = 0;
-  while (share(start + 1) <= no_load)
-    ++start;
+  // A load cell may read something before the platen touches: the last row by its first reading, before the load has left it.
+  std::size_t loaded = 0;
+  while (share(loaded) - share(0) <= under_load)
+    ++loaded;
+  std::size_t start = loaded;
+  while (share(start) - share(0) > no_load)
+    --start;
+  const double reading = start > 0 ? share(0) : 0.0;
   const CurveSample zero = curve[start];
   curve.erase(curve.begin(), curve.begin() + std::ptrdiff_t(start));
   for (CurveSample& row : curve)
@@ -128,12 +133,16 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
       row.gauge_lateral_strain -= zero.gauge_lateral_strain;
       row.gauge_volumetric_strain -= zero.gauge_volumetric_strain;
     }
+  const std::string offset =
+    reading > no_load
+      ? fmt::format("; the load of {:.2g} MPa that is read before stays in the stresses", reading * at_peak / 1e6)
+      : "";
   if (std::max(std::abs(zero.axial_strain), std::abs(zero.gauge_lateral_strain)) < least_shift)
     return "";
   return fmt::format(
     "{}: strains are counted from row {} below the header, where the load begins; {:.4g} % of axial and "
-    "{:.4g} % of lateral strain were taken off every row",
-    file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain);
+    "{:.4g} % of lateral strain were taken off every row{}",
+    file, start + 1, -100.0 * zero.axial_strain, -100.0 * zero.gauge_lateral_strain, offset);
 }
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "app/run/file_list.h"
 
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/whole_file.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <system_error>
 
@@ -21,6 +23,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* list_name = ".feldspar-files";
+constexpr const char* earlier_name = ".feldspar-before";
 constexpr const char* record_name = "run.json";
 constexpr const char* page_name = "report.html";
 
@@ -30,6 +33,13 @@ bool has(const std::vector<std::string_view>& names, const std::string& wanted)
 }
 
 bool is_specimen(const std::string& name) { return name.starts_with("specimen") && name.ends_with(".h5"); }
+
+/// Whether every run of one rock may write this name of a specimen: specimen.h5, specimen_seed_1.h5.
+bool is_usual_specimen(const std::string& name)
+{
+  static const std::regex usual("specimen(_seed_[0-9]+)?\\.h5");
+  return std::regex_match(name, usual);
+}
 
 bool is_there(const fs::path& file)
 {
@@ -87,24 +97,38 @@ void remove_file(const fs::path& file)
     throw OutputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
 }
 
-/// Takes out a listed file, what a killed run began of it, and the names that checkpoints get later: NAME.h5 becomes
+/// A listed file, what a killed run began of it, and the names that checkpoints get later: NAME.h5 becomes
 /// NAME.previous.h5, unfinished/part-00000.h5 becomes step-0000000001/part-00000.h5.
-void remove_listed(const fs::path& file)
+std::vector<fs::path> with_later_names(const fs::path& file)
 {
-  const auto with = [&](const char* const ending) { return fs::path(file) += ending; };
-  remove_file(file);
-  remove_file(with(".unfinished"));
+  std::vector<fs::path> files{file, fs::path(file) += ".unfinished"};
   if (file.parent_path().filename() == "checkpoints" && file.extension() == ".h5")
-    remove_file(fs::path(file).replace_extension(".previous.h5"));
+    files.push_back(fs::path(file).replace_extension(".previous.h5"));
   const fs::path steps = file.parent_path().parent_path();
-  if (file.parent_path().filename() != "unfinished" || !fs::is_directory(steps))
-    return;
-  std::vector<fs::path> parts;
-  for (const auto& entry : fs::directory_iterator(steps))
-    if (entry.path().filename().string().starts_with("step-") && !entry.is_symlink())
-      parts.push_back(entry.path() / file.filename());
-  for (const fs::path& part : parts)
-    remove_file(part);
+  if (file.parent_path().filename() == "unfinished" && fs::is_directory(steps))
+    for (const auto& entry : fs::directory_iterator(steps))
+      if (entry.path().filename().string().starts_with("step-") && !entry.is_symlink())
+        files.push_back(entry.path() / file.filename());
+  return files;
+}
+
+/// Moves what lies in the place of a result that no run wrote to a free name beside it.
+void keep_aside(const fs::path& file)
+{
+  fs::path free = fs::path(file) += ".kept";
+  for (unsigned int number = 2; is_there(free); ++number)
+    free = fs::path(file) += fmt::format(".kept-{}", number);
+  std::error_code error;
+  fs::rename(file, free, error);
+  if (error)
+    throw OutputError(fmt::format("{}: no run wrote it, and it cannot be moved to {}: {}", file.string(),
+                                  free.filename().string(), error.message()));
+  static unsigned int n_kept = 0;
+  constexpr unsigned int most_said = 3;
+  if (++n_kept <= most_said)
+    fmt::print(stderr, "feldspar: {}: no run is known to have written it; it is kept as {}{}\n",
+               printable(file.string()), printable(free.filename().string()),
+               n_kept == most_said ? ", further ones likewise" : "");
 }
 
 /// Removes the empty folders of a tree, the innermost first.
@@ -125,16 +149,21 @@ bool has_words(const fs::path& file, const std::string_view words)
   return objection_to_reading(file).empty() && content_of(file).find(words) != std::string::npos;
 }
 
+/// Whether a run of a version without lists wrote the folder.
+bool is_of_version_without_lists(const fs::path& folder)
+{
+  return !is_there(folder / list_name) &&
+         (has_words(folder / record_name, "\"relative_to\"") || has_words(folder / page_name, "Feldspar report of"));
+}
+
 /// The files that runs wrote into the folder. Of a version without lists only the known names at its top: what lies in its
 /// folders of results may be the user's.
 std::set<std::string> files_of_runs(const fs::path& folder)
 {
   std::set<std::string> files = listed_files(folder);
-  if (is_there(folder / list_name))
+  if (!is_of_version_without_lists(folder))
     return files;
   const bool is_run = has_words(folder / record_name, "\"relative_to\"");
-  if (!is_run && !has_words(folder / page_name, "Feldspar report of"))
-    return files;
   const Places& places = is_run ? places_of_runs() : places_of_reports();
   for (const auto& entry : fs::directory_iterator(folder))
     if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name))
@@ -182,6 +211,7 @@ const Places& places_of_reports()
 FileList::FileList(const std::filesystem::path& its_folder)
   : folder(plain(its_folder))
   , known(listed_files(folder))
+  , all_results_are_known(!is_of_version_without_lists(folder))
 {
   hear_of_files([this](const fs::path& file) { note(file); });
 }
@@ -202,6 +232,8 @@ void FileList::note(const std::filesystem::path& file)
   const fs::path relative = relative_to(folder, plain(file));
   if (relative.empty() || known.contains(relative.string()))
     return;
+  if (all_results_are_known && is_there(folder / relative))
+    keep_aside(folder / relative);
   std::string lines;
   if (list < 0)
     {
@@ -215,7 +247,8 @@ void FileList::note(const std::filesystem::path& file)
     }
   lines += relative.string() + "\n";
   if (list < 0 || write(list, lines.data(), lines.size()) != ssize_t(lines.size()))
-    throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
+    throw OutputError(
+      fmt::format("{}: cannot be written: {}", (folder / list_name).string(), std::generic_category().message(errno)));
   known.insert(relative.string());
 }
 
@@ -226,11 +259,17 @@ void check_links(const std::filesystem::path& folder)
                                  "copy the folder there",
                                  link.string()));
   };
+  if (fs::is_symlink(fs::symlink_status(folder / list_name)))
+    throw InputError(fmt::format("{}: is a link; the list of the files that runs wrote is to be a file: remove it",
+                                 (folder / list_name).string()));
   for (const std::string_view name : places_of_runs().folders)
     {
       const fs::path own = folder / name;
       if (fs::is_symlink(fs::symlink_status(own)))
         refuse(own);
+      if (is_there(own) && !fs::is_directory(own))
+        throw InputError(
+          fmt::format("{}: is a file, where a folder of results is to be; move it elsewhere", own.string()));
       if (fs::is_directory(own))
         for (const auto& entry : fs::recursive_directory_iterator(own))
           if (entry.is_symlink() && entry.is_directory())
@@ -258,8 +297,9 @@ void check_write_over(const std::filesystem::path& folder, const Places& places,
                                      input.string(), folder.string()));
     }
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        places.include(name) && !has(places.folders, name) && !of_runs.contains(name))
+    if (const std::string name = entry.path().filename().string(); places.include(name) && !has(places.folders, name) &&
+                                                                   !of_runs.contains(name) &&
+                                                                   (!is_specimen(name) || is_usual_specimen(name)))
       throw InputError(fmt::format("--force: no run is known to have written {}, which this one would replace; move it "
                                    "elsewhere, or choose another folder with --output",
                                    (folder / name).string()));
@@ -271,11 +311,52 @@ void remove_listed_files(const std::filesystem::path& folder, const std::string&
 {
   for (const std::string& file : files_of_runs(folder))
     if (file.starts_with(below) && lies_in(folder, file))
-      remove_listed(folder / file);
+      for (const fs::path& one : with_later_names(folder / file))
+        remove_file(one);
   for (const std::string_view name : places_of_runs().folders)
     if (name.starts_with(below.substr(0, below.find('/'))))
       remove_empty_folders(folder / name);
   if (below.empty())
     remove_file(folder / list_name);
+}
+
+EarlierRun::EarlierRun(const std::filesystem::path& its_folder)
+  : folder(its_folder)
+{
+  forget_earlier_run(folder);
+  const std::set<std::string> files = files_of_runs(folder);
+  if (files.empty() || fs::is_symlink(fs::symlink_status(folder / earlier_name)))
+    return;
+  move(files, folder, folder / earlier_name);
+}
+
+void EarlierRun::restore() { move(files_of_runs(folder / earlier_name), folder / earlier_name, folder); }
+
+EarlierRun::~EarlierRun() { forget_earlier_run(folder); }
+
+void EarlierRun::move(const std::set<std::string>& files, const fs::path& from, const fs::path& to)
+{
+  const auto move_one = [&](const fs::path& file) {
+    const fs::path target = to / file.lexically_relative(from);
+    fs::create_directories(target.parent_path());
+    if (is_there(file) && !fs::is_directory(fs::symlink_status(file)))
+      fs::rename(file, target);
+  };
+  for (const std::string& file : files)
+    if (lies_in(from, file))
+      for (const fs::path& one : with_later_names(from / file))
+        move_one(one);
+  move_one(from / list_name); // the last one: until then it says what is where
+  for (const std::string_view name : places_of_runs().folders)
+    remove_empty_folders(from / name);
+}
+
+void forget_earlier_run(const std::filesystem::path& folder)
+{
+  const fs::path earlier = folder / earlier_name;
+  if (!fs::is_directory(fs::symlink_status(earlier)))
+    return;
+  remove_listed_files(earlier);
+  rmdir(earlier.c_str());
 }
 } // namespace feldspar

@@ -26,7 +26,8 @@ const Places& places_of_contacts();
 const Places& places_of_reports();
 
 /// Keeps a list of the files that this process writes into a folder: each is listed before it is written. The list lies
-/// in the folder, and the next process there adds to it.
+/// in the folder, and the next process there adds to it. A file in the place of a result that no run wrote is moved aside and
+/// said.
 class FileList
 {
 public:
@@ -40,10 +41,12 @@ private:
 
   std::filesystem::path folder;
   std::set<std::string> known;
-  int list = -1; ///< its descriptor; opened with the first file
+  bool all_results_are_known; ///< not where a version without lists wrote
+  int list = -1;              ///< its descriptor; opened with the first file
 };
 
-/// Refuses a folder in which a folder of results is a link: what is written into that would lie elsewhere. Throws InputError.
+/// Refuses a folder in which a folder of results is a link, so that what is written into it would lie elsewhere, or is a file.
+/// Throws InputError.
 void check_links(const std::filesystem::path& folder);
 
 /// Refuses to write over the folder of an earlier run where that would cost a file of the user: one that this run reads
@@ -57,4 +60,28 @@ bool holds_a_run(const std::filesystem::path& folder);
 /// Removes the files that runs wrote into the folder and whose path begins with `below`, and the folders of results
 /// that are then empty. Where `below` is empty, it removes all files of runs, and their list too.
 void remove_listed_files(const std::filesystem::path& folder, const std::string& below = "");
+
+/// The results of an earlier run that another one replaces. They wait aside until that run is known to be possible.
+class EarlierRun
+{
+public:
+  /// Puts them aside, in a folder of its own within `folder`.
+  explicit EarlierRun(const std::filesystem::path& folder);
+  EarlierRun(const EarlierRun&) = delete;
+  EarlierRun& operator=(const EarlierRun&) = delete;
+  /// Removes them.
+  ~EarlierRun();
+
+  /// Puts them back, once all files of the other run are removed.
+  void restore();
+
+private:
+  static void move(const std::set<std::string>& files, const std::filesystem::path& from,
+                   const std::filesystem::path& to);
+
+  std::filesystem::path folder;
+};
+
+/// Removes what a killed run has left aside.
+void forget_earlier_run(const std::filesystem::path& folder);
 } // namespace feldspar

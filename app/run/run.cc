@@ -96,6 +96,7 @@ int resume(const RunCommand& command, const CommonOptions& options)
   command.processes.first([&] { lock.emplace(*options.resume); });
   const RunRecord record = read_run_record(command.name, *options.resume);
   const FileList list(*options.resume);
+  command.processes.first([&] { forget_earlier_run(*options.resume); });
   if (record.complete)
     {
       if (command.processes.is_first)
@@ -118,10 +119,11 @@ int begin(const RunCommand& command, const CommonOptions& options)
   std::optional<OutputFolder> made;
   std::optional<FolderLock> lock;
   std::optional<FileList> list;
+  std::optional<EarlierRun> earlier;
   processes.first([&] {
     made.emplace(options.output, options.input, write_over(options, places_of_runs(), input));
     lock.emplace(made->path());
-    remove_listed_files(made->path()); // with --force: what an earlier run left would be taken for this one's
+    earlier.emplace(made->path()); // with --force: what it left would be taken for this run's
     list.emplace(made->path());
     try
       {
@@ -130,6 +132,7 @@ int begin(const RunCommand& command, const CommonOptions& options)
     catch (const OutputError&)
       {
         remove_listed_files(made->path());
+        earlier->restore();
         throw;
       }
   });
@@ -142,7 +145,12 @@ int begin(const RunCommand& command, const CommonOptions& options)
     }
   catch (const InputError&)
     {
-      processes.first([&] { remove_listed_files(folder); }); // a mistake leaves nothing
+      list.reset(); // in all processes before the list of the earlier run comes back
+      processes.first([] {});
+      processes.first([&] { // a mistake leaves nothing, and takes nothing
+        remove_listed_files(folder);
+        earlier->restore();
+      });
       throw;
     }
 }

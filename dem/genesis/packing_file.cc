@@ -76,6 +76,38 @@ void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, co
     },
     check);
 }
+
+/// Throws InputError for a grain that reaches through a wall of the specimen by more than grains may overlap: the wall would cut
+/// it, and what it cuts off would be there without a force.
+template <int dim>
+void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, const std::vector<std::size_t>& line_of)
+{
+  const bool is_round = wanted.shape == "cylinder";
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    {
+      const Vector<dim> x = at<dim>(grains.position, i);
+      const double radius = grains.radius[i];
+      const double allowed = largest_overlap * radius;
+      const auto look = [&](const double overlap, const std::string_view wall) {
+        if (overlap > allowed)
+          throw InputError(
+            fmt::format("{}:{}: reaches through the {} by {:.3g} m; allowed are {:.0f} % of the radius, {:.3g} "
+                        "m: make Specimen/Width and Height those of the grains",
+                        wanted.packing_file, line_of[i], wall, overlap, 100.0 * largest_overlap, allowed));
+      };
+      for (int axis = is_round ? dim - 1 : 0; axis < dim; ++axis)
+        {
+          const bool is_end = axis == dim - 1;
+          look(radius - x[axis], is_end ? "lower end" : axis == 0 ? "left side" : "front side");
+          look(x[axis] + radius - (is_end ? wanted.height : wanted.width), is_end      ? "upper end"
+                                                                           : axis == 0 ? "right side"
+                                                                                       : "back side");
+        }
+      if (is_round)
+        look(std::hypot(x[0] - 0.5 * wanted.width, x[1] - 0.5 * wanted.width) + radius - 0.5 * wanted.width,
+             "round side");
+    }
+}
 } // namespace
 
 template <int dim>
@@ -127,6 +159,8 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
   Grains<dim> grains;
   grains.place(radii, positions);
   check_overlaps(grains, wanted, line_of, check);
+  if (!is_periodic(wanted) && !wanted.is_cored())
+    check_walls(grains, wanted, line_of);
   return grains;
 }
 

@@ -188,6 +188,85 @@ TEST(WriteOver, TakesOutWhatRunsWroteAndNothingElse)
     EXPECT_EQ(after_report.contains(file) ? after_report.at(file) : "lost", bytes) << file;
 }
 
+// A name of a result in a folder of results, which no run wrote: before any run, beside an earlier run, as a folder.
+TEST(WriteOver, KeepsAFileOfTheUserInThePlaceOfAResultAside)
+{
+  const TemporaryFolder folder;
+  folder.write("a.prm", rock);
+  for (const char* const below : {"out", "out/tables", "out/curves"})
+    fs::create_directory(folder.path() / below);
+  folder.write("out/tables/tests.csv", "mine");
+  folder.write("out/curves/direct_tension_seed_1.csv", "mine too");
+  const Outcome first = run_feldspar(folder.path(), "lab a.prm --output out --force --quiet");
+  ASSERT_EQ(first.exit_code, 0) << first.error;
+  EXPECT_EQ(content(folder.path() / "out/tables/tests.csv.kept"), "mine");
+  EXPECT_EQ(content(folder.path() / "out/curves/direct_tension_seed_1.csv.kept"), "mine too");
+  EXPECT_NE(first.error.find("direct_tension_seed_1.csv: no run is known to have written it; it is kept as "
+                             "direct_tension_seed_1.csv.kept\n"),
+            std::string::npos)
+    << first.error;
+
+  folder.write("out/curves/direct_tension_seed_2.csv", "of my second core");
+  fs::create_directory(folder.path() / "out/curves/direct_tension_seed_3.csv");
+  folder.write("out/curves/direct_tension_seed_3.csv/notes.txt", "a folder of mine");
+  const Outcome again =
+    run_feldspar(folder.path(), "lab a.prm --set \"Seeds/Seeds = 2..3\" --output out --force --quiet");
+  ASSERT_EQ(again.exit_code, 0) << again.error;
+  EXPECT_EQ(content(folder.path() / "out/curves/direct_tension_seed_2.csv.kept"), "of my second core");
+  EXPECT_EQ(content(folder.path() / "out/curves/direct_tension_seed_3.csv.kept/notes.txt"), "a folder of mine");
+  EXPECT_EQ(content(folder.path() / "out/tables/tests.csv.kept"), "mine");
+
+  // A report beside the results asks for no --force, and loses nothing either.
+  fs::remove(folder.path() / "out/report.html");
+  fs::create_directory(folder.path() / "out/report.html");
+  std::ofstream(folder.path() / "out/.feldspar-files") << "run.json\nsummary.json\n";
+  ASSERT_EQ(run_feldspar(folder.path(), "report out --quiet").exit_code, 0);
+  EXPECT_TRUE(fs::is_directory(folder.path() / "out/report.html.kept"));
+  EXPECT_TRUE(fs::exists(folder.path() / "out/tables/tests.csv.kept-2"));
+}
+
+// A slot that takes the upper end off is found once the rock is made.
+TEST(WriteOver, ThatIsRefusedLaterLeavesTheEarlierRunAsItWas)
+{
+  const TemporaryFolder folder;
+  folder.write("a.prm", rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  folder.write("out/tables/mine.csv", "mine");
+  const auto before = all_files(folder.path());
+  const auto listed = lines_of(folder.path() / "out/.feldspar-files");
+  for (const char* const setting :
+       {"Flaws/Shapes = slot from 0, 6 mm to 8, 6 mm width 1.5 mm", "Tests/Grip ratio = 0.001"})
+    {
+      const Outcome outcome =
+        run_feldspar(folder.path(), fmt::format("lab a.prm --set \"{}\" --output out --force --quiet", setting));
+      EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+      EXPECT_TRUE(all_files(folder.path()) == before) << setting;
+      EXPECT_EQ(lines_of(folder.path() / "out/.feldspar-files"), listed);
+      EXPECT_FALSE(fs::exists(folder.path() / "out/.feldspar-before"));
+    }
+}
+
+TEST(WriteOver, NamesAnObstacleByItsOwnName)
+{
+  const TemporaryFolder folder;
+  folder.write("a.prm", rock);
+  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  fs::rename(folder.path() / "out/tables", folder.path() / "tables");
+  folder.write("out/tables", "a file");
+  for (const char* const command : {"report out", "lab a.prm --output out --force"})
+    expect_refused(folder, command, "out/tables: is a file, where a folder of results is to be; move it elsewhere");
+  fs::remove(folder.path() / "out/tables");
+  folder.write("victim", "precious");
+  fs::rename(folder.path() / "out/.feldspar-files", folder.path() / "list");
+  fs::create_symlink("../victim", folder.path() / "out/.feldspar-files");
+  expect_refused(folder, "report out", "out/.feldspar-files: is a link");
+  // A name that no run of this rock writes is no obstacle.
+  fs::create_directory(folder.path() / "mine");
+  folder.write("mine/specimen_notes.h5", "notes");
+  EXPECT_EQ(run_feldspar(folder.path(), "specimen a.prm --output mine --force --quiet").exit_code, 0);
+  EXPECT_EQ(content(folder.path() / "mine/specimen_notes.h5"), "notes");
+}
+
 TEST(WriteOver, OfAVersionWithoutListsTakesOutTheKnownNamesAtTheTop)
 {
   const TemporaryFolder folder;

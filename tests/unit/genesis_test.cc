@@ -270,7 +270,10 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
   const std::string apart = "0.005 0.005 0.001\n";
   const auto words = [](const PackingFile& file) { return file.refusal("periodic"); };
   const PackingFile half_a_radius(apart + "0.0008 0.005 0.001\n0.0093 0.005 0.001\n"); // 1.5 mm from centre to centre
-  EXPECT_EQ(half_a_radius.refusal("box"), "");
+  EXPECT_NE(half_a_radius.refusal("box").find(":2: reaches through the left side by 0.0002 m; allowed are 5 % of the "
+                                              "radius, 5e-05 m"),
+            std::string::npos)
+    << half_a_radius.refusal("box");
   EXPECT_NE(words(half_a_radius)
               .find(".txt:3: overlaps the grain of line 2 by 0.0005 m across the sides of the periodic "
                     "box; allowed are 5 % of the smaller radius, 5e-05 m"),
@@ -299,13 +302,20 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleInSpaceToo)
 {
   // Along the second axis, and across an edge.
   const PackingFile second("0.005 0.0008 0.005 0.001\n0.005 0.0093 0.005 0.001\n");
-  EXPECT_EQ(second.refusal<3>("box"), "");
+  EXPECT_NE(second.refusal<3>("box").find(":1: reaches through the front side by 0.0002 m"), std::string::npos);
   EXPECT_NE(second.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.0005 m across"),
             std::string::npos);
   const PackingFile edge("0.0004 0.005 0.0004 0.001\n0.0095 0.005 0.0095 0.001\n");
   EXPECT_NE(edge.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.000727 m across"),
             std::string::npos);
   EXPECT_EQ(PackingFile("0.001 0.005 0.005 0.001\n0.009 0.005 0.005 0.001\n").refusal<3>("periodic"), "");
+  // On the diagonal of a cylinder's section, 4.3 mm from its axis; 4 mm on an axis touch the side.
+  const std::string inside = "0.005 0.005 0.005 0.001\n";
+  EXPECT_NE(PackingFile(inside + "0.00804 0.00804 0.005 0.001\n")
+              .refusal<3>("cylinder")
+              .find(":2: reaches through the round side by 0.000299 m"),
+            std::string::npos);
+  EXPECT_EQ(PackingFile(inside + "0.009 0.005 0.005 0.001\n").refusal<3>("cylinder"), "");
 }
 
 // As many pairs as grains squared, if they were listed before one is refused.
