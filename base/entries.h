@@ -61,13 +61,33 @@ struct EntryFlags
   std::string_view needs = {};   ///< such a body in words, for the error
 };
 
+/// The place of a value within `Parameters`: a member, or one of a part of them.
+template <typename Parameters, typename T>
+struct Place
+{
+  Place(T Parameters::*const member)
+    : get(member)
+    , at(member)
+  {
+  }
+
+  Place(std::function<const T&(const Parameters&)> reader, std::function<T&(Parameters&)> writer)
+    : get(std::move(reader))
+    , at(std::move(writer))
+  {
+  }
+
+  std::function<const T&(const Parameters&)> get;
+  std::function<T&(Parameters&)> at;
+};
+
 /// One entry that fills a member of `Parameters`.
 template <typename Parameters>
 struct Entry
 {
   struct Number
   {
-    double Parameters::*member; ///< in SI
+    Place<Parameters, double> place; ///< in SI
     Measure measure;
     std::string_view unit; ///< in which it is shown; any other of its measure may be written
     Range range;
@@ -75,7 +95,7 @@ struct Entry
 
   struct OptionalNumber ///< none is allowed
   {
-    std::optional<double> Parameters::*member;
+    Place<Parameters, std::optional<double>> place;
     Measure measure;
     std::string_view unit;
     Range range;
@@ -83,13 +103,13 @@ struct Entry
 
   struct Integer
   {
-    unsigned int Parameters::*member;
+    Place<Parameters, unsigned int> place;
     Range range;
   };
 
   struct File ///< none: an empty name
   {
-    std::string Parameters::*member;
+    Place<Parameters, std::string> place;
   };
 
   struct Choice
@@ -179,4 +199,38 @@ Entry<P> choice(const std::string_view name, T P::*const member,
   return {name, std::move(value), meaning, flags};
 }
 } // namespace entry
+
+/// The same entry of a struct that has `Parameters` as a part, which `get` reads and `at` writes.
+template <typename Whole, typename Parameters, typename Get, typename At>
+Entry<Whole> within(const Entry<Parameters>& entry, const Get& get, const At& at)
+{
+  using From = Entry<Parameters>;
+  using To = Entry<Whole>;
+  const auto moved = [&]<typename T>(const Place<Parameters, T>& place) {
+    return Place<Whole, T>([=](const Whole& whole) -> const T& { return place.get(get(whole)); },
+                           [=](Whole& whole) -> T& { return place.at(at(whole)); });
+  };
+  using Value = decltype(To::value);
+  Value value = std::visit(
+    [&](const auto& form) -> Value {
+      using Kind = std::decay_t<decltype(form)>;
+      if constexpr (std::is_same_v<Kind, typename From::Number>)
+        return typename To::Number{moved(form.place), form.measure, form.unit, form.range};
+      else if constexpr (std::is_same_v<Kind, typename From::OptionalNumber>)
+        return typename To::OptionalNumber{moved(form.place), form.measure, form.unit, form.range};
+      else if constexpr (std::is_same_v<Kind, typename From::Integer>)
+        return typename To::Integer{moved(form.place), form.range};
+      else if constexpr (std::is_same_v<Kind, typename From::File>)
+        return typename To::File{moved(form.place)};
+      else if constexpr (std::is_same_v<Kind, typename From::Choice>)
+        return typename To::Choice{form.options, [=](Whole& whole, const std::size_t k) { form.set(at(whole), k); },
+                                   [=](const Whole& whole) { return form.get(get(whole)); }};
+      else
+        return typename To::Text{form.unit, form.range,
+                                 [=](Whole& whole, const std::string_view text) { form.read(at(whole), text); },
+                                 [=](const Whole& whole) { return form.write(get(whole)); }};
+    },
+    entry.value);
+  return {entry.name, std::move(value), entry.meaning, entry.flags};
+}
 } // namespace feldspar

@@ -20,7 +20,7 @@ constexpr double gap_ratio = 0.0457; // that of the granite of the examples
 /// Packed as the examples' granite from its first seed, and moved so slowly that nothing breaks.
 Specimen<2> specimen_of(const JointParameters& joint)
 {
-  auto specimen = make_specimen<2>({}, joint, {}, 1, [](std::string_view, double) {});
+  auto specimen = make_specimen<2>({}, joint, {}, 1);
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     specimen.grains.velocity[1][i] = -0.01 * specimen.grains.position[1][i];
   return specimen;

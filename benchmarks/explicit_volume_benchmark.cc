@@ -25,7 +25,7 @@ const Specimen<2>& specimen()
     wanted.width = wanted.height = 0.0325;
     FlatJointParameters joint;
     joint.coordination_number = 4.2;
-    return make_specimen<2>(wanted, joint, {}, 1, [](std::string_view, double) {});
+    return make_specimen<2>(wanted, joint, {}, 1);
   }();
   return made;
 }

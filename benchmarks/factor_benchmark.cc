@@ -30,8 +30,7 @@ const Network<dim>& network(const double width)
   wanted.porosity = dim == 2 ? 0.16 : 0.36;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
-  return known.try_emplace(width, make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {}))
-    .first->second;
+  return known.try_emplace(width, make_specimen<dim>(wanted, joint, {}, 1)).first->second;
 }
 
 constexpr double lent = 1e-6; // of the diagonal, so that nothing floats

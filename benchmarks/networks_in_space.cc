@@ -23,7 +23,7 @@ int main()
   for (const std::uint64_t seed : {1, 2, 3})
     {
       joint.installation_gap_ratio = 0.05;
-      const auto packing = make_specimen<3>(wanted, joint, {}, seed, [](std::string_view, double) {});
+      const auto packing = make_specimen<3>(wanted, joint, {}, seed);
       for (const double gap : {0.0, 0.05, 0.1, 0.3})
         {
           Specimen<3> specimen = packing;

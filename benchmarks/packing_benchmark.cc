@@ -28,7 +28,7 @@ void pack(benchmark::State& state, const bool by_descent)
   double n_grains = 0.0;
   for (auto _ : state)
     {
-      const auto specimen = make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {});
+      const auto specimen = make_specimen<dim>(wanted, joint, {}, 1);
       n_grains = specimen.report.n_grains;
       benchmark::DoNotOptimize(n_grains);
     }

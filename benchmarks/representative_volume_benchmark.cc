@@ -27,7 +27,7 @@ Specimen<dim> specimen()
       wanted.porosity = 0.36;
       joint.installation_gap_ratio = 0.05;
     }
-  return make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, joint, {}, 1);
 }
 
 template <int dim>

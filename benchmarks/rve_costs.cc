@@ -31,7 +31,7 @@ std::shared_ptr<const Network<2>> network(const std::uint64_t seed)
   wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;
   joint.coordination_number = 4.2;
-  return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {}));
+  return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, seed));
 }
 
 /// The time of the calls of one kind in a step.

@@ -129,9 +129,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
 template <int dim>
 Specimen<dim> packing_of(const Input& input, const std::uint64_t seed)
 {
-  return make_specimen<dim>(
-    input.specimen, input.flat_joint, input.particle_contact, seed, [](std::string_view, double) {},
-    end_if_interrupted);
+  return make_specimen<dim>(input.specimen, input.flat_joint, input.particle_contact, seed, end_if_interrupted);
 }
 
 template ElasticTable elastic_constants<2>(const Input&, const std::optional<Bounds>&, const std::optional<Bounds>&,

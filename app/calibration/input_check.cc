@@ -3,6 +3,7 @@
 #include "app/calibration/problem.h"
 #include "app/programme/checks.h"
 #include "base/input_error.h"
+#include "dem/lab/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ void check(const Input& input)
     refuse("Flaws: a calibration is of the intact rock; take the section out");
   if (!input.variants.entries.empty())
     refuse("Variants/Entry: a calibration has no variants; the bounds of its unknowns are in section Calibration");
-  if (input.tests.intermediate_stress)
+  if (input.tests.of<ConfinementParameters>().intermediate_stress)
     refuse("Tests/Intermediate stress: a calibration presses its specimens alike from all sides; take the entry out");
   if (input.seeds.size() > 1)
     refuse("Seeds/Seeds: a calibration numbers its packings itself, from one seed on; give that one");

@@ -3,14 +3,15 @@
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/kept_values.h"
 #include "app/programme/lab_run.h"
+#include "app/input/joint_sections.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
 #include "app/screen/test_length.h"
 #include "base/input_error.h"
-#include "dem/genesis/genesis.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
+#include "dem/rock/rock.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ public:
     , n_tests(programme.size() * n_points)
   {
     for (const TestCase& test : programme)
-      costs.push_back(expected_end(test, input) / (input.tests.*protocol_of(test.kind).strain_rate));
+      costs.push_back(expected_end(test, input) / (*protocol_of(test.kind).strain_rate)(input.tests));
     left = double(n_points) * std::accumulate(costs.begin(), costs.end(), 0.0);
   }
 
@@ -99,9 +100,7 @@ std::string objection_to_packing(const Input& rock, const std::uint64_t seed, co
     return "";
   try
     {
-      const auto specimen = make_specimen<dim>(
-        rock.specimen, rock.flat_joint, rock.particle_contact, seed, [](std::string_view, double) {},
-        end_if_interrupted);
+      const auto specimen = make_rock<dim>(rock_of(rock), seed, end_if_interrupted);
       for (const TestCase& test : test_cases(rock.test_list, rock.confinements))
         (*protocol_of(test.kind).template set_up<dim>())(specimen, test.confining_pressure, rock.tests, rock.dynamics);
     }
@@ -143,9 +142,7 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
     const auto name_of = [&](const TestCase& test) { return fmt::format("{}_{}", order.name(), name(test)); };
     try
       {
-        const auto specimen = make_specimen<dim>(
-          rock.specimen, rock.flat_joint, rock.particle_contact, order.seed, [](std::string_view, double) {},
-          end_if_interrupted);
+        const auto specimen = make_rock<dim>(rock_of(rock), order.seed, end_if_interrupted);
         for (std::size_t j = 0; j < programme.size(); ++j)
           {
             const TestCase& test = programme[j];

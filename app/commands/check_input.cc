@@ -2,6 +2,7 @@
 
 #include "app/calibration/input_check.h"
 #include "app/commands/commands.h"
+#include "app/input/joint_sections.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
 #include "app/programme/sample_checks.h"
@@ -9,6 +10,7 @@
 #include "app/programme/test_effort.h"
 #include "app/programme/usual_ranges.h"
 #include "app/run/finite_elements.h"
+#include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "coupling/rve/rve_file.h"
@@ -35,9 +37,9 @@ void with_specimen_of_file(const Input& input, const Look& look)
   if (input.specimen.specimen_file.empty())
     return;
   if (input.specimen.dimension == 2)
-    look(specimen_of_file<2>(input));
+    look(make_rock<2>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
   else
-    look(specimen_of_file<3>(input));
+    look(make_rock<3>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
 }
 
 Remarks check_lab(const Input& input, const std::filesystem::path& file)

@@ -12,7 +12,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <system_error>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 namespace feldspar
 {
@@ -83,37 +88,48 @@ std::string write_number(const double value, const Measure measure, const std::s
 }
 
 std::string spaced(const std::string_view unit) { return unit.empty() ? "" : fmt::format(" {}", unit); }
-} // namespace
 
-ValueForm<double> number_form(const Measure measure, const std::string_view unit, const Range& range)
+/// The text of a value.
+template <typename T>
+struct ValueForm
 {
+  std::string unit;
+  std::string range;
+  std::function<T(const Input&, std::string_view)> read; ///< throws InputError
+  std::function<std::string(const T&)> write;
+};
+
+ValueForm<double> form_of(const Entry<Input>::Number& number)
+{
+  const auto& [place, measure, unit, range] = number;
   return {std::string(unit), text_of(range, spaced(unit)),
-          [=](const Input&, const std::string_view text) {
+          [measure = measure, unit = unit, range = range](const Input&, const std::string_view text) {
             return read_number(text, measure, unit, range, demand_of(range, spaced(unit)));
           },
-          [=](const double value) { return write_number(value, measure, unit); }};
+          [measure = measure, unit = unit](const double value) { return write_number(value, measure, unit); }};
 }
 
-ValueForm<std::optional<double>> optional_number_form(const Measure measure, const std::string_view unit,
-                                                      const Range& range)
+ValueForm<std::optional<double>> form_of(const Entry<Input>::OptionalNumber& number)
 {
+  const auto& [place, measure, unit, range] = number;
   return {std::string(unit), fmt::format("none, or {}", text_of(range, spaced(unit))),
-          [=](const Input&, const std::string_view text) -> std::optional<double> {
+          [measure = measure, unit = unit, range = range](const Input&,
+                                                          const std::string_view text) -> std::optional<double> {
             if (text == none)
               return std::nullopt;
             return read_number(text, measure, unit, range,
                                fmt::format("{}, or be none", demand_of(range, spaced(unit))));
           },
-          [=](const std::optional<double>& value) {
+          [measure = measure, unit = unit](const std::optional<double>& value) {
             return value ? write_number(*value, measure, unit) : std::string(none);
           }};
 }
 
-ValueForm<unsigned int> integer_form(const Range& range)
+ValueForm<unsigned int> form_of(const Entry<Input>::Integer& integer)
 {
-  const std::string allowed = fmt::format("integer in {}", text_of(range, ""));
+  const std::string allowed = fmt::format("integer in {}", text_of(integer.range, ""));
   return {"", allowed,
-          [=](const Input&, const std::string_view text) {
+          [allowed, range = integer.range](const Input&, const std::string_view text) {
             unsigned int value = 0;
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
             if (error != std::errc() || end != text.data() + text.size() || !range.contains(value))
@@ -123,7 +139,7 @@ ValueForm<unsigned int> integer_form(const Range& range)
           [](const unsigned int value) { return std::to_string(value); }};
 }
 
-ValueForm<std::string> file_form()
+ValueForm<std::string> form_of(const Entry<Input>::File& /*file*/)
 {
   return {"", std::string(none_or_a_file),
           [](const Input& input, const std::string_view text) {
@@ -139,20 +155,61 @@ ValueForm<std::string> file_form()
           [](const std::string& path) { return path.empty() ? std::string(none) : path; }};
 }
 
-ValueForm<std::size_t> choice_form(const std::vector<std::string_view>& options)
+ValueForm<std::size_t> form_of(const Entry<Input>::Choice& choice)
 {
+  const auto& options = choice.options;
   std::string range(options.front());
   if (options.size() == 1)
     range += " (the only choice in this version)";
   for (std::size_t k = 1; k < options.size(); ++k)
     range += fmt::format(" or {}", options[k]);
   return {"", range,
-          [=](const Input&, const std::string_view text) {
+          [range, options](const Input&, const std::string_view text) {
             for (std::size_t k = 0; k < options.size(); ++k)
               if (options[k] == text)
                 return k;
             throw InputError(fmt::format("must be {}{}", range, nearest_name(text, options)));
           },
-          [=](const std::size_t k) { return std::string(options[k]); }};
+          [options](const std::size_t k) { return std::string(options[k]); }};
+}
+
+} // namespace
+
+Parameter parameter_of(const std::string_view section, const Entry<Input>& entry)
+{
+  Parameter parameter{section, entry.name, "", "", entry.meaning, entry.flags, {}, {}};
+  std::visit(
+    [&](const auto& value) {
+      using Kind = std::decay_t<decltype(value)>;
+      if constexpr (std::is_same_v<Kind, Entry<Input>::Text>)
+        {
+          parameter.unit = value.unit;
+          parameter.range = value.range;
+          parameter.read = value.read;
+          parameter.write = value.write;
+        }
+      else
+        {
+          const auto form = form_of(value);
+          parameter.unit = form.unit;
+          parameter.range = form.range;
+          if constexpr (std::is_same_v<Kind, Entry<Input>::Choice>)
+            {
+              parameter.read = [=](Input& input, const std::string_view text) {
+                value.set(input, form.read(input, text));
+              };
+              parameter.write = [=](const Input& input) { return form.write(value.get(input)); };
+            }
+          else
+            {
+              parameter.read = [=](Input& input, const std::string_view text) {
+                value.place.at(input) = form.read(input, text);
+              };
+              parameter.write = [=](const Input& input) { return form.write(value.place.get(input)); };
+            }
+        }
+    },
+    entry.value);
+  return parameter;
 }
 } // namespace feldspar

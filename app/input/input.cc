@@ -8,6 +8,8 @@
 #include "base/quoted.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/lab/loading_stages.h"
+#include "dem/lab/surroundings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -292,13 +294,13 @@ void complete_loading(Input& input, const GivenEntries& values)
   const auto refuse = [&](const char* entry, const std::string& why) {
     throw values.error("Tests", values.has("Tests", entry) ? entry : "List", fmt::format("{} {}", follower->name, why));
   };
-  if (input.tests.loading_table.empty())
+  if (input.tests.of<LoadingTable>().file.empty())
     refuse("Loading table", "follows a table; name its CSV file by Tests/Loading table");
-  if (input.tests.lateral_boundary != LateralBoundary::wall)
+  if (input.tests.of<ConfinementParameters>().lateral_boundary != LateralBoundary::wall)
     refuse("Lateral boundary", "presses by walls; set Lateral boundary = wall");
-  if (input.tests.intermediate_stress)
+  if (input.tests.of<ConfinementParameters>().intermediate_stress)
     refuse("Intermediate stress", "has one confinement on all sides; set Intermediate stress = none");
-  input.tests.loading_stages = read_loading_stages(input.tests.loading_table);
+  input.tests.of<LoadingTable>().stages = read_loading_stages(input.tests.of<LoadingTable>().file);
 }
 
 void check_strain_path(const Input& input, const GivenEntries& values)

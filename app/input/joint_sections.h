@@ -2,6 +2,7 @@
 
 #include "app/input/input.h"
 #include "dem/laws/joint_laws.h"
+#include "dem/rock/rock.h"
 
 #include <optional>
 #include <stdexcept>
@@ -29,5 +30,13 @@ inline JointParameters joint_parameters(const Input& input)
   if (!parameters)
     throw std::logic_error("a joint law without a section of its own");
   return *parameters;
+}
+
+/// The rock that the input asks for.
+inline RockParameters rock_of(const Input& input)
+{
+  return {input.specimen,    joint_parameters(input), input.particle_contact,
+          input.flaws.all(), input.smooth_joint,      input.mineral_grains,
+          input.clumps};
 }
 } // namespace feldspar

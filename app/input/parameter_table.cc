@@ -9,7 +9,7 @@
 #include "coupling/sample/sample_entries.h"
 #include "dem/dynamics/entries.h"
 #include "dem/flaws/entries.h"
-#include "dem/lab/entries.h"
+#include "dem/lab/protocols/protocols.h"
 #include "dem/laws/entries.h"
 #include "dem/laws/joint_laws.h"
 #include "dem/specimen/entries.h"
@@ -30,15 +30,15 @@ public:
   void add(const std::string_view section, P Input::*const part, const std::vector<Entry<P>>& entries)
   {
     for (const Entry<P>& one : entries)
-      parameters.push_back(parameter_of(
-        section, one, [part](auto& input) -> auto& { return input.*part; }));
+      parameters.push_back(parameter_of(section, within<Input>(
+                                                   one, [part](const Input& input) -> const P& { return input.*part; },
+                                                   [part](Input& input) -> P& { return input.*part; })));
   }
 
   void add(const std::string_view section, const std::vector<Entry<Input>>& entries)
   {
     for (const Entry<Input>& one : entries)
-      parameters.push_back(parameter_of(
-        section, one, [](auto& input) -> auto& { return input; }));
+      parameters.push_back(parameter_of(section, one));
   }
 
   std::vector<Parameter> parameters;

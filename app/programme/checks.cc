@@ -5,6 +5,7 @@
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/surroundings.h"
 #include "dem/laws/joint_laws.h"
 #include "results/folder/reference.h"
 
@@ -81,7 +82,7 @@ void check_specimen_and_tests(const Input& input)
            "feldspar rve");
   if (specimen.specimen_file.empty()) // else it brings its own shape
     check_on_body(input, body_of(specimen));
-  const auto& intermediate_stress = input.tests.intermediate_stress;
+  const auto& intermediate_stress = input.tests.of<ConfinementParameters>().intermediate_stress;
   for (const double confinement : input.confinements)
     if (any_takes_confining_pressure(input.test_list) && intermediate_stress && *intermediate_stress < confinement)
       refuse(fmt::format("Tests/Intermediate stress = {:g} MPa: must be at least the least stress, and Confinements "

@@ -98,7 +98,7 @@ std::vector<BoardTest> for_board(const std::vector<PlannedTest<dim>>& planned)
   for (const auto& one : planned)
     shown.push_back({one.name, one.test, &one.variant->input,
                      cost_of_specimen(one.specimen->grains.size(),
-                                      one.variant->input.tests.*protocol_of(one.test.kind).strain_rate)});
+                                      (*protocol_of(one.test.kind).strain_rate)(one.variant->input.tests))});
   return shown;
 }
 

@@ -11,6 +11,7 @@
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/grain_material.h"
 #include "coupling/sample/ranks.h"
+#include "dem/lab/loading_stages.h"
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -156,7 +157,7 @@ std::vector<PlannedSample> plan(const Input& input, const std::vector<Rock>& roc
         if (any_takes_confining_pressure(input.test_list))
           for (const double pressure : input.confinements)
             check_confinement(pressure, "Tests/Confinements", *packings.realisations.front().inside);
-        for (const LoadingStage& stage : input.tests.loading_stages)
+        for (const LoadingStage& stage : input.tests.of<LoadingTable>().stages)
           check_confinement(stage.confining_pressure, "Tests/Loading table", *packings.realisations.front().inside);
       },
       rock.packings);

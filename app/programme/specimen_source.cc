@@ -8,10 +8,7 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "base/input_error.h"
-#include "dem/flaws/apply.h"
-#include "dem/flaws/clumps.h"
-#include "dem/flaws/mineral_grains.h"
-#include "dem/genesis/genesis.h"
+#include "dem/rock/rock.h"
 #include "dem/specimen/specimen_file.h"
 
 #include <fmt/format.h>
@@ -20,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <variant>
 
 namespace feldspar
 {
@@ -122,34 +118,7 @@ private:
   std::vector<Entry> entries;
 };
 
-/// A specimen out of a file brings its own joint law, which must be the one that the input speaks of.
-template <int dim>
-Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted)
-{
-  auto specimen = read_specimen<dim>(wanted.specimen_file, end_if_interrupted);
-  const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
-  if (law != wanted.joint_law)
-    throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
-                                 wanted.specimen_file, law));
-  return specimen;
-}
-
-/// What the input has beside grains and joints.
-template <int dim>
-Specimen<dim> with_flaws_and_clumps(Specimen<dim> specimen, const Input& input)
-{
-  put_in_flaws(specimen, input.flaws.all(), input.smooth_joint);
-  put_in_mineral_grains(specimen, input.mineral_grains, input.smooth_joint);
-  put_in_clumps(specimen, input.clumps);
-  return specimen;
-}
 } // namespace
-
-template <int dim>
-Specimen<dim> specimen_of_file(const Input& input)
-{
-  return with_flaws_and_clumps(read_finished_specimen<dim>(input.specimen), input);
-}
 
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
 {
@@ -219,13 +188,7 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
         {
           board.say(fmt::format("{}; making it anew", error.what()));
         }
-    specimens[k] =
-      input.specimen.specimen_file.empty()
-        ? with_flaws_and_clumps(make_specimen<dim>(
-                                  input.specimen, joint_parameters(input), input.particle_contact, orders[k].seed,
-                                  [](std::string_view, double) {}, step, end_if_interrupted),
-                                input)
-        : specimen_of_file<dim>(input);
+    specimens[k] = make_rock<dim>(rock_of(input), orders[k].seed, step, end_if_interrupted);
     write_specimen(specimens[k], file);
     board.finish(k);
   });
@@ -290,8 +253,6 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   return text;
 }
 
-template Specimen<2> specimen_of_file<2>(const Input&);
-template Specimen<3> specimen_of_file<3>(const Input&);
 template std::string describe<2>(const std::vector<Flaw<2>>&);
 template std::string describe<3>(const std::vector<Flaw<3>>&);
 template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

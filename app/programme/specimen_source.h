@@ -21,10 +21,6 @@ struct SpecimenOrder
 /// One for each rock and seed: variants that differ in the tests alone share theirs.
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants);
 
-/// The specimen of Specimen/Specimen file, with what the input puts into it. Throws InputError.
-template <int dim>
-Specimen<dim> specimen_of_file(const Input& input);
-
 /// Provides the specimens, several at a time, and writes each into the folder; one that is there already, from a run
 /// that was broken off, is read. Throws InputError, and Interrupted.
 template <int dim>

@@ -95,7 +95,7 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
         test->kind.follows_stages
           ? StageLength(input->tests, expected_modulus(*input)).left()
           : expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
-      const double rate = input->tests.*protocol_of(test->kind).strain_rate;
+      const double rate = (*protocol_of(test->kind).strain_rate)(input->tests);
       const double n_steps = known->second > 0.0 ? strain / (rate * known->second) : 0.0;
       const double of_one = n_steps * double(specimen->joints.size()) * seconds_of_joint_and_step(dim);
       effort.n_steps = std::max(effort.n_steps, n_steps);

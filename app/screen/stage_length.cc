@@ -1,4 +1,6 @@
 #include "app/screen/stage_length.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/loading_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +12,13 @@ StageLength::StageLength(const TestParameters& parameters, const double modulus_
   , modulus(modulus_of_body)
   , walk(parameters)
 {
-  if (!wanted.loading_stages.empty())
-    now.axial_stress = wanted.loading_stages.front().confining_pressure;
+  if (!wanted.of<LoadingTable>().stages.empty())
+    now.axial_stress = wanted.of<LoadingTable>().stages.front().confining_pressure;
 }
 
 void StageLength::follow(const CurveSample& row)
 {
-  if (is_over || wanted.loading_stages.empty())
+  if (is_over || wanted.of<LoadingTable>().stages.empty())
     return;
   now = {row.time, -row.axial_strain, -row.axial_stress, -row.gauge_lateral_strain};
   rows.push_back(row);
@@ -38,15 +40,15 @@ double StageLength::left() const
   const std::size_t n_begun = walk.records().size();
   StageMoment at = now;
   double time = n_begun > 0 && walk.stage().duration ? walk.start_of_stage().time - now.time : 0.0;
-  for (std::size_t k = std::max<std::size_t>(n_begun, 1) - 1; k < wanted.loading_stages.size(); ++k)
-    time += way(wanted.loading_stages[k], at);
+  for (std::size_t k = std::max<std::size_t>(n_begun, 1) - 1; k < wanted.of<LoadingTable>().stages.size(); ++k)
+    time += way(wanted.of<LoadingTable>().stages[k], at);
   return strain_of(std::max(0.0, time));
 }
 
 double StageLength::way(const LoadingStage& stage, StageMoment& from) const
 {
   constexpr double widening_over_shortening = 0.25; // of rock that bears
-  const double rate = stage.strain_rate.value_or(wanted.compression_strain_rate);
+  const double rate = stage.strain_rate.value_or(wanted.of<CompressionParameters>().strain_rate);
   double strain = 0.0;
   double time = 0.0;
   if (stage.duration)

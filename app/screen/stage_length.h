@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/lab/compression.h"
 #include "dem/lab/stage_walk.h"
 
 #include <vector>
@@ -20,7 +21,7 @@ public:
   double left() const;
 
 private:
-  double strain_of(double time) const { return time * wanted.compression_strain_rate; }
+  double strain_of(double time) const { return time * wanted.of<CompressionParameters>().strain_rate; }
   /// Takes it to the end of the stage. Returns how long that takes [s].
   double way(const LoadingStage& stage, StageMoment& from) const;
 

@@ -44,10 +44,9 @@ JointParameters joint_of(const std::string& body)
 template <int dim>
 Specimen<dim> body_named(const std::string& body)
 {
-  const GenesisMonitor silent = [](std::string_view, double) {};
   SpecimenParameters wanted;
   if constexpr (dim == 2)
-    return make_specimen<2>(wanted, joint_of(body), {}, 1, silent);
+    return make_specimen<2>(wanted, joint_of(body), {}, 1);
   else
     {
       constexpr unsigned int n_across = 2;
@@ -55,8 +54,8 @@ Specimen<dim> body_named(const std::string& body)
       wanted.porosity = 0.37;
       wanted.shape = "periodic";
       wanted.width = wanted.height = 0.0265;
-      return cored<3>(
-        repeated<3>(make_specimen<3>(wanted, joint_of(body), {}, 1, silent), {n_across, n_across, 2 * n_across}), true);
+      return cored<3>(repeated<3>(make_specimen<3>(wanted, joint_of(body), {}, 1), {n_across, n_across, 2 * n_across}),
+                      true);
     }
 }
 

@@ -31,7 +31,7 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
   if (test.kind.follows_stages)
     {
       stage_walk.emplace(wanted);
-      stage_row.confining_pressure = wanted.loading_stages.at(0).confining_pressure;
+      stage_row.confining_pressure = wanted.of<LoadingTable>().stages.at(0).confining_pressure;
     }
   bookkeeping.solver_work.emplace();
 }

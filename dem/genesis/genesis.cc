@@ -84,8 +84,8 @@ void place_in_box(Specimen<dim>& specimen, const std::vector<double>& radii, Com
 
 /// Grains thrown in at random, let calm down without friction, then scaled until the mean stress is reached.
 template <int dim>
-void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const GenesisMonitor& monitor,
-          const std::function<void()>& check, const std::function<void()>& check_within)
+void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::function<void()>& check,
+          const std::function<void()>& check_within)
 {
   const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
@@ -151,7 +151,6 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const Genes
       const double ratio = relax(dynamics, equilibrium_tolerance, 4000, check);
       const double stress = -dynamics.mean_stress().trace() / dim;
       const double error = stress / target - 1.0;
-      monitor("packing", std::exp(-3.0 * std::max(0.0, std::abs(error) - stress_tolerance)));
       if (std::abs(error) <= stress_tolerance && ratio <= equilibrium_tolerance)
         {
           specimen.report.packing_stress = stress;
@@ -210,8 +209,7 @@ void install_joints(Specimen<dim>& specimen, const JointParameters& wanted, cons
 template <int dim>
 Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParameters& joint,
                             const ParticleContactParameters& particle_contact, const std::uint64_t seed,
-                            const GenesisMonitor& monitor, const std::function<void()>& check,
-                            const std::function<void()>& check_within)
+                            const std::function<void()>& check, const std::function<void()>& check_within)
 {
   Specimen<dim> specimen;
   specimen.size.setConstant(wanted.width);
@@ -228,7 +226,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
   if (wanted.packing_file.empty())
-    pack(specimen, wanted, monitor, check, check_within);
+    pack(specimen, wanted, check, check_within);
   else
     specimen.grains = read_packing<dim>(wanted, check_within);
   check_within();
@@ -246,11 +244,11 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
 }
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
-                                      const std::function<void()>&, const std::function<void()>&);
+                                      const ParticleContactParameters&, std::uint64_t, const std::function<void()>&,
+                                      const std::function<void()>&);
 template Specimen<3> make_specimen<3>(const SpecimenParameters&, const JointParameters&,
-                                      const ParticleContactParameters&, std::uint64_t, const GenesisMonitor&,
-                                      const std::function<void()>&, const std::function<void()>&);
+                                      const ParticleContactParameters&, std::uint64_t, const std::function<void()>&,
+                                      const std::function<void()>&);
 template void install_joints<2>(Specimen<2>&, const JointParameters&, const std::function<void()>&);
 template void install_joints<3>(Specimen<3>&, const JointParameters&, const std::function<void()>&);
 } // namespace feldspar

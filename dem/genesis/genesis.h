@@ -7,13 +7,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <string_view>
 
 namespace feldspar
 {
-/// Told now and then what genesis does; may throw to end it.
-using GenesisMonitor = std::function<void(std::string_view stage, double fraction)>;
-
 /// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs joints; docs/theory.md
 /// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
 /// `check` is called at every step of the packing, `check_within` within steps and between all parts of genesis too, which
@@ -21,8 +17,7 @@ using GenesisMonitor = std::function<void(std::string_view stage, double fractio
 template <int dim>
 Specimen<dim> make_specimen(
   const SpecimenParameters& wanted, const JointParameters& joint, const ParticleContactParameters& particle_contact,
-  std::uint64_t seed, const GenesisMonitor& monitor, const std::function<void()>& check = [] {},
-  const std::function<void()>& check_within = [] {});
+  std::uint64_t seed, const std::function<void()>& check = [] {}, const std::function<void()>& check_within = [] {});
 
 /// Joints of the law that the parameters are of, stress free, between the grains of a specimen that has none; fills in
 /// its report. `check` as of pairs_within().

@@ -1,71 +1,20 @@
 #pragma once
 
-#include "base/entries.h"
-#include "dem/lab/parameters.h"
+#include "dem/lab/own_entries.h"
 
 #include <vector>
 
-/// The entries of the laboratory tests.
+/// The entries of all laboratory tests.
 namespace feldspar
 {
-/// The entries of section Tests.
-inline std::vector<Entry<TestParameters>> test_entries()
+/// The entries of section Tests that no protocol has of its own.
+inline std::vector<Entry<TestParameters>> common_test_entries()
 {
   using P = TestParameters;
-  const EntryFlags varies{.varies = true};
-  const EntryFlags of_grains{.varies = true,
-                             .bodies = {Body::plane_box, Body::box, Body::cylinder},
-                             .needs = "is of tests on specimens of grains"};
+  using namespace tests_flags;
   const EntryFlags of_grains_alike{.bodies = of_grains.bodies, .needs = of_grains.needs};
-  const EntryFlags of_platens{.bodies = {Body::plane_box, Body::box, Body::cylinder, Body::sample},
-                              .needs = "is of tests on bodies between platens"};
-  const EntryFlags of_cylinder{.varies = true,
-                               .bodies = {Body::cylinder},
-                               .needs = "goes round a cylinder of grains: Shape = cylinder, Dimension = 3"};
-  const EntryFlags of_box{.varies = true,
-                          .bodies = {Body::box},
-                          .needs = "presses on two sides of a box of grains in space: Shape = box, Dimension = 3"};
-  const EntryFlags in_space{.varies = true,
-                            .bodies = {Body::box, Body::cylinder},
-                            .needs = "is the length of a disc in space, Dimension = 3; in the plane discs have none"};
-  const Range sampling{'(', 0.0, 0.01, ']'}; // a curve of two rows to the peak tells nothing
+  const EntryFlags varies{.varies = true};
   return {
-    entry::quantity("Compression strain rate", &P::compression_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "magnitude", of_grains),
-    entry::quantity("Tension strain rate", &P::tension_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "magnitude", of_grains),
-    entry::quantity("Brazilian strain rate", &P::brazilian_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "of the loaded diameter; magnitude", of_grains),
-    entry::number("Compression sampling strain", &P::compression_sampling_strain, sampling,
-                  "axial strain between two rows of the curve", of_grains),
-    entry::number("Tension sampling strain", &P::tension_sampling_strain, sampling,
-                  "axial strain between two rows of the curve", of_grains),
-    entry::number("Brazilian sampling strain", &P::brazilian_sampling_strain, sampling,
-                  "strain of the diameter between two rows of the curve", of_grains),
-    entry::quantity("Bending strain rate", &P::bending_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "of the deflection over the depth of the bent body; magnitude", of_grains),
-    entry::number("Bending sampling strain", &P::bending_sampling_strain, sampling,
-                  "deflection over depth between two rows of the curve", of_grains),
-    entry::number(
-      "Notch ratio", &P::notch_ratio, {'[', 0.05, 0.8, ']'},
-      "depth of the notch of a bent body over that of the body (over the radius of a half disc, "
-      "which has a toughness from 0.4 to 0.6 only); of a centre-cracked plate the whole length of its crack over its width",
-      of_grains),
-    entry::quantity("Shear strain rate", &P::shear_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "of the shear displacement over the length of the plane; magnitude", of_grains),
-    entry::number("Shear sampling strain", &P::shear_sampling_strain, sampling,
-                  "shear displacement over the length of the plane between two rows of the curve", of_grains),
-    entry::optional_quantity("Shear normal stiffness", &P::shear_normal_stiffness, Measure::stiffness, "GPa/mm",
-                             ranges::above_zero,
-                             "of the rock around the plane of direct shear: the normal stress grows by this times the "
-                             "opening of the box since its seating; none: the normal stress is constant",
-                             of_grains),
-    entry::file(
-      "Loading table", &P::loading_table,
-      "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
-      "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
-      "rates only say how long a strain takes beside a hold",
-      of_platens),
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
                    of_grains_alike),
@@ -76,21 +25,6 @@ inline std::vector<Entry<TestParameters>> test_entries()
       of_grains),
     entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
                   "travel times of a wave along the specimen over which the confinement is raised", of_grains),
-    entry::choice("Lateral boundary", &P::lateral_boundary,
-                  {{"wall", LateralBoundary::wall}, {"membrane", LateralBoundary::membrane}},
-                  "of a cylinder in triaxial compression: a rigid wall held at the pressure, or the pressure "
-                  "itself on the outer grains",
-                  of_cylinder),
-    entry::optional_quantity(
-      "Intermediate stress", &P::intermediate_stress, Measure::stress, "MPa", ranges::above_zero,
-      "on the second pair of sides of a box in three dimensions (true triaxial compression); none: "
-      "the confinement",
-      of_box),
-    entry::number(
-      "Brazilian length ratio", &P::brazilian_length_ratio, ranges::above_zero,
-      "length of the disc, or half disc, that is cut from a cylinder over its diameter, in three dimensions", in_space),
-    entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'}, "height of each grip over that of the specimen",
-                  of_grains),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
       "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "

@@ -13,13 +13,26 @@
 
 namespace feldspar
 {
+std::vector<Entry<TestParameters>> tension_entries()
+{
+  using P = TensionParameters;
+  using namespace tests_flags;
+  return within_tests<P>({entry::quantity("Tension strain rate", &P::strain_rate, Measure::rate, "1/s",
+                                          ranges::above_zero, "magnitude", of_grains),
+                          entry::number("Tension sampling strain", &P::sampling_strain, range_of_sampling_strain,
+                                        "axial strain between two rows of the curve", of_grains),
+                          entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'},
+                                        "height of each grip over that of the specimen", of_grains)});
+}
+
 template <int dim>
 SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
+  const auto& tension = wanted.of<TensionParameters>();
   constexpr int axis = dim - 1;
   const double height = body.size[axis];
-  const double grip_height = wanted.grip_ratio * height;
-  const double grip_speed = 0.5 * wanted.tension_strain_rate * free_length(body, wanted);
+  const double grip_height = tension.grip_ratio * height;
+  const double grip_speed = 0.5 * tension.strain_rate * free_length(body, wanted);
 
   std::vector<std::uint32_t> lower_grains, upper_grains;
   for (std::uint32_t i = 0; i < body.grains.size(); ++i)
@@ -29,7 +42,7 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
       upper_grains.push_back(i);
   if (lower_grains.empty() || upper_grains.empty())
     throw InputError(fmt::format("Tests/Grip ratio = {}: no grain lies in a grip of {:.3g} m; make it larger",
-                                 wanted.grip_ratio, grip_height));
+                                 tension.grip_ratio, grip_height));
 
   const auto piece = fragments(body);
   std::vector<bool> is_held_above(body.grains.size(), false);
@@ -41,13 +54,13 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
                      "strength goes right through the specimen, whose tensile strength is 0; leave the test out");
 
   SetUpTest<dim> test{Dynamics<dim>(body, dynamics, ZeroForce::as_placed), {}};
-  start_steadily(test.dynamics, wanted.tension_strain_rate);
+  start_steadily(test.dynamics, tension.strain_rate);
   const Vector<dim> upwards = grip_speed * Vector<dim>::Unit(axis);
   const auto lower = test.dynamics.add_grip(std::move(lower_grains), -upwards);
   const auto upper = test.dynamics.add_grip(std::move(upper_grains), upwards);
 
-  test.loading.strain_rate = wanted.tension_strain_rate;
-  test.loading.sampling_strain = wanted.tension_sampling_strain;
+  test.loading.strain_rate = tension.strain_rate;
+  test.loading.sampling_strain = tension.sampling_strain;
   const double area = body.volume() / height;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area};

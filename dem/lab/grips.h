@@ -1,15 +1,29 @@
 #pragma once
 
+#include "dem/lab/own_entries.h"
 #include "dem/lab/test_in_progress.h"
+
+#include <vector>
 
 namespace feldspar
 {
+/// The pull of two grips.
+struct TensionParameters
+{
+  double strain_rate = 0.164;    ///< [1/s]
+  double sampling_strain = 1e-6; ///< between two rows of the curve
+  double grip_ratio = 0.1;       ///< height of each grip over the specimen's
+};
+
+/// The entries of TensionParameters.
+std::vector<Entry<TestParameters>> tension_entries();
+
 /// Between the grips [m].
 template <int dim>
 double free_length(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
   const double height = specimen.size[dim - 1];
-  return height - 2.0 * (wanted.grip_ratio * height);
+  return height - 2.0 * (wanted.of<TensionParameters>().grip_ratio * height);
 }
 
 /// Pulls a body along the last axis: its ends are held as rigid grips, each of which moves outwards at half the strain rate

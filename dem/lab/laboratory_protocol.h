@@ -3,13 +3,17 @@
 #include "base/vector.h"
 #include "results/kinds.h"
 
+#include <array>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace feldspar
 {
 struct DynamicsParameters;
 struct TestParameters;
+template <typename Parameters>
+struct Entry;
 template <int dim>
 struct Specimen;
 template <int dim>
@@ -24,6 +28,19 @@ using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure
 /// The size of the body that a test cuts out of a specimen [m].
 template <int dim>
 using BodySize = Vector<dim> (*)(const Specimen<dim>&, const TestParameters&);
+
+/// The magnitude of the rate of CurveSample::axial_strain [1/s].
+using Rate = double (*)(const TestParameters&);
+
+/// The rate where it is a member of a protocol's own parameters.
+template <typename Own, typename Tests = TestParameters>
+double rate_of(const Tests& tests)
+{
+  return tests.template of<Own>().strain_rate;
+}
+
+/// Entries of parameters that some protocols alone have.
+using OwnEntries = std::vector<Entry<TestParameters>> (*)();
 
 /// The strain at the peak by that of another test, for the time left while the curve itself shows too little.
 struct PeakForecast
@@ -43,11 +60,12 @@ struct PeakForecast
 struct LaboratoryProtocol
 {
   TestKind kind;
-  double TestParameters::*strain_rate = nullptr; ///< the magnitude of the rate of CurveSample::axial_strain [1/s]
-  PeakForecast forecast = {};
-  bool takes_cylinders = false; ///< in space; boxes are taken by all
-  bool takes_clumps = false;    ///< in the plane: specimens of rigid groups of grains
   // Optional instead of null: the sanitizers' null checks keep an address from being compared in a constant.
+  std::optional<Rate> strain_rate = {};
+  std::array<OwnEntries, 3> own_entries = {}; ///< up to the first null
+  PeakForecast forecast = {};
+  bool takes_cylinders = false;           ///< in space; boxes are taken by all
+  bool takes_clumps = false;              ///< in the plane: specimens of rigid groups of grains
   std::optional<SetUp<2>> set_up_2d = {}; ///< none where the test is not made in the plane
   std::optional<SetUp<3>> set_up_3d = {};
   std::optional<BodySize<2>> body_size_2d = {}; ///< none where the specimen itself is tested
@@ -80,7 +98,7 @@ constexpr LaboratoryProtocol complete(const LaboratoryProtocol& protocol)
     throw std::logic_error("a laboratory test needs a name, a title and a name of its strength");
   if (kind.sign != 1.0 && kind.sign != -1.0)
     throw std::logic_error("a laboratory test pulls, sign = 1, or presses, sign = -1");
-  if (protocol.strain_rate == nullptr)
+  if (!protocol.strain_rate)
     throw std::logic_error("a laboratory test needs the entry of its strain rate");
   if (!protocol.set_up_2d && !protocol.set_up_3d)
     throw std::logic_error("a laboratory test needs a set-up");

@@ -4,7 +4,6 @@
 #include "base/input_error.h"
 #include "base/quoted.h"
 #include "base/text.h"
-#include "dem/lab/parameters.h"
 
 #include <fmt/format.h>
 
@@ -83,6 +82,18 @@ std::string objection(const LoadingStage& stage, const LoadingStage* const befor
   return "";
 }
 } // namespace
+
+std::vector<Entry<TestParameters>> loading_table_entries()
+{
+  using P = LoadingTable;
+  using namespace tests_flags;
+  return within_tests<P>({entry::file(
+    "Loading table", &P::file,
+    "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
+    "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
+    "rates only say how long a strain takes beside a hold",
+    of_platens)});
+}
 
 std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)
 {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/lab/own_entries.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,6 +20,16 @@ struct LoadingStage
   double confining_pressure = 0.0;        ///< at its end [Pa]
   std::optional<double> strain_rate = {}; ///< of the strain that leads, magnitude; none: axial, of compression [1/s]
 };
+
+/// The table that a test follows.
+struct LoadingTable
+{
+  std::string file;                 ///< CSV; empty: none
+  std::vector<LoadingStage> stages; ///< read from it
+};
+
+/// The entries of LoadingTable.
+std::vector<Entry<TestParameters>> loading_table_entries();
 
 /// The stages of a loading table, row by row, in a CSV file. Throws InputError, one line with the file and the number of
 /// the stage, for a stage that cannot be made.

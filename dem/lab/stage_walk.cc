@@ -22,7 +22,7 @@ void StageWalk::begin(const StageMoment& now) { begin_next(0, now); }
 
 void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
 {
-  const LoadingStage& next = wanted.loading_stages[begun.size()];
+  const LoadingStage& next = stages[begun.size()];
   begun.push_back({words(next), next.confining_pressure, row, row, false});
   start = now;
   widening_let_be = 0.0;
@@ -32,7 +32,7 @@ void StageWalk::begin_next(const std::uint64_t row, const StageMoment& now)
 
 bool StageWalk::needs_lateral_strain() const
 {
-  return std::any_of(wanted.loading_stages.begin(), wanted.loading_stages.end(),
+  return std::any_of(stages.begin(), stages.end(),
                      [](const LoadingStage& one) { return one.lateral_strain.has_value(); });
 }
 
@@ -47,7 +47,7 @@ StageDemand StageWalk::demand(const StageMoment& now)
     share = (now.lateral_strain - start.lateral_strain) / (*running.lateral_strain - start.lateral_strain);
   else if (running.axial_strain && *running.axial_strain != start.axial_strain)
     share = (now.axial_strain - start.axial_strain) / (*running.axial_strain - start.axial_strain);
-  const double pressure_before = wanted.loading_stages[begun.size() == 1 ? 0 : begun.size() - 2].confining_pressure;
+  const double pressure_before = stages[begun.size() == 1 ? 0 : begun.size() - 2].confining_pressure;
   StageDemand result;
   result.confining_pressure =
     pressure_before + std::clamp(share, 0.0, 1.0) * (running.confining_pressure - pressure_before);
@@ -87,7 +87,6 @@ bool StageWalk::is_at_end_of_stage(const StageMoment& now) const
 
 bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment& now)
 {
-  const auto& stages = wanted.loading_stages;
   const LoadingStage& running = stage();
   const CurveSample& row = curve.back();
   StageRecord& record = begun.back();
@@ -142,7 +141,7 @@ bool StageWalk::is_over(const std::vector<CurveSample>& curve, const StageMoment
 std::string StageWalk::table() const
 {
   std::string text;
-  for (const LoadingStage& one : wanted.loading_stages)
+  for (const LoadingStage& one : stages)
     text += full_text(one);
   return text;
 }

@@ -2,7 +2,8 @@
 
 #include "base/byte_archive.h"
 #include "base/input_error.h"
-#include "dem/lab/parameters.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/loading_stages.h"
 #include "results/record.h"
 
 #include <fmt/format.h>
@@ -38,6 +39,8 @@ class StageWalk
 public:
   explicit StageWalk(const TestParameters& parameters)
     : wanted(parameters)
+    , stages(parameters.of<LoadingTable>().stages)
+    , axial_strain_rate(parameters.of<CompressionParameters>().strain_rate)
   {
   }
 
@@ -53,7 +56,7 @@ public:
   /// The magnitude of the strain rate of the present stage [1/s].
   double strain_rate() const { return rate_of(stage()); }
   /// The stage that runs, and where the test stood when it began.
-  const LoadingStage& stage() const { return wanted.loading_stages[begun.size() - 1]; }
+  const LoadingStage& stage() const { return stages[begun.size() - 1]; }
   const StageMoment& start_of_stage() const { return start; }
 
   /// Once a row has been added to the curve: ends the stage where it has got to its target or never will, and begins the
@@ -82,7 +85,7 @@ public:
     archive.value("stage_strain_at_highest", strain_at_highest);
     std::uint64_t n_begun = begun.size();
     archive.value("n_stages_begun", n_begun);
-    if (n_begun > wanted.loading_stages.size())
+    if (n_begun > stages.size())
       throw InputError("of more stages than its loading table has");
     begun.resize(n_begun);
     for (std::size_t k = 0; k < n_begun; ++k)
@@ -99,11 +102,13 @@ public:
   }
 
 private:
-  double rate_of(const LoadingStage& one) const { return one.strain_rate.value_or(wanted.compression_strain_rate); }
+  double rate_of(const LoadingStage& one) const { return one.strain_rate.value_or(axial_strain_rate); }
   std::string table() const;
   void begin_next(std::uint64_t row, const StageMoment& now);
 
   TestParameters wanted;
+  std::vector<LoadingStage> stages;
+  double axial_strain_rate;       ///< of a stage that names none [1/s]
   std::vector<StageRecord> begun; ///< the last one runs
   std::string early;
   StageMoment start{};         ///< of the stage that runs

@@ -7,6 +7,23 @@
 
 namespace feldspar
 {
+std::vector<Entry<TestParameters>> confinement_entries()
+{
+  using P = ConfinementParameters;
+  using namespace tests_flags;
+  return within_tests<P>(
+    {entry::choice("Lateral boundary", &P::lateral_boundary,
+                   {{"wall", LateralBoundary::wall}, {"membrane", LateralBoundary::membrane}},
+                   "of a cylinder in triaxial compression: a rigid wall held at the pressure, or the pressure "
+                   "itself on the outer grains",
+                   of_cylinder),
+     entry::optional_quantity(
+       "Intermediate stress", &P::intermediate_stress, Measure::stress, "MPa", ranges::above_zero,
+       "on the second pair of sides of a box in three dimensions (true triaxial compression); none: "
+       "the confinement",
+       of_box)});
+}
+
 template <int dim>
 double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
 {
@@ -18,6 +35,7 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
                            const TestParameters& wanted)
 {
   using State = const Dynamics<dim>&;
+  const auto& confinement = wanted.of<ConfinementParameters>();
   const Specimen<dim>& specimen = test.dynamics.specimen();
   const Vector<dim> size = specimen.size;
   const double thickness = specimen.thickness;
@@ -25,7 +43,7 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
   if constexpr (dim == 3)
     if (specimen.round)
       {
-        if (wanted.lateral_boundary == LateralBoundary::membrane)
+        if (confinement.lateral_boundary == LateralBoundary::membrane)
           {
             around.end_area = [=](State state) {
               return lateral_surface(state.specimen(), state.walls()[ends.low].position,
@@ -55,8 +73,8 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
       const auto area = [=](State state) {
         return distance(state, ends) * (dim == 2 ? thickness : distance(state, pairs[std::size_t(dim - 2 - axis)]));
       };
-      if (axis == 1 && wanted.intermediate_stress && *wanted.intermediate_stress != confining_pressure)
-        around.intermediate_stress = wanted.intermediate_stress;
+      if (axis == 1 && confinement.intermediate_stress && *confinement.intermediate_stress != confining_pressure)
+        around.intermediate_stress = confinement.intermediate_stress;
       around.sides.push_back({{pair.low, pair.high}, area, around.intermediate_stress.value_or(confining_pressure)});
     }
   around.end_area = [=](State state) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
-#include "dem/lab/parameters.h"
+#include "dem/lab/own_entries.h"
 #include "dem/lab/test_in_progress.h"
 
 #include <cstddef>
@@ -11,6 +11,23 @@
 
 namespace feldspar
 {
+/// The lateral boundary of a cylinder in a triaxial test.
+enum class LateralBoundary
+{
+  wall,    ///< a rigid cylinder that shrinks and widens
+  membrane ///< a pressure on the outer grains, each by its share of the side
+};
+
+/// The confinement of a body that is pressed between platens.
+struct ConfinementParameters
+{
+  LateralBoundary lateral_boundary = LateralBoundary::wall;
+  std::optional<double> intermediate_stress; ///< σ_2 on a box in space, compression positive [Pa]; none: σ_3
+};
+
+/// The entries of ConfinementParameters.
+std::vector<Entry<TestParameters>> confinement_entries();
+
 /// Walls that press together on an area with one pressure.
 template <int dim>
 struct Press

@@ -170,7 +170,7 @@ Specimen<dim> lattice()
   wanted.packing_file = folder.write("packing.txt", lines).string();
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
-  return make_specimen<dim>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, flat_joint, {}, 1);
 }
 
 void put_into_small_specimen(const std::vector<Shape>& shapes)

@@ -140,7 +140,7 @@ const Specimen<2>& packing(const std::uint64_t seed = 1)
   wanted.height = 0.040;
   ParallelBondParameters bond;
   bond.coordination_number = 4.2;
-  return known[seed] = make_specimen<2>(wanted, bond, {}, seed, [](std::string_view, double) {});
+  return known[seed] = make_specimen<2>(wanted, bond, {}, seed);
 }
 
 Specimen<2> clumped(const ClumpParameters& wanted, const std::uint64_t seed = 1)

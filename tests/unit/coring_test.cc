@@ -3,6 +3,7 @@
 #include "dem/genesis/coring.h"
 
 #include "base/random.h"
+#include "dem/lab/compression.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
@@ -149,8 +150,8 @@ SpecimenParameters cylinder(const double porosity)
 double initial_modulus(const Specimen<3>& specimen)
 {
   TestParameters wanted;
-  wanted.compression_strain_rate = 8.0;
-  wanted.compression_sampling_strain = 2e-5;
+  wanted.of<CompressionParameters>().strain_rate = 8.0;
+  wanted.of<CompressionParameters>().sampling_strain = 2e-5;
   wanted.stop_strain = 2e-4;
   LabTest<3> test({uniaxial_compression}, specimen, wanted, {});
   while (test.advance())
@@ -165,12 +166,11 @@ TEST(Core, HasTheRockUpToItsSides)
 {
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
-  const auto silent = [](std::string_view, double) {};
   // Walls leave voids beside them; so that the grains keep the radii of the input.
-  const auto walled = make_specimen<3>(cylinder(0.39), joint, {}, 1, silent);
+  const auto walled = make_specimen<3>(cylinder(0.39), joint, {}, 1);
   SpecimenParameters box = cylinder(0.36);
   box.shape = "periodic";
-  const auto cell = make_specimen<3>(box, joint, {}, 1, silent);
+  const auto cell = make_specimen<3>(box, joint, {}, 1);
   const auto core = cored(cell, true);
   EXPECT_TRUE(core.round);
   for (std::size_t i = 0; i < core.grains.size(); ++i)
@@ -229,7 +229,7 @@ TYPED_TEST(Cores, CutAtTheSidesOnlyHasTheEndsOfAWalledSpecimen)
       joint.installation_gap_ratio = 0.05;
       const auto made = [&](const Coring coring) {
         wanted.coring = coring;
-        return make_specimen<dim>(wanted, joint, {}, 2, [](std::string_view, double) {});
+        return make_specimen<dim>(wanted, joint, {}, 2);
       };
       const Specimen<dim> walled = made(Coring::none);
       const Specimen<dim> core = made(Coring::sides_only);
@@ -273,9 +273,8 @@ TEST(Core, SameSeedSameBitsAndTheCellOfTheRepresentativeVolume)
   wanted.cells_across = 2;
   FlatJointParameters joint;
   joint.coordination_number = 4.2;
-  const auto silent = [](std::string_view, double) {};
-  const auto one = make_specimen<2>(wanted, joint, {}, 3, silent);
-  const auto again = make_specimen<2>(wanted, joint, {}, 3, silent);
+  const auto one = make_specimen<2>(wanted, joint, {}, 3);
+  const auto again = make_specimen<2>(wanted, joint, {}, 3);
   EXPECT_EQ(one.grains.position, again.grains.position);
   EXPECT_EQ(one.joints.tensile_strength, again.joints.tensile_strength);
   // Each half has the grains of the representative volume of that seed.

@@ -2,6 +2,10 @@
 
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
+#include "dem/lab/grips.h"
+#include "dem/lab/protocols/bending.h"
+#include "dem/lab/protocols/direct_shear.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "dem/laws/pivoting_plate.h"
@@ -545,16 +549,16 @@ TEST(NotchedBodies, HaveTheShapeFactorsOfTheirSources)
   const double depth = 0.020 / 4.4;
   for (const auto& [ratio, factor] : {std::pair(0.45, 2.29), std::pair(0.50, 2.66), std::pair(0.55, 3.14)})
     {
-      wanted.notch_ratio = ratio;
+      wanted.of<NotchParameters>().ratio = ratio;
       const auto notch = (*three_point_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch;
       ASSERT_TRUE(notch);
       EXPECT_NEAR(notch->intensity_over_stress * 1.5 / std::sqrt(depth), factor, 0.005); // as tabulated
       EXPECT_NEAR(notch->ligament_area, depth * (1.0 - ratio), 1e-12);
     }
   // A half disc outside of 0.4 to 0.6 has a curve and no toughness.
-  wanted.notch_ratio = 0.3;
+  wanted.of<NotchParameters>().ratio = 0.3;
   EXPECT_FALSE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
-  wanted.notch_ratio = 0.5;
+  wanted.of<NotchParameters>().ratio = 0.5;
   EXPECT_TRUE((*semicircular_bending.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
 }
 
@@ -610,7 +614,7 @@ TEST(NotchedBodies, OfACentreCrackHaveTheIntensitiesOfIsida)
   for (const auto& [ratio, factor] :
        {std::pair(0.2, 1.0246), std::pair(0.3, 1.0577), std::pair(0.5, 1.1867), std::pair(0.7, 1.4884)})
     {
-      wanted.notch_ratio = ratio;
+      wanted.of<NotchParameters>().ratio = ratio;
       const auto notch = (*centre_cracked_plate.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch;
       ASSERT_TRUE(notch);
       EXPECT_NEAR(notch->intensity_over_stress / std::sqrt(std::numbers::pi * 0.5 * ratio * width), factor,
@@ -619,7 +623,7 @@ TEST(NotchedBodies, OfACentreCrackHaveTheIntensitiesOfIsida)
       EXPECT_TRUE(notch->is_valid);
     }
   // Between grips that leave less than 1.2 widths there is a curve and no toughness.
-  wanted.grip_ratio = 0.5 * (1.0 - 1.1 * 0.012 / 0.020);
+  wanted.of<TensionParameters>().grip_ratio = 0.5 * (1.0 - 1.1 * 0.012 / 0.020);
   EXPECT_FALSE((*centre_cracked_plate.set_up_2d)(specimen, 0.0, wanted, {}).loading.notch->is_valid);
 }
 
@@ -644,8 +648,8 @@ template <int dim>
 TestOutcome pull_cracked(const Specimen<dim>& specimen)
 {
   TestParameters wanted;
-  wanted.tension_strain_rate = 0.5;
-  wanted.tension_sampling_strain = 1e-6;
+  wanted.of<TensionParameters>().strain_rate = 0.5;
+  wanted.of<TensionParameters>().sampling_strain = 1e-6;
   wanted.stop_stress_over_peak = 0.09;
   LabTest<dim> test({centre_cracked_plate}, specimen, wanted, {});
   while (test.advance())
@@ -697,8 +701,8 @@ TEST(NotchedBodies, BreakFromTheNotchInTension)
 {
   const auto specimen = granite_box(0.060, 0.014);
   TestParameters test_parameters;
-  test_parameters.bending_strain_rate = 0.5;
-  test_parameters.bending_sampling_strain = 1e-5;
+  test_parameters.of<BendingParameters>().strain_rate = 0.5;
+  test_parameters.of<BendingParameters>().sampling_strain = 1e-5;
   test_parameters.stop_stress_over_peak = 0.09;
   LabTest<2> test({three_point_bending}, specimen, test_parameters, {});
   while (test.advance())
@@ -724,7 +728,7 @@ TEST(DirectShear, OfARoughFlawCarriesMoreUnderMoreNormalStress)
   auto specimen = granite_box(0.020, 0.012);
   put_in_flaws(specimen, {line(0.0, 0.006, 0.020, 0.006)});
   TestParameters test_parameters;
-  test_parameters.shear_strain_rate = 0.5;
+  test_parameters.of<ShearParameters>().strain_rate = 0.5;
   test_parameters.stop_strain = 0.002;
   double before = 0.0;
   for (const double normal_stress : {2e6, 8e6})

@@ -14,7 +14,6 @@ namespace feldspar
 {
 namespace
 {
-const GenesisMonitor silent = [](std::string_view, double) {};
 
 TEST(Genesis, MeetsWhatItPromises)
 {
@@ -54,7 +53,7 @@ TEST(Genesis, PacksToTheStressAskedForWithTheOverlapsThatCarryIt)
         wanted.packed_by_descent = by_descent;
         FlatJointParameters flat_joint;
         flat_joint.coordination_number = 4.2;
-        const auto report = make_specimen<2>(wanted, flat_joint, {}, 1, silent).report;
+        const auto report = make_specimen<2>(wanted, flat_joint, {}, 1).report;
         EXPECT_NEAR(report.packing_stress, ratio * 80e9, (by_descent ? 1e-3 : 1e-2) * ratio * 80e9);
         EXPECT_NEAR(report.mean_overlap_ratio / ratio, 2.04, 0.2 * 2.04) << ratio;
       }
@@ -88,7 +87,7 @@ TEST(Genesis, StrengthsHaveTheirMeanAndDeviation)
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength_deviation = 2.2e6;
-  const auto specimen = make_specimen<2>(wanted, flat_joint, {}, 4, silent);
+  const auto specimen = make_specimen<2>(wanted, flat_joint, {}, 4);
   const auto& strength = specimen.joints.tensile_strength;
   const auto n = double(strength.size());
   double mean = 0.0;
@@ -102,7 +101,7 @@ TEST(Genesis, StrengthsHaveTheirMeanAndDeviation)
   EXPECT_NEAR(std::sqrt(squares), 2.2e6, 4.0 * 2.2e6 / std::sqrt(2.0 * n));
 
   flat_joint.strength_draw = StrengthDraw::per_contact;
-  const auto per_contact = make_specimen<2>(wanted, flat_joint, {}, 4, silent);
+  const auto per_contact = make_specimen<2>(wanted, flat_joint, {}, 4);
   for (std::size_t j = 0; j < per_contact.joints.size(); ++j)
     for (unsigned int i = 1; i < 4; ++i)
       EXPECT_EQ(per_contact.joints.cohesion[per_contact.joints.segment(i, j)],
@@ -166,7 +165,7 @@ TEST(Genesis, CanBeEndedWithinAStep)
         if (++n_in_step == most_in_a_step)
           throw Ended();
       };
-      EXPECT_THROW(make_specimen<2>(wanted, {}, {}, 1, silent, start, end), Ended) << by_descent;
+      EXPECT_THROW(make_specimen<2>(wanted, {}, {}, 1, start, end), Ended) << by_descent;
     }
 }
 
@@ -231,7 +230,7 @@ public:
         SpecimenParameters parameters = wanted();
         parameters.dimension = dim;
         parameters.shape = shape;
-        make_specimen<dim>(parameters, flat_joint, {}, 1, silent);
+        make_specimen<dim>(parameters, flat_joint, {}, 1);
       }
     catch (const InputError& error)
       {
@@ -249,7 +248,7 @@ TEST(PackingImport, TakesGrainsAsTheyAre)
   const PackingFile file("# a row of three\n0.002 0.005 0.001\n0.004 0.005 0.001\n\n0.00599 0.005 1e-3 # touches\n");
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.01;
-  const auto specimen = make_specimen<2>(file.wanted(), flat_joint, {}, 1, silent);
+  const auto specimen = make_specimen<2>(file.wanted(), flat_joint, {}, 1);
   EXPECT_EQ(specimen.grains.size(), 3u);
   EXPECT_EQ(specimen.joints.size(), 2u);
 }
@@ -351,7 +350,7 @@ TEST(Genesis, APeriodicPackingHasItsStressAndNoWalls)
 {
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
-  const auto specimen = make_specimen<2>(periodic_box(0.014), flat_joint, {}, 1, silent);
+  const auto specimen = make_specimen<2>(periodic_box(0.014), flat_joint, {}, 1);
   EXPECT_NEAR(specimen.report.packing_stress, 1e-4 * 80e9, 0.01 * 1e-4 * 80e9);
   EXPECT_NEAR(specimen.report.coordination_number, 4.2, 1.0 / double(specimen.report.n_grains));
   EXPECT_EQ(specimen.report.coordination_number_core, specimen.report.coordination_number);

@@ -38,6 +38,7 @@ const std::vector<Room> rooms = {
   {"dem/dynamics/sweeps", {"base", "dem/laws", "dem/storage", "dem/specimen"}, {"dem/dynamics/energies.h"}},
   {"dem/dynamics", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics/sweeps"}},
   {"dem/genesis", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
+  {"dem/rock", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/genesis"}},
   {"results", {"base"}, {"dem/dynamics/energies.h", "dem/specimen/specimen_report.h"}},
   {"results/runs", {"base", "results"}, {"dem/specimen/specimen_report.h"}},
   {"results/fits", {"base", "results", "results/runs"}},

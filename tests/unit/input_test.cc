@@ -5,7 +5,15 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "base/input_error.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
+#include "dem/lab/loading_stages.h"
+#include "dem/lab/protocols/bending.h"
+#include "dem/lab/protocols/brazilian.h"
+#include "dem/lab/protocols/direct_shear.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/surroundings.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -351,23 +359,23 @@ TEST(Input, EveryEntryReachesItsMember)
   ASSERT_EQ(input.flaws.traces.size(), 1u);
   EXPECT_EQ(std::get<ClosedFlaw>(input.flaws.traces[0]).points[1], Vector<2>(0.03, 0.04));
 
-  EXPECT_EQ(input.tests.bending_strain_rate, 0.2);
-  EXPECT_EQ(input.tests.bending_sampling_strain, 4e-6);
-  EXPECT_EQ(input.tests.notch_ratio, 0.5);
-  EXPECT_TRUE(input.tests.loading_table.ends_with("stages.csv"));
+  EXPECT_EQ(input.tests.of<BendingParameters>().strain_rate, 0.2);
+  EXPECT_EQ(input.tests.of<BendingParameters>().sampling_strain, 4e-6);
+  EXPECT_EQ(input.tests.of<NotchParameters>().ratio, 0.5);
+  EXPECT_TRUE(input.tests.of<LoadingTable>().file.ends_with("stages.csv"));
   EXPECT_EQ(input.tests.n_snapshots, 20u);
-  EXPECT_EQ(input.tests.shear_strain_rate, 0.3);
-  EXPECT_DOUBLE_EQ(input.tests.shear_normal_stiffness.value(), 4e12);
-  EXPECT_EQ(input.tests.shear_sampling_strain, 3e-5);
+  EXPECT_EQ(input.tests.of<ShearParameters>().strain_rate, 0.3);
+  EXPECT_DOUBLE_EQ(input.tests.of<ShearParameters>().normal_stiffness.value(), 4e12);
+  EXPECT_EQ(input.tests.of<ShearParameters>().sampling_strain, 3e-5);
   EXPECT_EQ(input.test_list, std::vector{uniaxial_compression.kind});
-  EXPECT_EQ(input.tests.compression_strain_rate, 0.5);
-  EXPECT_EQ(input.tests.tension_strain_rate, 0.082);
-  EXPECT_EQ(input.tests.compression_sampling_strain, 2e-5);
-  EXPECT_EQ(input.tests.tension_sampling_strain, 2e-6);
-  EXPECT_EQ(input.tests.lateral_boundary, LateralBoundary::membrane);
-  EXPECT_EQ(input.tests.intermediate_stress, 15e6);
-  EXPECT_EQ(input.tests.brazilian_length_ratio, 0.4);
-  EXPECT_EQ(input.tests.grip_ratio, 0.2);
+  EXPECT_EQ(input.tests.of<CompressionParameters>().strain_rate, 0.5);
+  EXPECT_EQ(input.tests.of<TensionParameters>().strain_rate, 0.082);
+  EXPECT_EQ(input.tests.of<CompressionParameters>().sampling_strain, 2e-5);
+  EXPECT_EQ(input.tests.of<TensionParameters>().sampling_strain, 2e-6);
+  EXPECT_EQ(input.tests.of<ConfinementParameters>().lateral_boundary, LateralBoundary::membrane);
+  EXPECT_EQ(input.tests.of<ConfinementParameters>().intermediate_stress, 15e6);
+  EXPECT_EQ(input.tests.of<BrazilianParameters>().length_ratio, 0.4);
+  EXPECT_EQ(input.tests.of<TensionParameters>().grip_ratio, 0.2);
   EXPECT_EQ(input.tests.stop_strain_over_peak_strain, 1.5);
   EXPECT_EQ(input.tests.stop_strain, 0.004);
   EXPECT_EQ(input.tests.stop_stress_over_peak, 0.5);
@@ -375,8 +383,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.tests.least_transits_to_peak, 2.0);
   EXPECT_EQ(input.tests.least_fall_after_peak, 0.04);
   EXPECT_EQ(input.confinements, (std::vector<double>{2e6, 4e6}));
-  EXPECT_EQ(input.tests.brazilian_strain_rate, 0.3);
-  EXPECT_EQ(input.tests.brazilian_sampling_strain, 3e-6);
+  EXPECT_EQ(input.tests.of<BrazilianParameters>().strain_rate, 0.3);
+  EXPECT_EQ(input.tests.of<BrazilianParameters>().sampling_strain, 3e-6);
   EXPECT_EQ(input.tests.platen_friction, 0.1);
   EXPECT_EQ(input.tests.seating_transits, 12.0);
   EXPECT_EQ(input.steps_between_checkpoints, 500u);

@@ -2,6 +2,8 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
@@ -70,15 +72,15 @@ Specimen<Case::dim> small_bonded_specimen()
   auto bonds = Case::bonds();
   bonds.bond_tensile_strength_deviation = bonds.bond_cohesion_deviation = 10e6;
   bonds.installation_gap_ratio = 0.05;
-  return make_specimen<dim>(wanted, bonds, {}, 1, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, bonds, {}, 1);
 }
 
 TestParameters quick_and_dense()
 {
   TestParameters wanted;
-  wanted.compression_strain_rate = 2.0;
-  wanted.tension_strain_rate = 2.0;
-  wanted.compression_sampling_strain = 2e-5;
+  wanted.of<CompressionParameters>().strain_rate = 2.0;
+  wanted.of<TensionParameters>().strain_rate = 2.0;
+  wanted.of<CompressionParameters>().sampling_strain = 2e-5;
   return wanted;
 }
 

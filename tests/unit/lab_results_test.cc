@@ -1,3 +1,4 @@
+#include "dem/lab/compression.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stop_rule.h"
 #include "dem/lab/test_in_progress.h"
@@ -252,7 +253,7 @@ TEST(Curve, ARowThatIsBrokenOffIsGoneOnWithToTheSameBits)
   const LaboratoryCase wanted{triaxial_compression, 10e6};
   TestParameters parameters;
   parameters.seating_transits = 2.0;
-  parameters.compression_sampling_strain = 1e-4;
+  parameters.of<CompressionParameters>().sampling_strain = 1e-4;
   const auto specimen = small_specimen();
   LabTest<2> whole(wanted, specimen, parameters, {});
   LabTest<2> broken(wanted, specimen, parameters, {});
@@ -352,7 +353,7 @@ TEST(Curve, LateralStressIsTheMeanSinceTheRowBefore)
   const auto specimen = small_specimen();
   const auto curve = [&](const double sampling_strain) {
     TestParameters wanted;
-    wanted.compression_sampling_strain = sampling_strain;
+    wanted.of<CompressionParameters>().sampling_strain = sampling_strain;
     wanted.stop_strain = 4e-4;
     LabTest<2> test({triaxial_compression, 10e6}, specimen, wanted, {});
     while (test.advance())

@@ -142,7 +142,7 @@ TEST(Network, KeepsItsStiffnessAtEveryAngle)
   joint.installation_gap_ratio = 0.0457;
   for (const std::uint64_t seed : {1, 2})
     {
-      const auto specimen = make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+      const auto specimen = make_specimen<2>(wanted, joint, {}, seed);
       const Stiffness<2> straight = Network<2>(specimen).intact_stiffness();
       for (int degrees = 5; degrees <= 180; degrees += 5)
         {

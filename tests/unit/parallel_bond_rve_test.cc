@@ -36,7 +36,7 @@ Specimen<dim> bonded_cell()
   ParallelBondParameters bonds = test_bonds();
   bonds.bond_tensile_strength_deviation = bonds.bond_cohesion_deviation = 10e6;
   bonds.installation_gap_ratio = 0.05;
-  return make_specimen<dim>(wanted, bonds, {}, 1, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, bonds, {}, 1);
 }
 
 template <int dim>

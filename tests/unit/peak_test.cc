@@ -1,5 +1,6 @@
 // The peak of a curve, and the end of a test by it.
 
+#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stage_walk.h"
 #include "dem/lab/stop_rule.h"
@@ -194,7 +195,7 @@ TEST(StopRules, GiveUpAStageWhereItsStressNoLongerRises)
   for (CurveSample& row : record.curve)
     row.n_tension_cracks = row.step; // it cracks
   TestParameters wanted;
-  wanted.loading_stages = {{.axial_stress = 200e6}};
+  wanted.of<LoadingTable>().stages = {{.axial_stress = 200e6}};
   StageWalk walk(wanted);
   walk.begin({0.0, 0.0, 0.0});
   std::vector<CurveSample> curve{record.curve.front()};

@@ -1,6 +1,8 @@
 #include "dem/dynamics/runaway.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "tests/unit/small_specimen.h"
@@ -112,7 +114,7 @@ TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
 {
   const auto pressed_with = [](const double safety) {
     TestParameters parameters;
-    parameters.compression_sampling_strain = 1e-6;
+    parameters.of<CompressionParameters>().sampling_strain = 1e-6;
     return run(LabTest<2>({uniaxial_compression}, small_specimen(), parameters, {0.0, safety}), 200);
   };
   EXPECT_EQ(pressed_with(1.0).record.failure, "");
@@ -139,7 +141,7 @@ TEST(Runaway, EndsATestThatIsStrainedPastBreakageInOneStep)
 {
   const auto pulled_at = [](const double rate) {
     TestParameters parameters;
-    parameters.tension_strain_rate = rate;
+    parameters.of<TensionParameters>().strain_rate = rate;
     return run(LabTest<2>({direct_tension}, small_specimen(), parameters, {}), 3).record;
   };
   EXPECT_EQ(pulled_at(1e2).failure, "");
@@ -184,10 +186,10 @@ TEST(Runaway, DoesNotSpeakUpInExtremesThatAreAccepted)
           flat_joint.stiffness_ratio = stiffness_ratio;
           ParticleContactParameters contact;
           contact.stiffness_ratio = stiffness_ratio;
-          const auto specimen = make_specimen<2>(wanted, flat_joint, contact, 1, [](std::string_view, double) {});
+          const auto specimen = make_specimen<2>(wanted, flat_joint, contact, 1);
           TestParameters parameters;
-          parameters.compression_strain_rate = 10.0 * std::sqrt(2700.0 / density);
-          parameters.compression_sampling_strain = 1e-4;
+          parameters.of<CompressionParameters>().strain_rate = 10.0 * std::sqrt(2700.0 / density);
+          parameters.of<CompressionParameters>().sampling_strain = 1e-4;
           const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
           const std::string which = fmt::format("ratio {}, density {}, damping {}", stiffness_ratio, density, damping);
           EXPECT_EQ(outcome.record.failure, "") << which;
@@ -210,11 +212,11 @@ TEST(Runaway, DoesNotSpeakUpInExtremesOfClumpsAndSmoothJoints)
         flat_joint.friction = friction;
         ParticleContactParameters contact;
         contact.friction = friction;
-        const auto packed = make_specimen<2>(wanted, flat_joint, contact, 1, [](std::string_view, double) {});
+        const auto packed = make_specimen<2>(wanted, flat_joint, contact, 1);
         TestParameters parameters;
-        parameters.compression_sampling_strain = 2e-4;
+        parameters.of<CompressionParameters>().sampling_strain = 2e-4;
         const auto holds = [&](const Specimen<2>& specimen, const double rate, const std::string& body) {
-          parameters.compression_strain_rate = rate;
+          parameters.of<CompressionParameters>().strain_rate = rate;
           const auto outcome = run(LabTest<2>({uniaxial_compression}, specimen, parameters, {damping, 1.0}), 40);
           const std::string which = fmt::format("{}, friction {}, damping {}", body, friction, damping);
           EXPECT_EQ(outcome.record.failure, "") << which;

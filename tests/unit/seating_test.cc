@@ -1,6 +1,7 @@
 // Walls that hold a specimen before its test counts.
 
 #include "base/input_error.h"
+#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
@@ -61,7 +62,7 @@ TestRecord loaded(const LaboratoryProtocol& protocol, const Specimen<dim>& speci
 TestParameters pressed_by_a_table()
 {
   TestParameters wanted;
-  wanted.loading_stages = {{.axial_strain = 1e-3}};
+  wanted.of<LoadingTable>().stages = {{.axial_strain = 1e-3}};
   return wanted;
 }
 

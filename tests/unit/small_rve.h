@@ -36,7 +36,7 @@ Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge 
       wanted.porosity = 0.36;
       joint.installation_gap_ratio = 0.05;
     }
-  return make_specimen<dim>(wanted, joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, joint, {}, seed);
 }
 
 template <int dim = 2>

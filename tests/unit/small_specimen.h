@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/genesis/genesis.h"
+#include "dem/lab/compression.h"
 #include "dem/lab/parameters.h"
 
 #include <type_traits>
@@ -19,7 +20,7 @@ Specimen<2> small_specimen(const std::uint64_t seed = 1, const double bond_stren
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength *= bond_strength_factor;
   flat_joint.bond_cohesion *= bond_strength_factor;
-  return make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<2>(wanted, flat_joint, {}, seed);
 }
 
 /// Table 1 in a box of this size [m].
@@ -30,7 +31,7 @@ inline Specimen<2> granite_box(const double width, const double height)
   wanted.height = height;
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
-  return make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<2>(wanted, flat_joint, {}, 1);
 }
 
 /// Table 1 in a cylinder (or box) of 8 × 12 mm: some 150 grains.
@@ -47,15 +48,15 @@ Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_stren
   flat_joint.installation_gap_ratio = 0.05;
   flat_joint.bond_tensile_strength *= bond_strength_factor;
   flat_joint.bond_cohesion *= bond_strength_factor;
-  return make_specimen<3>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<3>(wanted, flat_joint, {}, seed);
 }
 
 /// Compression in some thousand steps.
 inline TestParameters quick_compression()
 {
   TestParameters wanted;
-  wanted.compression_strain_rate = 2.0;
-  wanted.compression_sampling_strain = 5e-5;
+  wanted.of<CompressionParameters>().strain_rate = 2.0;
+  wanted.of<CompressionParameters>().sampling_strain = 5e-5;
   return wanted;
 }
 

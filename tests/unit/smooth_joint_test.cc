@@ -6,6 +6,8 @@
 #include "dem/flaws/apply.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
@@ -345,7 +347,7 @@ Specimen<2> halves(const SmoothSides& sides, const double width, const double he
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength *= 100.0;
   flat_joint.bond_cohesion *= 100.0;
-  auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  auto specimen = make_specimen<2>(wanted, flat_joint, {}, 1);
   const Vector<2> half = 0.5 * width * Vector<2>(1.0, std::tan(angle));
   const Vector<2> middle = 0.5 * specimen.size;
   put_in_flaws(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
@@ -363,7 +365,7 @@ TEST(SmoothPlane, SlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
     area += joint.area;
   EXPECT_NEAR(area, 0.020, 1e-12) << "the faces share the plane";
   TestParameters wanted;
-  wanted.shear_strain_rate = 0.2;
+  wanted.of<ShearParameters>().strain_rate = 0.2;
   wanted.stop_strain = 0.001;
   for (const double normal_stress : {2e6, 8e6})
     {
@@ -416,9 +418,9 @@ PlaneInStiffRock plane_in_stiff_rock()
   sides.dilation_angle = 8.0 * degree;
   sides.normal_stiffness = 50e12;
   TestParameters wanted;
-  wanted.shear_strain_rate = 0.2;
+  wanted.of<ShearParameters>().strain_rate = 0.2;
   wanted.stop_strain = 0.001;
-  wanted.shear_normal_stiffness = 0.2e12;
+  wanted.of<ShearParameters>().normal_stiffness = 0.2e12;
   return {sides, halves(sides, 0.020, 0.012, 0.0), wanted};
 }
 
@@ -439,8 +441,8 @@ TEST(SmoothPlane, IsPressedBackAsItDilatesByTheStiffnessOfTheRockAround)
   // The way of the platens is what the plane opens less what halves and plane are pressed together:
   // dσ_n = K (tan ψ du - dσ_n c). Halves of such grains have a modulus of 60 to 70 GPa: 3 % of the 4 % that K c is.
   const double compliance = 0.012 / 65e9 + 1.0 / *sides.normal_stiffness;
-  const double growth =
-    *wanted.shear_normal_stiffness * std::tan(8.0 * degree) / (1.0 + *wanted.shear_normal_stiffness * compliance);
+  const double growth = *wanted.of<ShearParameters>().normal_stiffness * std::tan(8.0 * degree) /
+                        (1.0 + *wanted.of<ShearParameters>().normal_stiffness * compliance);
   const double slid = 0.020 * (direct_shear.kind.strain(curve.back()) - direct_shear.kind.strain(curve[first]));
   EXPECT_GT(-curve.back().lateral_stress, 1.2 * normal_stress);
   EXPECT_NEAR((curve[first].lateral_stress - curve.back().lateral_stress) / slid, growth, 0.02 * growth);
@@ -520,9 +522,9 @@ TEST(SmoothPlane, OfAnInclinedSpecimenFailsWhereJaegerSays)
   const double beta = 55.0 * degree;
   const Specimen<2> specimen = halves(sides, 0.012, 0.024, beta);
   TestParameters wanted;
-  wanted.compression_strain_rate = 0.25;
+  wanted.of<CompressionParameters>().strain_rate = 0.25;
   wanted.stop_strain = 0.006;
-  wanted.compression_sampling_strain = 1e-5;
+  wanted.of<CompressionParameters>().sampling_strain = 1e-5;
   LabTest<2> test({uniaxial_compression}, specimen, wanted, {});
   while (test.advance())
     ;
@@ -571,7 +573,7 @@ Specimen<2> minerals(const std::uint64_t seed = 1)
   wanted.height = 0.040;
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 4.2;
-  auto specimen = make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+  auto specimen = make_specimen<2>(wanted, flat_joint, {}, seed);
   SmoothJointParameters boundary;
   boundary.tensile_strength = 4e6;
   boundary.cohesion = 60e6;

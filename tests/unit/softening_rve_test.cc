@@ -44,7 +44,7 @@ Specimen<dim> softening_cell(const double over_opening = usual_opening)
       wanted.porosity = 0.36;
       joint.installation_gap_ratio = 0.05;
     }
-  return make_specimen<dim>(wanted, joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<dim>(wanted, joint, {}, 1);
 }
 
 template <int dim>

@@ -1,8 +1,13 @@
 // Laboratory tests on cylinders.
 
 #include "base/input_error.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
 #include "dem/lab/membrane.h"
+#include "dem/lab/protocols/bending.h"
+#include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/lab/surroundings.h"
 #include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
@@ -57,12 +62,12 @@ TEST(Membrane, LiesAroundTheCylinderAndPressesOuterGrainsOnly)
 TestParameters quick_in_space()
 {
   TestParameters wanted;
-  wanted.compression_strain_rate = 4.0;
-  wanted.tension_strain_rate = 1.0;
-  wanted.compression_sampling_strain = 5e-5;
-  wanted.tension_sampling_strain = 5e-6;
-  wanted.brazilian_strain_rate = 1.0;
-  wanted.brazilian_sampling_strain = 2e-5;
+  wanted.of<CompressionParameters>().strain_rate = 4.0;
+  wanted.of<TensionParameters>().strain_rate = 1.0;
+  wanted.of<CompressionParameters>().sampling_strain = 5e-5;
+  wanted.of<TensionParameters>().sampling_strain = 5e-6;
+  wanted.of<BrazilianParameters>().strain_rate = 1.0;
+  wanted.of<BrazilianParameters>().sampling_strain = 2e-5;
   wanted.stop_strain_over_peak_strain = 1.1;
   return wanted;
 }
@@ -109,7 +114,7 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
   const double alone = *evaluate(run(uniaxial).record).peak_stress.value;
   for (const auto boundary : {LateralBoundary::wall, LateralBoundary::membrane})
     {
-      wanted.lateral_boundary = boundary;
+      wanted.of<ConfinementParameters>().lateral_boundary = boundary;
       LabTest<3> test({triaxial_compression, 20e6}, specimen, wanted, {});
       const auto record = run(test).record;
       const auto results = evaluate(record);
@@ -128,7 +133,7 @@ TEST(SpaceLab, ConfinedByWallAndMembraneItIsStrongerAndTheWorkIsCounted)
 TEST(SpaceLab, PressesABoxByThreeStresses)
 {
   auto wanted = quick_in_space();
-  wanted.intermediate_stress = 30e6;
+  wanted.of<ConfinementParameters>().intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
   const auto box = small_cylinder(1, 1e3, "box");
   auto set_up = triaxial_compression.set_up_3d.value()(box, 10e6, wanted, {});
@@ -154,7 +159,7 @@ Specimen<3> granite_in_space(const std::string& shape, const double width, const
   wanted.porosity = 0.40;
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
-  return make_specimen<3>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  return make_specimen<3>(wanted, flat_joint, {}, 1);
 }
 
 TEST(SpaceLab, SplitsADiscAlongTheLoad)
@@ -188,7 +193,7 @@ std::vector<std::string> cut_as_said(const double width, const double height)
       for (std::uint64_t seed = 1; seed <= 10; ++seed) // not every disc has grains where it is loaded
         try
           {
-            const auto specimen = make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+            const auto specimen = make_specimen<2>(wanted, joint, {}, seed);
             const TestParameters parameters;
             const auto test = (*protocol->set_up<2>())(specimen, 0.0, parameters, {});
             EXPECT_LT((test.dynamics.specimen().size - (*size)(specimen, parameters)).norm(), 1e-15)
@@ -210,12 +215,12 @@ std::vector<std::size_t> pads_of(const double width, const double height, const 
   wanted.height = height;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
-  const auto specimen = make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {});
+  const auto specimen = make_specimen<2>(wanted, joint, {}, seed);
   const TestParameters parameters;
   const auto test = (*brazilian.set_up<2>())(specimen, 0.0, parameters, {});
   const Specimen<2>& disc = test.dynamics.specimen();
   const auto& velocity = disc.grains.velocity;
-  const double speed = 0.5 * parameters.brazilian_strain_rate * disc.size[0];
+  const double speed = 0.5 * parameters.of<BrazilianParameters>().strain_rate * disc.size[0];
   std::vector<std::size_t> n_grains;
   for (const double of_pad : {speed, -speed})
     n_grains.push_back(std::size_t(std::count(velocity[1].begin(), velocity[1].end(), of_pad)));
@@ -253,7 +258,7 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
   EXPECT_LT((disc.dynamics.specimen().size - size(core, wanted)).norm(), 1e-15);
   const Vector<3> half = (*semicircular_bending.body_size<3>())(core, wanted);
   EXPECT_NEAR(half[0], 8e-3, 1e-15);
-  EXPECT_NEAR(half[1], 8e-3 * wanted.brazilian_length_ratio, 1e-15);
+  EXPECT_NEAR(half[1], 8e-3 * wanted.of<BrazilianParameters>().length_ratio, 1e-15);
   EXPECT_NEAR(half[2], 4e-3, 1e-15);
   const auto box = small_cylinder(1, 1.0, "box");
   const Vector<3> beam = (*three_point_bending.body_size<3>())(box, wanted);
@@ -308,15 +313,15 @@ void expect_reads_back_to_the_same_bits(const LaboratoryCase& test_case, const S
 TEST(SpaceLab, ATestReadBackRunsOnToTheSameBits)
 {
   TestParameters wanted = quick_in_space();
-  wanted.lateral_boundary = LateralBoundary::membrane;
+  wanted.of<ConfinementParameters>().lateral_boundary = LateralBoundary::membrane;
   expect_reads_back_to_the_same_bits({triaxial_compression, 10e6}, small_cylinder(), wanted);
 }
 
 TEST(SpaceLab, AHalfDiscOnBeddedRollersReadBackRunsOnToTheSameBits)
 {
   TestParameters wanted = quick_in_space();
-  wanted.bending_strain_rate = 0.5;
-  wanted.bending_sampling_strain = 1e-5;
+  wanted.of<BendingParameters>().strain_rate = 0.5;
+  wanted.of<BendingParameters>().sampling_strain = 1e-5;
   expect_reads_back_to_the_same_bits({semicircular_bending}, granite_in_space("box", 0.012, 0.012), wanted);
 }
 } // namespace

@@ -1,5 +1,6 @@
 #include "app/screen/stage_length.h"
 
+#include "dem/lab/compression.h"
 #include "tests/unit/staged_runs.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ TEST(StageLength, IsThatOfWaysHoldsAndStressesFromWhereTheTestStands)
 {
   TestParameters parameters = tests::following(
     {{.axial_strain = 0.002}, {.axial_stress = 0.0}, {.duration = 1e-5}, {.axial_strain = 0.004, .strain_rate = 2.0}});
-  parameters.compression_strain_rate = 1.0;
+  parameters.of<CompressionParameters>().strain_rate = 1.0;
   StageLength length(parameters, modulus);
   constexpr double rounding = 1e-15;
   EXPECT_NEAR(length.left(), 0.002 + 0.002 + 1e-5 + 0.002, rounding);
@@ -54,7 +55,7 @@ TEST(StageLength, BeginsAtTheConfinement)
   TestParameters parameters =
     tests::following({{.axial_stress = 70e6, .confining_pressure = 10e6},
                       {.lateral_strain = -0.001, .confining_pressure = 10e6, .strain_rate = 0.5}});
-  parameters.compression_strain_rate = 1.0;
+  parameters.of<CompressionParameters>().strain_rate = 1.0;
   // To 70 MPa it is shortened by 0.001, of which it widens by a quarter.
   EXPECT_NEAR(StageLength(parameters, modulus).left(), 0.001 + (0.001 - 0.00025) / 0.5, 1e-15);
 }

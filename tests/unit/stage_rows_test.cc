@@ -3,6 +3,7 @@
 
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/sample_run.h"
+#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
 #include "tests/temporary_folder.h"
 
@@ -31,7 +32,7 @@ SampleParameters elastic_sample(const SampleGeometry geometry)
 SampleTest staged_sample(const SampleGeometry geometry, const std::vector<LoadingStage>& stages)
 {
   TestParameters wanted;
-  wanted.loading_stages = stages;
+  wanted.of<LoadingTable>().stages = stages;
   return {{own_loading.kind}, elastic_sample(geometry), wanted, {elastic_modulus, poissons_ratio}};
 }
 

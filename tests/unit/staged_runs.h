@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 
@@ -10,7 +11,7 @@ namespace feldspar::tests
 inline TestParameters following(const std::vector<LoadingStage>& stages)
 {
   TestParameters wanted;
-  wanted.loading_stages = stages;
+  wanted.of<LoadingTable>().stages = stages;
   return wanted;
 }
 

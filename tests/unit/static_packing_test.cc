@@ -16,7 +16,6 @@ namespace feldspar
 {
 namespace
 {
-const GenesisMonitor silent = [](std::string_view, double) {};
 
 SpecimenParameters static_box(const double width, const double height)
 {
@@ -31,7 +30,7 @@ Specimen<dim> packed(const SpecimenParameters& wanted, const std::uint64_t seed 
 {
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
-  return make_specimen<dim>(wanted, flat_joint, {}, seed, silent);
+  return make_specimen<dim>(wanted, flat_joint, {}, seed);
 }
 
 /// Lets the grains of a packing, without joints and friction, take a step of the dynamics between its walls.
@@ -148,7 +147,7 @@ TEST(StaticPacking, EndsWhenItIsAskedTo)
   };
   FlatJointParameters flat_joint;
   flat_joint.installation_gap_ratio = 0.05;
-  EXPECT_THROW(make_specimen<2>(static_box(0.012, 0.02), flat_joint, {}, 1, silent, stop), std::runtime_error);
+  EXPECT_THROW(make_specimen<2>(static_box(0.012, 0.02), flat_joint, {}, 1, stop), std::runtime_error);
   EXPECT_EQ(n_calls, 20u);
 }
 } // namespace

@@ -1,4 +1,6 @@
 #include "dem/genesis/genesis.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
@@ -31,7 +33,7 @@ Specimen<2> joined(const std::uint64_t seed, const FlatJointParameters& flat_joi
   static std::map<std::uint64_t, Specimen<2>> packings;
   if (!packings.contains(seed))
     {
-      auto packing = make_specimen<2>({}, flat_joint, {}, seed, [](std::string_view, double) {});
+      auto packing = make_specimen<2>({}, flat_joint, {}, seed);
       packing.joints = {};
       packings.emplace(seed, std::move(packing));
     }
@@ -48,8 +50,8 @@ TestRecord test(const LaboratoryCase& wanted_test, const std::uint64_t seed, con
   const auto specimen = joined(seed, flat_joint);
   EXPECT_NEAR(specimen.report.radius_multiplier, 1.0, 0.01);
   TestParameters wanted;
-  wanted.tension_strain_rate *= variant.rate_factor;
-  wanted.compression_strain_rate *= variant.rate_factor;
+  wanted.of<TensionParameters>().strain_rate *= variant.rate_factor;
+  wanted.of<CompressionParameters>().strain_rate *= variant.rate_factor;
   wanted.platen_friction = variant.platen_friction;
   if (variant.to_peak)
     wanted.stop_stress_over_peak = 0.8;

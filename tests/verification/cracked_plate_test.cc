@@ -2,6 +2,8 @@
 // extension and the opening of its crack, as grains, against closed forms.
 
 #include "dem/genesis/genesis.h"
+#include "dem/lab/grips.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_part.h"
@@ -63,8 +65,8 @@ double intensity_over_stress(const double half_length, const unsigned int n_crac
 TestParameters cracked(const double notch_ratio, const double grip_ratio)
 {
   TestParameters wanted;
-  wanted.notch_ratio = notch_ratio;
-  wanted.grip_ratio = grip_ratio;
+  wanted.of<NotchParameters>().ratio = notch_ratio;
+  wanted.of<TensionParameters>().grip_ratio = grip_ratio;
   return wanted;
 }
 
@@ -106,13 +108,13 @@ Specimen<2> strong_plate(const std::uint64_t seed)
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength *= 100.0;
   flat_joint.bond_cohesion *= 100.0;
-  return make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<2>(wanted, flat_joint, {}, seed);
 }
 
 TestOutcome pulled(const LaboratoryProtocol& protocol, const Specimen<2>& specimen, const double notch_ratio)
 {
   TestParameters wanted = cracked(notch_ratio, 0.1);
-  wanted.tension_strain_rate = 0.05;
+  wanted.of<TensionParameters>().strain_rate = 0.05;
   wanted.stop_strain = 3e-5;
   LabTest<2> test({protocol}, specimen, wanted, {});
   while (test.advance())

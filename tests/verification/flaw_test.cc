@@ -3,6 +3,8 @@
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
@@ -29,13 +31,13 @@ Specimen<2> granite(const double width, const double height, const double minimu
   flat_joint.coordination_number = 4.2;
   flat_joint.bond_tensile_strength *= strengths;
   flat_joint.bond_cohesion *= strengths;
-  return make_specimen<2>(wanted, flat_joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<2>(wanted, flat_joint, {}, seed);
 }
 
 TestOutcome compress(const Specimen<2>& specimen, const double to_strain)
 {
   TestParameters wanted;
-  wanted.compression_strain_rate = 0.5;
+  wanted.of<CompressionParameters>().strain_rate = 0.5;
   wanted.stop_strain = to_strain;
   LabTest<2> test({uniaxial_compression}, specimen, wanted, {});
   while (test.advance())
@@ -178,7 +180,7 @@ double slip_strength(const double width, const double height, const double angle
   sides.friction = std::tan(friction_angle);
   put_in_flaws<2>(specimen, {ClosedFlaw{{middle - half, middle + half}, sides}});
   TestParameters wanted;
-  wanted.compression_strain_rate = 0.5;
+  wanted.of<CompressionParameters>().strain_rate = 0.5;
   wanted.stop_strain = 1.5e-3;
   LabTest<2> test({triaxial_compression, pressure}, specimen, wanted, {});
   while (test.advance())
@@ -241,13 +243,13 @@ TEST(ASmoothPlane, InSpaceSlidesInTheShearBoxByCoulombsLawAndDilatesByItsAngle)
   wanted.height = 0.008;
   FlatJointParameters flat_joint;
   flat_joint.coordination_number = 6.0;
-  Specimen<3> specimen = make_specimen<3>(wanted, flat_joint, {}, 1, [](std::string_view, double) {});
+  Specimen<3> specimen = make_specimen<3>(wanted, flat_joint, {}, 1);
   SmoothSides sides;
   sides.friction = 0.6;
   sides.dilation_angle = 8.0 * degree;
   put_in_flaws<3>(specimen, {ClosedFlaw{{{0.0, 0.004}, {0.010, 0.004}}, sides}});
   TestParameters test_parameters;
-  test_parameters.shear_strain_rate = 0.2;
+  test_parameters.of<ShearParameters>().strain_rate = 0.2;
   test_parameters.stop_strain = 1e-3;
   LabTest<3> test({direct_shear, 5e6}, specimen, test_parameters, {});
   while (test.advance())

@@ -23,7 +23,7 @@ std::shared_ptr<const Network<2>> granite(const std::uint64_t seed)
   wanted.width = wanted.height = 0.0325;
   FlatJointParameters joint;
   joint.coordination_number = 4.2;
-  return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, seed, [](std::string_view, double) {}));
+  return std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, seed));
 }
 
 /// 0.05 of the mean radius; 400 spheres in an edge of 11.6 mm.
@@ -36,7 +36,7 @@ Specimen<3> granite_in_space(const std::uint64_t seed, const double edge)
   wanted.porosity = 0.36;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
-  return make_specimen<3>(wanted, joint, {}, seed, [](std::string_view, double) {});
+  return make_specimen<3>(wanted, joint, {}, seed);
 }
 
 /// Along the last axis with the sides held at a pressure.
@@ -138,8 +138,7 @@ TEST(Granite, BalancesHoldWhereACrackRunsThroughAndWhereNothingIsLeft)
       wanted.width = wanted.height = edge;
       FlatJointParameters joint;
       joint.installation_gap_ratio = 0.0457; // examples/rve-beishan
-      const auto network = std::make_shared<const Network<2>>(
-        make_specimen<2>(wanted, joint, {}, std::uint64_t(seed), [](std::string_view, double) {}));
+      const auto network = std::make_shared<const Network<2>>(make_specimen<2>(wanted, joint, {}, std::uint64_t(seed)));
       const auto run = run_axially(network, 4e-4, 0.0, 5e-6);
       expect_balances(run.record());
       EXPECT_LT(std::abs(run.record().samples.back().stress[1]), 0.1 * peak(run.record())) << edge;

@@ -70,6 +70,17 @@ Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const 
 }
 } // namespace
 
+std::vector<Entry<TestParameters>> bending_entries()
+{
+  using P = BendingParameters;
+  using namespace tests_flags;
+  return within_tests<P>(
+    {entry::quantity("Bending strain rate", &P::strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                     "of the deflection over the depth of the bent body; magnitude", of_grains),
+     entry::number("Bending sampling strain", &P::sampling_strain, range_of_sampling_strain,
+                   "deflection over depth between two rows of the curve", of_grains)});
+}
+
 /// Gives the grains the velocities of a beam that bends steadily [m/s]: set off from rest, it would swing, and its first
 /// swing would pass for a peak.
 template <int dim>
@@ -91,22 +102,23 @@ template <int dim>
 SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParameters& wanted,
                     const DynamicsParameters& dynamics)
 {
+  const auto& own = wanted.of<BendingParameters>();
   const double middle = 0.5 * body.size[0];
   cut_notch(body, {middle, 0.0}, {middle, bending.notch_depth}, wanted);
 
   const std::vector<bool> is_loose = loose_grains(body);
   Wall upper = roller(body, is_loose, middle, -1.0);
-  upper.velocity = -wanted.bending_strain_rate * bending.depth;
+  upper.velocity = -own.strain_rate * bending.depth;
   const std::array<Wall, 2> lower{roller(body, is_loose, middle - 0.5 * bending.span, 1.0),
                                   roller(body, is_loose, middle + 0.5 * bending.span, 1.0)};
   SetUpTest<dim> test{Dynamics<dim>(std::move(body), dynamics, ZeroForce::as_placed), {}};
-  start_bending(test.dynamics, bending.span, wanted.bending_strain_rate * bending.depth);
+  start_bending(test.dynamics, bending.span, own.strain_rate * bending.depth);
   const std::size_t left = test.dynamics.add_wall(lower[0]);
   const std::size_t right = test.dynamics.add_wall(lower[1]);
   const std::size_t top = test.dynamics.add_wall(upper);
 
-  test.loading.strain_rate = -wanted.bending_strain_rate;
-  test.loading.sampling_strain = wanted.bending_sampling_strain;
+  test.loading.strain_rate = -own.strain_rate;
+  test.loading.sampling_strain = own.sampling_strain;
   test.loading.notch = bending.notch;
   test.loading.end_stress = [=, factor = bending.stress_over_force](const Dynamics<dim>& state) {
     return EndStress{-factor * (state.wall_force(left) + state.wall_force(right)), -factor * state.wall_force(top)};

@@ -1,9 +1,22 @@
 #pragma once
 
+#include "dem/lab/own_entries.h"
 #include "dem/lab/test_in_progress.h"
+
+#include <vector>
 
 namespace feldspar
 {
+/// The pace of a body that is bent.
+struct BendingParameters
+{
+  double strain_rate = 0.1;      ///< of the deflection over the depth of the body [1/s]
+  double sampling_strain = 2e-6; ///< of the same between two rows of the curve
+};
+
+/// The entries of BendingParameters.
+std::vector<Entry<TestParameters>> bending_entries();
+
 /// A body that stands on two rollers and is pressed down by a third, with a saw cut of no width from below.
 struct Bending
 {

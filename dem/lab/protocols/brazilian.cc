@@ -1,4 +1,7 @@
+#include "dem/lab/protocols/brazilian.h"
+
 #include "base/input_error.h"
+#include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
@@ -30,7 +33,7 @@ Vector<dim> disc_size(const Specimen<dim>& specimen, const TestParameters& wante
   else
     {
       const double diameter = specimen.size[0];
-      return {diameter, std::min(wanted.brazilian_length_ratio * diameter, specimen.size[2]), diameter};
+      return {diameter, std::min(wanted.of<BrazilianParameters>().length_ratio * diameter, specimen.size[2]), diameter};
     }
 }
 
@@ -109,6 +112,7 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confinin
                                 const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
+  const auto& own = wanted.of<BrazilianParameters>();
   const Specimen<dim> disc = cut_disc<dim>(placed(specimen), disc_size(specimen, wanted));
   const double diameter = disc.size[0];
   const double length = dim == 2 ? disc.thickness : disc.size[1];
@@ -117,13 +121,13 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confinin
   std::vector<std::uint32_t> upper_pad = pad(disc, specimen.report.mean_radius, 1.0);
 
   SetUpTest<dim> test{Dynamics<dim>(disc, dynamics, ZeroForce::as_placed), {}};
-  start_steadily(test.dynamics, -wanted.brazilian_strain_rate);
-  const Vector<dim> upwards = 0.5 * wanted.brazilian_strain_rate * diameter * Vector<dim>::Unit(axis);
+  start_steadily(test.dynamics, -own.strain_rate);
+  const Vector<dim> upwards = 0.5 * own.strain_rate * diameter * Vector<dim>::Unit(axis);
   const auto lower = test.dynamics.add_grip(std::move(lower_pad), upwards);
   const auto upper = test.dynamics.add_grip(std::move(upper_pad), -upwards);
 
-  test.loading.strain_rate = -wanted.brazilian_strain_rate;
-  test.loading.sampling_strain = wanted.brazilian_sampling_strain;
+  test.loading.strain_rate = -own.strain_rate;
+  test.loading.sampling_strain = own.sampling_strain;
   // σ_t = 2P/(πDt), the tension across the loaded diameter of an elastic disc.
   const double load_to_stress = 2.0 / (std::numbers::pi * diameter * length);
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
@@ -131,6 +135,21 @@ SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confinin
   };
   return test;
 }
+std::vector<Entry<TestParameters>> brazilian_entries()
+{
+  using P = BrazilianParameters;
+  using namespace tests_flags;
+  return within_tests<P>(
+    {entry::quantity("Brazilian strain rate", &P::strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                     "of the loaded diameter; magnitude", of_grains),
+     entry::number("Brazilian sampling strain", &P::sampling_strain, range_of_sampling_strain,
+                   "strain of the diameter between two rows of the curve", of_grains),
+     entry::number(
+       "Brazilian length ratio", &P::length_ratio, ranges::above_zero,
+       "length of the disc, or half disc, that is cut from a cylinder over its diameter, in three dimensions",
+       tests_flags::in_space)});
+}
+
 } // namespace
 
 constinit const LaboratoryProtocol brazilian = complete({
@@ -142,7 +161,8 @@ constinit const LaboratoryProtocol brazilian = complete({
            .peak_rule = PeakRule::first_before_a_fall,
            .envelope_role = EnvelopeRole::indirect_tension,
            .strength_decimals = 2},
-  .strain_rate = &TestParameters::brazilian_strain_rate,
+  .strain_rate = rate_of<BrazilianParameters>,
+  .own_entries = {brazilian_entries},
   .forecast = {PeakForecast::With::tension, 4.0},
   .takes_cylinders = true,
   .set_up_2d = set_up_brazilian<2>,

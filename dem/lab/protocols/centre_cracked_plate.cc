@@ -30,18 +30,18 @@ SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double
   // Its longer side is the plate's length.
   Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : specimen;
   const double width = plate.size[0];
-  const double a = 0.5 * wanted.notch_ratio * width;
+  const double ratio = wanted.of<NotchParameters>().ratio;
+  const double a = 0.5 * ratio * width;
   const Vector<2> middle(0.5 * width, 0.5 * plate.size[axis]);
   cut_notch(plate, {middle[0] - a, middle[1]}, {middle[0] + a, middle[1]}, wanted);
 
   const double area = plate.volume() / plate.size[axis];
   const double length = free_length(plate, wanted);
   SetUpTest<dim> test = pull(plate, wanted, dynamics);
-  test.loading.notch = {.intensity_over_stress =
-                          shape_factor_of_plate(wanted.notch_ratio) * std::sqrt(std::numbers::pi * a),
+  test.loading.notch = {.intensity_over_stress = shape_factor_of_plate(ratio) * std::sqrt(std::numbers::pi * a),
                         .work_over_stress = area * length,
-                        .ligament_area = area * (1.0 - wanted.notch_ratio),
-                        .ligament_length = 0.5 * width * (1.0 - wanted.notch_ratio),
+                        .ligament_area = area * (1.0 - ratio),
+                        .ligament_length = 0.5 * width * (1.0 - ratio),
                         .is_valid = length >= least_length_over_width * width};
   return test;
 }
@@ -54,7 +54,8 @@ constinit const LaboratoryProtocol centre_cracked_plate = complete({
            .sign = 1.0,
            .has_notch = true,
            .strength_decimals = 2},
-  .strain_rate = &TestParameters::tension_strain_rate,
+  .strain_rate = rate_of<TensionParameters>,
+  .own_entries = {tension_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 0.6},
   .set_up_2d = set_up_centre_cracked_plate<2>,
   .set_up_3d = set_up_centre_cracked_plate<3>,

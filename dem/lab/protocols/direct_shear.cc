@@ -1,3 +1,6 @@
+#include "dem/lab/protocols/direct_shear.h"
+
+#include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
@@ -40,9 +43,10 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
                                    const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
+  const auto own = wanted.of<ShearParameters>();
   const double height = specimen.size[axis];
   const double area = specimen.size[0] * (dim == 2 ? specimen.thickness : specimen.size[1]);
-  const double speed = wanted.shear_strain_rate * specimen.size[0];
+  const double speed = own.strain_rate * specimen.size[0];
   // The halves leave one mean grain diameter free, so that the plane may run between them as it will.
   const double half_gap = specimen.report.mean_radius;
   constexpr double endless = std::numeric_limits<double>::infinity();
@@ -72,7 +76,7 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
     for (const std::size_t end : {lower.low, lower.high})
       state.wall(end).velocity = -0.5 * speed;
   };
-  if (const auto stiffness = wanted.shear_normal_stiffness)
+  if (const auto stiffness = own.normal_stiffness)
     {
       test.loading.normal_stiffness = stiffness;
       test.loading.opening = [=](const Dynamics<dim>& state) {
@@ -85,14 +89,30 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   else
     test.loading.drive = [=](Dynamics<dim>& state) { hold(state, normal_stress); };
 
-  test.loading.strain_rate = -wanted.shear_strain_rate;
-  test.loading.sampling_strain = wanted.shear_sampling_strain;
+  test.loading.strain_rate = -own.strain_rate;
+  test.loading.sampling_strain = own.sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{push(state, lower) / area, -push(state, upper) / area};
   };
   test.loading.servo_stress = [=](const Dynamics<dim>& state) { return -state.wall_force(platens.upper) / area; };
   return test;
 }
+std::vector<Entry<TestParameters>> shear_entries()
+{
+  using P = ShearParameters;
+  using namespace tests_flags;
+  return within_tests<P>(
+    {entry::quantity("Shear strain rate", &P::strain_rate, Measure::rate, "1/s", ranges::above_zero,
+                     "of the shear displacement over the length of the plane; magnitude", of_grains),
+     entry::number("Shear sampling strain", &P::sampling_strain, range_of_sampling_strain,
+                   "shear displacement over the length of the plane between two rows of the curve", of_grains),
+     entry::optional_quantity("Shear normal stiffness", &P::normal_stiffness, Measure::stiffness, "GPa/mm",
+                              ranges::above_zero,
+                              "of the rock around the plane of direct shear: the normal stress grows by this times the "
+                              "opening of the box since its seating; none: the normal stress is constant",
+                              of_grains)});
+}
+
 } // namespace
 
 constinit const LaboratoryProtocol direct_shear = complete({
@@ -104,7 +124,8 @@ constinit const LaboratoryProtocol direct_shear = complete({
            .takes_confining_pressure = true,
            .pressure_acts_across = true,
            .strength_decimals = 2},
-  .strain_rate = &TestParameters::shear_strain_rate,
+  .strain_rate = rate_of<ShearParameters>,
+  .own_entries = {shear_entries},
   .forecast = {PeakForecast::With::compression, 1.4}, // granite in a box of 40 x 20 mm, examples/direct-shear
   .set_up_2d = set_up_direct_shear<2>,
   .set_up_3d = set_up_direct_shear<3>,

@@ -7,6 +7,17 @@
 
 namespace feldspar
 {
+std::vector<Entry<TestParameters>> notch_entries()
+{
+  using P = NotchParameters;
+  using namespace tests_flags;
+  return within_tests<P>({entry::number(
+    "Notch ratio", &P::ratio, {'[', 0.05, 0.8, ']'},
+    "depth of the notch of a bent body over that of the body (over the radius of a half disc, "
+    "which has a toughness from 0.4 to 0.6 only); of a centre-cracked plate the whole length of its crack over its width",
+    of_grains)});
+}
+
 template <int dim>
 void cut_notch(Specimen<dim>& body, const Vector<2>& from, const Vector<2>& to, const TestParameters& wanted)
 {
@@ -16,8 +27,8 @@ void cut_notch(Specimen<dim>& body, const Vector<2>& from, const Vector<2>& to, 
     }
   catch (const InputError& error)
     {
-      throw InputError(
-        fmt::format("Tests/Notch ratio = {}: the notch cannot be cut: {}", wanted.notch_ratio, error.what()));
+      throw InputError(fmt::format("Tests/Notch ratio = {}: the notch cannot be cut: {}",
+                                   wanted.of<NotchParameters>().ratio, error.what()));
     }
 }
 

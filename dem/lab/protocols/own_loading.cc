@@ -1,4 +1,6 @@
 #include "base/input_error.h"
+#include "dem/lab/compression.h"
+#include "dem/lab/loading_stages.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
@@ -16,14 +18,15 @@ template <int dim>
 SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                   const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  if (wanted.loading_stages.empty())
+  const auto& stages = wanted.of<LoadingTable>().stages;
+  const auto own = wanted.of<CompressionParameters>();
+  if (stages.empty())
     throw InputError("Tests/Loading table: is missing; own_loading follows its stages");
-  const LoadingStage& first = wanted.loading_stages.front();
+  const LoadingStage& first = stages.front();
   const double pressure_at_start = first.confining_pressure;
   double fastest = 0.0;
-  for (const LoadingStage& stage : wanted.loading_stages)
-    fastest = std::max(fastest, stage.lateral_strain ? wanted.compression_strain_rate
-                                                     : stage.strain_rate.value_or(wanted.compression_strain_rate));
+  for (const LoadingStage& stage : stages)
+    fastest = std::max(fastest, stage.lateral_strain ? own.strain_rate : stage.strain_rate.value_or(own.strain_rate));
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   const auto platens = add_platens(test, wanted.platen_friction);
   const WallPair ends{platens.lower, platens.upper};
@@ -50,7 +53,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       hold_pressure(state, wall, area, stress, largest_servo_speed);
   };
 
-  test.loading.strain_rate = -wanted.compression_strain_rate;
+  test.loading.strain_rate = -own.strain_rate;
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
     if (pressure_at_start > 0.0)
       {
@@ -77,7 +80,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       }
     const bool presses = first.axial_strain ? *first.axial_strain > 0.0 : first.axial_stress > pressure_at_start;
     if (presses && !first.duration)
-      start_steadily(state, -first.strain_rate.value_or(wanted.compression_strain_rate), about);
+      start_steadily(state, -first.strain_rate.value_or(own.strain_rate), about);
   };
   // The widening answers the platens after some half of a wave's travel. Mending in it less than a sixth of what is missed
   // leaves the loop stable even where a broken specimen widens by several times what it is shortened.
@@ -97,7 +100,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       close(state, platens, demand.closing_rate * height);
   };
   test.loading.shortening = [=](const Dynamics<dim>& state) { return 1.0 - distance(state, ends) / height; };
-  test.loading.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.sampling_strain = own.sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return stress_of(state, platens, around.end_area(state));
   };
@@ -116,7 +119,8 @@ constinit const LaboratoryProtocol own_loading = complete({
            .sign = -1.0,
            .runs_on_finite_elements = true,
            .follows_stages = true},
-  .strain_rate = &TestParameters::compression_strain_rate,
+  .strain_rate = rate_of<CompressionParameters>,
+  .own_entries = {compression_entries, loading_table_entries},
   .takes_cylinders = true,
   .set_up_2d = set_up_own_loading<2>,
   .set_up_3d = set_up_own_loading<3>,

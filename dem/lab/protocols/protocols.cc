@@ -1,5 +1,7 @@
 #include "dem/lab/protocols/protocols.h"
 
+#include "dem/lab/entries.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +27,23 @@ const std::vector<const LaboratoryProtocol*>& laboratory_protocols()
   static const std::vector<const LaboratoryProtocol*> all{
     &direct_tension,       &uniaxial_compression, &triaxial_compression, &brazilian,  &three_point_bending,
     &semicircular_bending, &centre_cracked_plate, &direct_shear,         &own_loading};
+  return all;
+}
+
+std::vector<Entry<TestParameters>> test_entries()
+{
+  std::vector<Entry<TestParameters>> all;
+  std::vector<OwnEntries> taken;
+  for (const LaboratoryProtocol* protocol : laboratory_protocols())
+    for (const OwnEntries entries : protocol->own_entries)
+      if (entries && std::find(taken.begin(), taken.end(), entries) == taken.end())
+        {
+          taken.push_back(entries);
+          for (const auto& one : entries())
+            all.push_back(one);
+        }
+  for (const auto& one : common_test_entries())
+    all.push_back(one);
   return all;
 }
 

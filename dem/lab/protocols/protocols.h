@@ -34,6 +34,9 @@ extern const LaboratoryProtocol own_loading;
 /// All of them.
 const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
 
+/// The entries of section Tests: those of single protocols, each once, then those of all.
+std::vector<Entry<TestParameters>> test_entries();
+
 /// Their kinds, in the same order.
 const std::vector<TestKind>& test_kinds();
 

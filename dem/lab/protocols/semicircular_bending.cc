@@ -1,4 +1,6 @@
 #include "dem/lab/protocols/bending.h"
+#include "dem/lab/protocols/brazilian.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
 
@@ -30,8 +32,8 @@ Vector<dim> half_disc_size(const Specimen<dim>& specimen, const TestParameters& 
   Vector<dim> size = Vector<dim>::Constant(2.0 * radius);
   size[axis] = radius;
   if constexpr (dim == 3)
-    size[1] =
-      specimen.round ? std::min(wanted.brazilian_length_ratio * 2.0 * radius, specimen.size[2]) : specimen.size[1];
+    size[1] = specimen.round ? std::min(wanted.of<BrazilianParameters>().length_ratio * 2.0 * radius, specimen.size[2])
+                             : specimen.size[1];
   return size;
 }
 
@@ -63,7 +65,7 @@ SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double
   Specimen<dim> half_disc = shifted<dim>(part_of(std::move(whole), kept), -corner, size);
   half_disc.round = false;
 
-  const double a = wanted.notch_ratio;
+  const double a = wanted.of<NotchParameters>().ratio;
   const double stress_over_force = 1.0 / (2.0 * radius * breadth);
   const Bending bending{.depth = radius,
                         .span = 2.0 * radius * span_over_diameter,
@@ -86,7 +88,8 @@ constinit const LaboratoryProtocol semicircular_bending = complete({
            .channel = {&CurveSample::axial_stress, "load over section", "deflection over radius"},
            .has_notch = true,
            .strength_decimals = 2},
-  .strain_rate = &TestParameters::bending_strain_rate,
+  .strain_rate = rate_of<BendingParameters>,
+  .own_entries = {bending_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 1.3},
   .takes_cylinders = true,
   .set_up_2d = set_up_semicircular_bending<2>,

@@ -1,4 +1,5 @@
 #include "dem/lab/protocols/bending.h"
+#include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"
 
@@ -49,7 +50,7 @@ SetUpTest<dim> set_up_three_point_bending(const Specimen<dim>& specimen, double 
 
   const double breadth = dim == 2 ? beam.thickness : beam.size[1];
   const double span = span_over_depth * depth;
-  const double a = wanted.notch_ratio;
+  const double a = wanted.of<NotchParameters>().ratio;
   // σ = 3 P S / (2 B W²), at the lower side of a beam without a notch.
   const double stress_over_force = 3.0 * span / (2.0 * breadth * depth * depth);
   const Bending bending{.depth = depth,
@@ -73,7 +74,8 @@ constinit const LaboratoryProtocol three_point_bending = complete({
            .channel = {&CurveSample::axial_stress, "bending stress", "deflection over depth"},
            .has_notch = true,
            .strength_decimals = 2},
-  .strain_rate = &TestParameters::bending_strain_rate,
+  .strain_rate = rate_of<BendingParameters>,
+  .own_entries = {bending_entries, notch_entries},
   .forecast = {PeakForecast::With::tension, 4.0},
   .set_up_2d = set_up_three_point_bending<2>,
   .set_up_3d = set_up_three_point_bending<3>,

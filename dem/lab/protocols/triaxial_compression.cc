@@ -1,3 +1,4 @@
+#include "dem/lab/compression.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
@@ -33,12 +34,13 @@ template <int dim>
 SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
+  const auto own = wanted.of<CompressionParameters>();
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   const auto platens = add_platens(test, wanted.platen_friction);
   const WallPair ends{platens.lower, platens.upper};
   const double height = distance(test.dynamics, ends);
   const double about = middle(test.dynamics, platens);
-  const double closing_speed = wanted.compression_strain_rate * height;
+  const double closing_speed = own.strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
   const auto around = surround(test, ends, confining_pressure, wanted);
   const bool membrane = around.sides.empty();
@@ -84,7 +86,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
                          check);
     if (membrane)
       press_membrane(state, ends, confining_pressure);
-    start_steadily(state, -wanted.compression_strain_rate, about);
+    start_steadily(state, -own.strain_rate, about);
     close(state, platens, closing_speed);
   };
   test.loading.drive = [=](Dynamics<dim>& state) {
@@ -95,8 +97,8 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
   };
 
   test.loading.intermediate_stress = around.intermediate_stress;
-  test.loading.strain_rate = -wanted.compression_strain_rate;
-  test.loading.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.strain_rate = -own.strain_rate;
+  test.loading.sampling_strain = own.sampling_strain;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return stress_of(state, platens, around.end_area(state));
   };
@@ -118,7 +120,8 @@ constinit const LaboratoryProtocol triaxial_compression = complete({
            .takes_confining_pressure = true,
            .runs_on_finite_elements = true,
            .duration_rank = 1},
-  .strain_rate = &TestParameters::compression_strain_rate,
+  .strain_rate = rate_of<CompressionParameters>,
+  .own_entries = {compression_entries, confinement_entries},
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,

@@ -1,3 +1,4 @@
+#include "dem/lab/compression.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/test_in_progress.h"
@@ -10,13 +11,14 @@ template <int dim>
 SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
+  const auto& own = wanted.of<CompressionParameters>();
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
   const auto platens = add_platens(test, wanted.platen_friction);
-  start_steadily(test.dynamics, -wanted.compression_strain_rate, middle(test.dynamics, platens));
-  close(test.dynamics, platens, wanted.compression_strain_rate * distance(test.dynamics, platens));
+  start_steadily(test.dynamics, -own.strain_rate, middle(test.dynamics, platens));
+  close(test.dynamics, platens, own.strain_rate * distance(test.dynamics, platens));
 
-  test.loading.strain_rate = -wanted.compression_strain_rate;
-  test.loading.sampling_strain = wanted.compression_sampling_strain;
+  test.loading.strain_rate = -own.strain_rate;
+  test.loading.sampling_strain = own.sampling_strain;
   const double area = specimen.volume() / specimen.size[dim - 1];
   test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, platens, area); };
   return test;
@@ -32,7 +34,8 @@ constinit const LaboratoryProtocol uniaxial_compression = complete({
            .has_uniform_stress = true,
            .runs_on_finite_elements = true,
            .duration_rank = 1},
-  .strain_rate = &TestParameters::compression_strain_rate,
+  .strain_rate = rate_of<CompressionParameters>,
+  .own_entries = {compression_entries},
   .forecast = {PeakForecast::With::compression},
   .takes_cylinders = true,
   .takes_clumps = true,

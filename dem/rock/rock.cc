@@ -1,0 +1,48 @@
+#include "dem/rock/rock.h"
+
+#include "base/input_error.h"
+#include "dem/flaws/apply.h"
+#include "dem/flaws/clumps.h"
+#include "dem/flaws/mineral_grains.h"
+#include "dem/genesis/genesis.h"
+#include "dem/specimen/specimen_file.h"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+namespace feldspar
+{
+namespace
+{
+/// A specimen out of a file brings its own joint law, which must be that of the rock.
+template <int dim>
+Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted, const std::function<void()>& check)
+{
+  auto specimen = read_specimen<dim>(wanted.specimen_file, check);
+  const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
+  if (law != wanted.joint_law)
+    throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
+                                 wanted.specimen_file, law));
+  return specimen;
+}
+} // namespace
+
+template <int dim>
+Specimen<dim> make_rock(const RockParameters& rock, const std::uint64_t seed, const std::function<void()>& check,
+                        const std::function<void()>& check_within)
+{
+  auto specimen = rock.specimen.specimen_file.empty()
+                    ? make_specimen<dim>(rock.specimen, rock.joint, rock.particle_contact, seed, check, check_within)
+                    : read_finished_specimen<dim>(rock.specimen, check_within);
+  put_in_flaws(specimen, rock.flaws, rock.smooth_joint);
+  put_in_mineral_grains(specimen, rock.mineral_grains, rock.smooth_joint);
+  put_in_clumps(specimen, rock.clumps);
+  return specimen;
+}
+
+template Specimen<2> make_rock<2>(const RockParameters&, std::uint64_t, const std::function<void()>&,
+                                  const std::function<void()>&);
+template Specimen<3> make_rock<3>(const RockParameters&, std::uint64_t, const std::function<void()>&,
+                                  const std::function<void()>&);
+} // namespace feldspar
