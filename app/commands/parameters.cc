@@ -5,6 +5,7 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -39,14 +40,6 @@ void print_markdown(const std::string_view section)
     if (parameter.section == section)
       print_result("| {} | {} | {} | {} | {} |\n", parameter.entry, or_dash(parameter.unit), parameter.default_text(),
                    parameter.range, parameter.meaning);
-}
-
-std::string in_small_letters(const std::string_view text)
-{
-  std::string small(text);
-  for (char& c : small)
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return small;
 }
 
 /// The entries that have a word in their name, meaning or choices, capital or small; throws InputError where none has.

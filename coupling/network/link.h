@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/voigt.h"
+#include "base/voigt.h"
 #include "dem/laws/face.h"
 
 #include <cstdint>

@@ -250,8 +250,7 @@ std::uint64_t point_seed(const GrainMaterialParameters& parameters, const fem::P
 {
   Fingerprint print;
   print.add(parameters.seed);
-  for (const char c : place.cell)
-    print.add_byte(std::uint8_t(c));
+  print.add(place.cell);
   print.add_byte(parameters.to_elements ? 0 : place.quadrature_point);
   return print.value();
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/voigt.h"
+#include "base/voigt.h"
 #include "fem/materials/forwarding_point.h"
 
 #include <Eigen/LU>

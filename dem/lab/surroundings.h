@@ -2,6 +2,7 @@
 
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/parameters.h"
+#include "dem/lab/platens.h"
 #include "dem/lab/test_in_progress.h"
 
 #include <cstddef>
@@ -29,17 +30,6 @@ double stress_of(const Dynamics<dim>& dynamics, const Press<dim>& press)
     force += dynamics.wall_force(wall) / double(press.walls.size());
   return -force / press.area(dynamics);
 }
-
-/// Two walls across one axis.
-struct WallPair
-{
-  std::size_t low;
-  std::size_t high;
-};
-
-/// Between them [m].
-template <int dim>
-double distance(const Dynamics<dim>& dynamics, const WallPair& pair);
 
 /// The lateral boundary of a specimen that is pressed between platens.
 template <int dim>

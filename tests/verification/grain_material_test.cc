@@ -3,6 +3,7 @@
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
 #include "fem/solid/solid.h"
+#include "tests/stress_tensor.h"
 #include "tests/unit/small_rve.h"
 
 #include <Eigen/Geometry>
@@ -90,8 +91,8 @@ TYPED_TEST(GrainMaterials, ATurnedRveRespondsInTheAxesOfTheSample)
   const auto response = point.trial(strain);
   const Tensor<dim> in_rve = turn.transpose() * strain_tensor<dim>(strain) * turn;
   const Voigt<dim> of_rve = network->intact_stiffness() * strain_voigt<dim>(in_rve);
-  const Tensor<dim> expected = turn * stress_tensor<dim>(of_rve) * turn.transpose();
-  EXPECT_LT((stress_tensor<dim>(response.stress) - expected).norm(), 1e-13 * expected.norm());
+  const Tensor<dim> expected = turn * tests::stress_tensor<dim>(of_rve) * turn.transpose();
+  EXPECT_LT((tests::stress_tensor<dim>(response.stress) - expected).norm(), 1e-13 * expected.norm());
   EXPECT_LT((response.tangent * strain - response.stress).norm(), 1e-13 * response.stress.norm()); // linear so far
 }
 

@@ -25,10 +25,9 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
     fastest = std::max(fastest, stage.lateral_strain ? wanted.compression_strain_rate
                                                      : stage.strain_rate.value_or(wanted.compression_strain_rate));
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test, wanted.platen_friction);
-  const WallPair ends{platens.lower, platens.upper};
+  const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
-  const double about = middle(test.dynamics, platens);
+  const double about = middle(test.dynamics, ends);
   const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
   Surroundings<dim> around;
   if (pressure_at_start > 0.0)
@@ -88,19 +87,17 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       hold_ends(state, *demand.held_stress);
     else if (demand.missing_widening)
       {
-        const EndStress stress = stress_of(state, platens, around.end_area(state));
+        const EndStress stress = stress_of(state, ends, around.end_area(state));
         const bool may_open = -0.5 * (stress.lower + stress.upper) > demand.confining_pressure;
         const double rate = closing_per_widening * *demand.missing_widening;
-        close(state, platens, (may_open ? rate : std::max(0.0, rate)) * height);
+        close(state, ends, (may_open ? rate : std::max(0.0, rate)) * height);
       }
     else
-      close(state, platens, demand.closing_rate * height);
+      close(state, ends, demand.closing_rate * height);
   };
   test.loading.shortening = [=](const Dynamics<dim>& state) { return 1.0 - distance(state, ends) / height; };
   test.loading.sampling_strain = wanted.compression_sampling_strain;
-  test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    return stress_of(state, platens, around.end_area(state));
-  };
+  test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, ends, around.end_area(state)); };
   if (!around.sides.empty())
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
       return stress_of(state, side);

@@ -34,10 +34,9 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test, wanted.platen_friction);
-  const WallPair ends{platens.lower, platens.upper};
+  const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
-  const double about = middle(test.dynamics, platens);
+  const double about = middle(test.dynamics, ends);
   const double closing_speed = wanted.compression_strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
   const auto around = surround(test, ends, confining_pressure, wanted);
@@ -85,7 +84,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     if (membrane)
       press_membrane(state, ends, confining_pressure);
     start_steadily(state, -wanted.compression_strain_rate, about);
-    close(state, platens, closing_speed);
+    close(state, ends, closing_speed);
   };
   test.loading.drive = [=](Dynamics<dim>& state) {
     for (const auto& side : around.sides)
@@ -97,9 +96,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
   test.loading.intermediate_stress = around.intermediate_stress;
   test.loading.strain_rate = -wanted.compression_strain_rate;
   test.loading.sampling_strain = wanted.compression_sampling_strain;
-  test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    return stress_of(state, platens, around.end_area(state));
-  };
+  test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, ends, around.end_area(state)); };
   if (!membrane)
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
       return stress_of(state, side);

@@ -74,16 +74,4 @@ Voigt<dim> stress_voigt(const Tensor<dim>& tensor)
     }
   return stress;
 }
-
-template <int dim>
-Tensor<dim> stress_tensor(const Voigt<dim>& stress)
-{
-  Tensor<dim> tensor;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const auto [i, j] = voigt_pair<dim>(k);
-      tensor(i, j) = tensor(j, i) = stress[k];
-    }
-  return tensor;
-}
 } // namespace feldspar
