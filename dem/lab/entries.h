@@ -28,14 +28,18 @@ inline std::vector<Entry<TestParameters>> test_entries()
   const EntryFlags in_space{.varies = true,
                             .bodies = {Body::box, Body::cylinder},
                             .needs = "is the length of a disc in space, Dimension = 3; in the plane discs have none"};
+  const auto as_basic = [](EntryFlags flags) {
+    flags.basic = true;
+    return flags;
+  };
   const Range sampling{'(', 0.0, 0.01, ']'}; // a curve of two rows to the peak tells nothing
   return {
     entry::quantity("Compression strain rate", &P::compression_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "magnitude", of_grains),
+                    "magnitude", as_basic(of_grains)),
     entry::quantity("Tension strain rate", &P::tension_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "magnitude", of_grains),
+                    "magnitude", as_basic(of_grains)),
     entry::quantity("Brazilian strain rate", &P::brazilian_strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                    "of the loaded diameter; magnitude", of_grains),
+                    "of the loaded diameter; magnitude", as_basic(of_grains)),
     entry::number("Compression sampling strain", &P::compression_sampling_strain, sampling,
                   "axial strain between two rows of the curve", of_grains),
     entry::number("Tension sampling strain", &P::tension_sampling_strain, sampling,
@@ -65,15 +69,15 @@ inline std::vector<Entry<TestParameters>> test_entries()
       "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
       "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
       "rates only say how long a strain takes beside a hold",
-      of_platens),
+      as_basic(of_platens)),
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
-                   of_grains_alike),
+                   as_basic(of_grains_alike)),
     entry::number(
       "Platen friction", &P::platen_friction, ranges::from_zero,
       "coefficient of the platens in compression. 0: smooth, as in the flat-joint paper; those of a laboratory hold the "
       "ends of a specimen, and raise the uniaxial strength most",
-      of_grains),
+      as_basic(of_grains)),
     entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
                   "travel times of a wave along the specimen over which the confinement is raised", of_grains),
     entry::choice("Lateral boundary", &P::lateral_boundary,
@@ -95,7 +99,7 @@ inline std::vector<Entry<TestParameters>> test_entries()
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
       "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "
       "stress is rising goes on",
-      varies),
+      as_basic(varies)),
     entry::optional_quantity(
       "Least peak stress", &P::least_peak_stress, Measure::stress, "MPa", ranges::from_zero,
       "a lower highest stress (beyond the confinement) is no peak. none: on grains twice ρ c × strain rate × "
