@@ -6,11 +6,11 @@
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
-#include "app/screen/test_length.h"
+#include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "dem/genesis/genesis.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include "app/commands/commands.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
+#include "app/programme/laboratory_effort.h"
 #include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
-#include "app/programme/test_effort.h"
 #include "app/programme/usual_ranges.h"
 #include "app/run/finite_elements.h"
 #include "app/screen/print_result.h"
@@ -29,15 +29,15 @@ namespace
 using Remarks = std::vector<std::string>;
 
 /// Looks at the specimen that a specimen file brings, in its dimension; at nothing where there is no such file.
-template <typename Look>
-void with_specimen_of_file(const Input& input, const Look& look)
+template <typename Use>
+void with_specimen_of_file(const Input& input, const Use& use)
 {
   if (input.specimen.specimen_file.empty())
     return;
   if (input.specimen.dimension == 2)
-    look(specimen_of_file<2>(input));
+    use(specimen_of_file<2>(input));
   else
-    look(specimen_of_file<3>(input));
+    use(specimen_of_file<3>(input));
 }
 
 Remarks check_lab(const Input& input, const std::filesystem::path& file)

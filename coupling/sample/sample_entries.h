@@ -74,10 +74,10 @@ inline std::vector<Entry<SampleParameters>> sample_entries()
     entry::choice("Orientation", &P::random_orientation, {{"random", true}, {"fixed", false}},
                   "whether the representative volume at each point is turned by an angle of its own, and the "
                   "flaws in it"),
-    entry::choice("Dealing", &P::dealt_to_elements, {{"to points", false}, {"to elements", true}},
+    entry::choice("Dealing", &P::assigned_to_elements, {{"to points", false}, {"to elements", true}},
                   "to points: every point gets a representative volume of its own; to elements: the points of an "
                   "element have the same packing in the same orientation"),
-    entry::choice("Draw", &P::dealt_in_turn, {{"by lot", false}, {"in turn", true}},
+    entry::choice("Draw", &P::without_replacement, {{"by lot", false}, {"in turn", true}},
                   "by lot: any Realisation as likely as any other; in turn: from a shuffled stack, so that none "
                   "is used twice before all are. With as many Realisations as points (or elements) each has "
                   "its own"),

@@ -92,7 +92,7 @@ private:
   {
     return Stiffness<dim>::Identity() - (1.0 - scale) * compliance * tangent;
   }
-  void look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress);
+  void check_localisation(const Voigt<dim>& strain, const Voigt<dim>& stress);
 
   using fem::ForwardingPoint<dim>::inner;
   double scale;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/seating.h"
-#include "dem/lab/test_in_progress.h"
 
 namespace feldspar
 {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/parameters.h"
 #include "dem/lab/platens.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <cstddef>
 #include <functional>

@@ -133,7 +133,7 @@ Balance Solid<dim, material_dim>::rebalance()
   return verdict.balance;
 }
 
-/// The cells that are this rank's once the mesh has been dealt out by these weights.
+/// The cells that are this rank's once the mesh has been distributed by these weights.
 template <int dim, int material_dim>
 std::vector<StoredCell> Solid<dim, material_dim>::moved(const std::vector<StoredCell>& cells,
                                                         const std::vector<unsigned int>& weights)

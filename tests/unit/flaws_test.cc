@@ -2,8 +2,8 @@
 
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/laws/pivoting_plate.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"

@@ -2,8 +2,8 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include "dem/genesis/genesis.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

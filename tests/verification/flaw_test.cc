@@ -3,8 +3,8 @@
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>

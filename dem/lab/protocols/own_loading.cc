@@ -1,9 +1,9 @@
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,14 +55,14 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       {
         const auto largest_deviation = [&] {
           double largest = 0.0;
-          const auto look = [&](const std::size_t wall, const double area) {
+          const auto compare = [&](const std::size_t wall, const double area) {
             largest = std::max(largest, std::abs(state.wall_force(wall) / area / pressure_at_start - 1.0));
           };
           for (const Press<dim>& side : around.sides)
             for (const std::size_t wall : side.walls)
-              look(wall, side.area(state));
+              compare(wall, side.area(state));
           for (const std::size_t wall : {ends.low, ends.high})
-            look(wall, around.end_area(state));
+            compare(wall, around.end_area(state));
           return largest;
         };
         const auto hold_all = [&](const double share) {

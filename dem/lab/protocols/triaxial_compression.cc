@@ -1,9 +1,9 @@
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,13 +68,13 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     };
     const auto largest_deviation = [&] {
       double largest = 0.0;
-      const auto look = [&](const Press<dim>& press) {
+      const auto compare = [&](const Press<dim>& press) {
         for (const std::size_t wall : press.walls)
           largest = std::max(largest, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
       };
       for (const auto& side : around.sides)
-        look(side);
-      look(end_press);
+        compare(side);
+      compare(end_press);
       return largest;
     };
     raise_pressures<dim>(state,
