@@ -1,8 +1,7 @@
 #pragma once
 
-#include "base/vector.h"
+#include <Eigen/Core>
 
-#include <array>
 #include <string>
 #include <utility>
 
@@ -36,42 +35,5 @@ std::string voigt_name(const int k)
 {
   const auto [i, j] = voigt_pair<dim>(k);
   return {"xyz"[i], "xyz"[j]};
-}
-
-template <int dim>
-Tensor<dim> strain_tensor(const Voigt<dim>& strain)
-{
-  Tensor<dim> tensor;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const auto [i, j] = voigt_pair<dim>(k);
-      tensor(i, j) = tensor(j, i) = (i == j ? 1.0 : 0.5) * strain[k];
-    }
-  return tensor;
-}
-
-template <int dim>
-Voigt<dim> strain_voigt(const Tensor<dim>& tensor)
-{
-  Voigt<dim> strain;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const auto [i, j] = voigt_pair<dim>(k);
-      strain[k] = i == j ? tensor(i, i) : tensor(i, j) + tensor(j, i);
-    }
-  return strain;
-}
-
-/// The symmetric part.
-template <int dim>
-Voigt<dim> stress_voigt(const Tensor<dim>& tensor)
-{
-  Voigt<dim> stress;
-  for (int k = 0; k < n_voigt<dim>; ++k)
-    {
-      const auto [i, j] = voigt_pair<dim>(k);
-      stress[k] = 0.5 * (tensor(i, j) + tensor(j, i));
-    }
-  return stress;
 }
 } // namespace feldspar

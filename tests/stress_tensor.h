@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/voigt.h"
+#include "coupling/network/voigt_tensor.h"
 
 namespace feldspar::tests
 {
