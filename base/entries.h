@@ -59,6 +59,7 @@ struct EntryFlags
   bool of_specimen = false;      ///< a part of the specimen's identity: genesis reads it
   std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. Of other bodies it must keep its default
   std::string_view needs = {};   ///< such a body in words, for the error
+  bool basic = false;            ///< needed in a first study: the reference shows it before the others
 };
 
 /// The place of a value within `Parameters`: a member, or one of a part of them.

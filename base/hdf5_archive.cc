@@ -32,7 +32,7 @@ int fill(const int descriptor, const std::string& name, const std::function<void
   });
 }
 
-void write_sealed(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
+void write_sealed_hdf5(const std::filesystem::path& file, const std::function<void(const H5::Group&)>& write)
 {
   write_whole_file(file, [&](const int descriptor) {
     const auto error = [&] {
@@ -135,7 +135,7 @@ void read(const std::filesystem::path& file, const std::string& expected, const 
 
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write)
 {
-  write_sealed(file, [&](const H5::Group& root) {
+  write_sealed_hdf5(file, [&](const H5::Group& root) {
     Hdf5Writer writer(root);
     write(writer);
   });
@@ -143,7 +143,7 @@ void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5
 
 void seal_hdf5(const std::filesystem::path& file)
 {
-  write_sealed(file, [&](const H5::Group& root) {
+  write_sealed_hdf5(file, [&](const H5::Group& root) {
     try
       {
         const H5::H5File written(file.string(), H5F_ACC_RDONLY);

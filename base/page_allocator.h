@@ -34,7 +34,7 @@ struct PageAllocator
       throw std::bad_alloc();
 #ifdef __linux__
     if (alignment == large_page)
-      madvise(memory, whole, MADV_HUGEPAGE); // a wish; without it all is well but slower
+      madvise(memory, whole, MADV_HUGEPAGE); // advice; without it all is well but slower
 #endif
     return static_cast<T*>(memory);
   }

@@ -34,12 +34,6 @@ std::string bytes_of(const std::uint64_t number)
   return bytes;
 }
 
-void add(Fingerprint& print, const std::string_view content)
-{
-  for (const char c : content)
-    print.add_byte(static_cast<unsigned char>(c));
-}
-
 std::string seal(const std::uint64_t length, const Fingerprint& content)
 {
   return std::string(mark) + bytes_of(length) + bytes_of(content.value());
@@ -67,7 +61,7 @@ bool for_each_piece(std::istream& file, std::uint64_t length, const std::functio
 std::string seal_of(const std::string_view content)
 {
   Fingerprint print;
-  add(print, content);
+  print.add(content);
   return seal(content.size(), print);
 }
 
@@ -85,7 +79,7 @@ int append_seal(const int descriptor)
         break;
       if (n > 0)
         {
-          add(print, {piece.data(), std::size_t(n)});
+          print.add(std::string_view(piece.data(), std::size_t(n)));
           length += std::uint64_t(n);
         }
     }
@@ -125,7 +119,7 @@ Seal examine_seal(const std::filesystem::path& path)
       const std::uint64_t length = size - seal_size;
       Fingerprint print;
       const bool could_be_read = for_each_piece(file, length, [&](const std::string_view piece) {
-        add(print, piece);
+        print.add(piece);
         return true;
       });
       std::string end(seal_size, '\0');

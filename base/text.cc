@@ -26,6 +26,14 @@ std::string_view trim(const std::string_view text)
   return text.substr(first, text.find_last_not_of(white) + 1 - first);
 }
 
+std::string in_small_letters(const std::string_view text)
+{
+  std::string small(text);
+  for (char& c : small)
+    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return small;
+}
+
 std::size_t width_of(const std::string_view text)
 {
   return std::size_t(std::count_if(text.begin(), text.end(), [](const char c) { return (c & 0xC0) != 0x80; }));

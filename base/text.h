@@ -11,6 +11,9 @@ namespace feldspar
 /// Without the white space at both ends.
 std::string_view trim(std::string_view text);
 
+/// With the letters of ASCII small; those of other alphabets stay.
+std::string in_small_letters(std::string_view text);
+
 /// Characters of UTF-8, which is the width on a terminal but for combining and double ones.
 std::size_t width_of(std::string_view text);
 

@@ -1,8 +1,8 @@
 #include "benchmarks/committed_version.h"
 #include "dem/genesis/coring.h"
 #include "dem/genesis/genesis.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>

@@ -22,7 +22,8 @@ inline std::vector<Entry<CalibrationParameters>> calibration_entries()
     entry::number(
       "Tolerance", &P::tolerance, {'(', 0.0, 0.5, ']'},
       "largest deviation from a target, over the target; the 95 % interval of the mean lies within it where the target is "
-      "reached"),
+      "reached",
+      {.basic = true}),
     entry::integer("Design points", &P::n_points, {'[', 4.0, 512.0, ']'},
                    "sets of parameters that are tested to learn how the strengths depend on them"),
     entry::integer("Design packings", &P::n_packings, {'[', 2.0, 64.0, ']'},

@@ -2,15 +2,15 @@
 
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/kept_values.h"
-#include "app/programme/lab_run.h"
 #include "app/input/joint_sections.h"
+#include "app/programme/lab_run.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
-#include "app/screen/test_length.h"
+#include "app/screen/expected_length.h"
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/rock/rock.h"
 
 #include <fmt/format.h>

@@ -5,9 +5,9 @@
 #include "app/input/joint_sections.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
+#include "app/programme/laboratory_effort.h"
 #include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
-#include "app/programme/test_effort.h"
 #include "app/programme/usual_ranges.h"
 #include "app/run/finite_elements.h"
 #include "app/run/interrupt.h"
@@ -31,15 +31,15 @@ namespace
 using Remarks = std::vector<std::string>;
 
 /// Looks at the specimen that a specimen file brings, in its dimension; at nothing where there is no such file.
-template <typename Look>
-void with_specimen_of_file(const Input& input, const Look& look)
+template <typename Use>
+void with_specimen_of_file(const Input& input, const Use& use)
 {
   if (input.specimen.specimen_file.empty())
     return;
   if (input.specimen.dimension == 2)
-    look(make_rock<2>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
+    use(make_rock<2>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
   else
-    look(make_rock<3>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
+    use(make_rock<3>(rock_of(input), 0, end_if_interrupted, end_if_interrupted));
 }
 
 Remarks check_lab(const Input& input, const std::filesystem::path& file)

@@ -9,7 +9,7 @@
 #include "app/run/finite_elements.h"
 #include "app/run/interrupt.h"
 #include "app/run/provenance.h"
-#include "app/screen/test_board.h"
+#include "app/screen/progress_board.h"
 #include "base/append.h"
 #include "base/input_error.h"
 #include "coupling/sample/ranks.h"
@@ -82,7 +82,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
   std::vector<BoardTest> shown;
   for (const PlannedSample& one : planned)
     shown.push_back({one.name, one.test, &input, cost_of_sample(one.test.kind, input.sample)});
-  TestBoard board(progress, shown);
+  ProgressBoard board(progress, shown);
   for (const PlannedSample& one : planned)
     {
       if (ranks::any(interrupted()))

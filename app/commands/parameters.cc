@@ -5,8 +5,12 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
+
+#include <optional>
+#include <vector>
 
 /// `feldspar parameters`: the reference, made from the table that reading and checking use.
 namespace feldspar
@@ -24,29 +28,36 @@ void print_entry(const std::string& heading, const Parameter& parameter)
   print_result("{}", columns ? wrapped(text, *columns) : text);
 }
 
-void print_plain(const std::string_view section)
+using Entries = std::vector<const Parameter*>;
+
+void print_plain(const std::string_view section, const Entries& entries)
 {
   print_result("{}\n", section);
-  for (const Parameter& parameter : parameter_table())
-    if (parameter.section == section)
-      print_entry(fmt::format("  {}", parameter.entry), parameter);
+  for (const Parameter* const parameter : entries)
+    print_entry(fmt::format("  {}", parameter->entry), *parameter);
 }
 
-void print_markdown(const std::string_view section)
+void print_markdown(const std::string_view section, const Entries& entries)
 {
-  print_result("\n## {}\n\n| entry | unit | default | range | meaning |\n|---|---|---|---|---|\n", section);
-  for (const Parameter& parameter : parameter_table())
-    if (parameter.section == section)
-      print_result("| {} | {} | {} | {} | {} |\n", parameter.entry, or_dash(parameter.unit), parameter.default_text(),
-                   parameter.range, parameter.meaning);
+  print_result("\n### {}\n\n| entry | unit | default | range | meaning |\n|---|---|---|---|---|\n", section);
+  for (const Parameter* const parameter : entries)
+    print_result("| {} | {} | {} | {} | {} |\n", parameter->entry, or_dash(parameter->unit), parameter->default_text(),
+                 parameter->range, parameter->meaning);
 }
 
-std::string in_small_letters(const std::string_view text)
+/// The entries of all sections, or of one, that are basic or not; without `basic` both.
+void print_sections(const std::string& only, const std::optional<bool> basic, const bool markdown)
 {
-  std::string small(text);
-  for (char& c : small)
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return small;
+  for (const std::string_view section : section_names())
+    if (only.empty() || only == section)
+      {
+        Entries entries;
+        for (const Parameter& parameter : parameter_table())
+          if (parameter.section == section && parameter.flags.basic == basic.value_or(parameter.flags.basic))
+            entries.push_back(&parameter);
+        if (!entries.empty())
+          markdown ? print_markdown(section, entries) : print_plain(section, entries);
+      }
 }
 
 /// The entries that have a word in their name, meaning or choices, capital or small; throws InputError where none has.
@@ -79,11 +90,17 @@ int run_parameters(const ParametersOptions& options)
       print_found(options.section);
       return 0;
     }
-  if (options.markdown)
-    print_result("# Parameters\n\nWritten by `feldspar parameters --markdown`.\n");
-  for (const std::string_view section : section_names())
-    if (options.section.empty() || options.section == section)
-      options.markdown ? print_markdown(section) : print_plain(section);
+  if (!options.section.empty())
+    {
+      print_sections(options.section, std::nullopt, options.markdown);
+      return 0;
+    }
+  print_result("{}", options.markdown ? "# Parameters\n\nWritten by `feldspar parameters --markdown`.\n\n"
+                                        "## Entries of a first study\n"
+                                      : "ENTRIES OF A FIRST STUDY\n");
+  print_sections("", true, options.markdown);
+  print_result("{}", options.markdown ? "\n## Further entries\n" : "FURTHER ENTRIES\n");
+  print_sections("", false, options.markdown);
   return 0;
 }
 } // namespace feldspar

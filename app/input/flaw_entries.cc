@@ -427,7 +427,7 @@ std::vector<Entry<Input>> flaw_entries()
      "then have its plane, as section Smooth joint says, or as its own words do, e.g. `smooth friction 0.6 dilation 5 "
      "deg normal-stiffness 50 GPa/mm shear-stiffness 20 GPa/mm cohesion 1 MPa tensile-strength 0.5 MPa friction-angle "
      "31 deg`, and are bonded where it has a cohesion or tensile strength; angles are from the first axis towards that of the tests",
-     of_rock},
+     {.varies = true, .of_specimen = true, .basic = true}},
     {"Traces file",
      Entry<Input>::Text{"", std::string(none_or_a_file),
                         [](Input& input, const std::string_view text) {

@@ -236,7 +236,7 @@ Entry<Input> test_list_entry()
                              [](Input& input, const std::string_view text) { input.test_list = read_tests(text); },
                              [](const Input& input) { return names(input.test_list); }},
           "the tests to be made, separated by commas",
-          {}};
+          {.basic = true}};
 }
 
 Entry<Input> confinements_entry()
@@ -247,7 +247,7 @@ Entry<Input> confinements_entry()
                        [](Input& input, const std::string_view text) { input.confinements = read_confinements(text); },
                        [](const Input& input) { return write_confinements(input.confinements); }},
     "pressures of the triaxial tests, normal stresses of direct shear, separated by commas",
-    {}};
+    {.basic = true}};
 }
 
 Entry<Input> checkpoint_entry()
@@ -298,13 +298,13 @@ std::vector<Entry<VariantParameters>> variant_entries()
                                                     : fmt::format("{}", fmt::join(wanted.entries, "; "));
                     }},
      "entries that take several values in one run",
-     {}},
+     {.basic = true}},
     {"Values",
      Entry<P>::Text{"", "none, or values of each entry",
                     [](P& wanted, const std::string_view text) { wanted.values = read_variant_values(text); },
                     [](const P& wanted) { return write_variant_values(wanted.values); }},
      "values separated by semicolons; the lists of several entries by two upright bars, ||",
-     {}},
+     {.basic = true}},
     entry::choice("Combine", &P::in_step, {{"grid", false}, {"in step", true}},
                   "grid: each value of an entry with each of the others; in step: the first values of all entries, "
                   "then the second, ..."),
@@ -320,7 +320,7 @@ Entry<Input> seeds_entry()
                              [](Input& input, const std::string_view text) { input.seeds = read_seeds(text); },
                              [](const Input& input) { return fmt::format("{}", fmt::join(input.seeds, ", ")); }},
           "one specimen for each seed",
-          {}};
+          {.basic = true}};
 }
 
 std::vector<Entry<ContactParameters>> contact_entries()
@@ -343,33 +343,34 @@ std::vector<Entry<StrainPathParameters>> strain_path_entries()
 {
   using P = StrainPathParameters;
   const EntryFlags varies{.varies = true};
-  return {entry::file("File", &P::path_file,
-                      "points of the path of `feldspar rve`, a CSV with a column for each of xx,yy,xy (in three "
-                      "dimensions xx,yy,zz,yz,xz,xy): strain_xx (tensor shear) or stress_xx_Pa, tension positive; "
-                      "straight ways between; instead of Direction"),
-          {"Direction",
-           Entry<P>::Text{"", "none, or a number or free for each of xx, yy, xy (or xx, yy, zz, yz, xz, xy)",
-                          [](P& path, const std::string_view text) { path.direction = read_direction(text); },
-                          [](const P& path) { return write_direction(path.direction); }},
-           "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement",
-           varies},
-          entry::number("Size", &P::size, {'(', 0.0, largest_strain, ']'}, "of the strain at the end, over Direction",
-                        varies),
-          entry::quantity("Confining pressure", &P::confining_pressure, Measure::stress, "MPa", {'[', 0.0, 1e5, ']'},
-                          "compression positive, on all sides before the strain begins; strains of Direction count "
-                          "from there",
-                          varies),
-          entry::number("Largest step", &P::largest_step, {'(', 0.0, largest_strain, ']'},
-                        "of any component of the strain in one increment", varies),
-          entry::quantity("Cell angle", &P::cell_angle, Measure::angle, "deg", {'[', -180.0, 180.0, ']'},
-                          "by which the periodic cell is turned before its path begins: from x towards y, in three "
-                          "dimensions from z towards x; strains and stresses stay in the axes of the path",
-                          varies),
-          entry::choice("Solver", &P::solver,
-                        {{"event by event", PathSolver::event_by_event}, {"explicit", PathSolver::explicit_dynamics}},
-                        "without a rate, or explicit dynamics as in the laboratory", varies),
-          entry::integer("Steps per millistrain", &P::steps_per_millistrain, {'[', 1.0, 1e8, ']'},
-                         "of explicit dynamics, for 1e-3 of the largest component of the strain", varies)};
+  const EntryFlags basic{.varies = true, .basic = true};
+  return {
+    entry::file("File", &P::path_file,
+                "points of the path of `feldspar rve`, a CSV with a column for each of xx,yy,xy (in three "
+                "dimensions xx,yy,zz,yz,xz,xy): strain_xx (tensor shear) or stress_xx_Pa, tension positive; "
+                "straight ways between; instead of Direction",
+                {.basic = true}),
+    {"Direction",
+     Entry<P>::Text{"", "none, or a number or free for each of xx, yy, xy (or xx, yy, zz, yz, xz, xy)",
+                    [](P& path, const std::string_view text) { path.direction = read_direction(text); },
+                    [](const P& path) { return write_direction(path.direction); }},
+     "of the strain (tensor shear, tension positive); a free component stays at the stress of the confinement", basic},
+    entry::number("Size", &P::size, {'(', 0.0, largest_strain, ']'}, "of the strain at the end, over Direction", basic),
+    entry::quantity("Confining pressure", &P::confining_pressure, Measure::stress, "MPa", {'[', 0.0, 1e5, ']'},
+                    "compression positive, on all sides before the strain begins; strains of Direction count "
+                    "from there",
+                    basic),
+    entry::number("Largest step", &P::largest_step, {'(', 0.0, largest_strain, ']'},
+                  "of any component of the strain in one increment", basic),
+    entry::quantity("Cell angle", &P::cell_angle, Measure::angle, "deg", {'[', -180.0, 180.0, ']'},
+                    "by which the periodic cell is turned before its path begins: from x towards y, in three "
+                    "dimensions from z towards x; strains and stresses stay in the axes of the path",
+                    varies),
+    entry::choice("Solver", &P::solver,
+                  {{"event by event", PathSolver::event_by_event}, {"explicit", PathSolver::explicit_dynamics}},
+                  "without a rate, or explicit dynamics as in the laboratory", varies),
+    entry::integer("Steps per millistrain", &P::steps_per_millistrain, {'[', 1.0, 1e8, ']'},
+                   "of explicit dynamics, for 1e-3 of the largest component of the strain", varies)};
 }
 
 std::vector<Entry<CalibrationParameters>> calibration_list_entries()
@@ -386,7 +387,7 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
            "figures of the experiment in the reference file that `feldspar calibrate` is to reach: youngs_modulus, "
            "poissons_ratio, tensile_strength, brazilian_strength, uniaxial_compressive_strength, strength_at_P_MPa, "
            "m_i, crack_initiation_stress, crack_damage_stress; all: those that the tests give",
-           {}},
+           {.basic = true}},
           bounds_entry("Stiffness ratio", &P::stiffness_ratio, {'(', 0.0, most, ')'}, nullptr, "of the joints"),
           bounds_entry("Cohesion ratio", &P::cohesion_ratio, {'(', 0.0, most, ')'}, nullptr,
                        "bond cohesion over bond tensile strength"),
@@ -400,7 +401,7 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
 Entry<Input> reference_entry()
 {
   return entry::file("Reference file", &Input::reference_file,
-                     "figures of the rock and of other models (JSON) to set the results beside");
+                     "figures of the rock and of other models (JSON) to set the results beside", {.basic = true});
 }
 
 Entry<Input> reference_results_entry()

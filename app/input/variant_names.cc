@@ -1,5 +1,7 @@
 #include "app/input/variant_names.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,14 +18,6 @@ constexpr std::size_t most_characters = 80;
 bool is_letter_or_digit(const char c)
 {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
-
-std::string in_small_letters(const std::string_view text)
-{
-  std::string small(text);
-  for (char& c : small)
-    c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return small;
 }
 
 /// Words with one `_` between them. A minus and a point stay where a digit follows; in an amount a fraction is read as it
@@ -60,7 +54,7 @@ std::string in_words(const std::string_view text)
 }
 
 /// The beginning of a name, not cut within a word.
-std::string shortened(const std::string& name)
+std::string cut_between_words(const std::string& name)
 {
   if (name.size() <= most_characters)
     return name;
@@ -93,11 +87,11 @@ std::vector<std::string> names_in_files(const std::vector<std::vector<VariantSet
     }
   std::map<std::string, unsigned int> n_alike;
   for (const std::string& name : names)
-    ++n_alike[in_small_letters(shortened(name))];
+    ++n_alike[in_small_letters(cut_between_words(name))];
   for (std::size_t v = 0; v < names.size(); ++v)
     {
       const bool is_long = names[v].size() > most_characters;
-      names[v] = shortened(names[v]);
+      names[v] = cut_between_words(names[v]);
       if (is_long || n_alike[in_small_letters(names[v])] > 1)
         names[v] += fmt::format("_variant_{}", v + 1);
     }

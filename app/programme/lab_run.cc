@@ -1,14 +1,14 @@
 #include "app/programme/lab_run.h"
 
-#include "app/programme/test_effort.h"
+#include "app/programme/laboratory_effort.h"
 #include "app/run/interrupt.h"
 #include "app/run/jobs.h"
 #include "app/run/run_record.h"
-#include "app/screen/test_board.h"
-#include "app/screen/test_length.h"
+#include "app/screen/expected_length.h"
+#include "app/screen/progress_board.h"
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <fmt/format.h>
 
@@ -186,7 +186,7 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
   std::filesystem::create_directories(checkpoint_folder);
 
   progress.remark(describe_effort(orders_of(planned)));
-  TestBoard board(progress, for_board(planned));
+  ProgressBoard board(progress, for_board(planned));
   std::vector<std::optional<FinishedTest>> slots(planned.size());
   for_each_job(planned.size(), [&](const std::size_t position) {
     const std::size_t k = order[position];

@@ -89,8 +89,8 @@ std::optional<SampleRve<dim>> brought(const SampleTest& test, const Packings<dim
   BytesReader reader(bytes);
   SampleRve<dim> rve{};
   transfer<dim>(reader, rve, realisation, is_at_side);
-  const Realisation<dim>& dealt = packings.realisations.at(realisation);
-  rve.network = (is_at_side ? dealt.at_side : dealt.inside).get();
+  const Realisation<dim>& assigned = packings.realisations.at(realisation);
+  rve.network = (is_at_side ? assigned.at_side : assigned.inside).get();
   return rve;
 }
 

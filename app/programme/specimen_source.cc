@@ -68,8 +68,8 @@ public:
 
   void step(const std::size_t k)
   {
-    constexpr std::uint64_t steps_between_looks = 100;
-    if (++entries[k].n_steps % steps_between_looks == 0)
+    constexpr std::uint64_t steps_between_checks = 100;
+    if (++entries[k].n_steps % steps_between_checks == 0)
       draw(k);
   }
 

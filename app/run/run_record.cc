@@ -51,9 +51,8 @@ std::string checksum_of(const Contents& contents)
 {
   Fingerprint print;
   const auto add = [&](const std::string& text) {
-    print.add(text.size());
-    for (const char c : text)
-      print.add_byte(static_cast<unsigned char>(c));
+    print.add(std::uint64_t(text.size()));
+    print.add(text);
   };
   add(contents.command);
   add(contents.input_file.string());
@@ -76,8 +75,7 @@ std::string checksum_of(const std::filesystem::path& file)
   Fingerprint print;
   std::vector<char> piece(std::size_t(1) << 20);
   while (stream.read(piece.data(), std::streamsize(piece.size())) || stream.gcount() > 0)
-    for (std::streamsize k = 0; k < stream.gcount(); ++k)
-      print.add_byte(static_cast<unsigned char>(piece[std::size_t(k)]));
+    print.add(std::string_view(piece.data(), std::size_t(stream.gcount())));
   return fmt::format("{:016x}", print.value());
 }
 

@@ -39,8 +39,8 @@ std::string bar(const double fraction)
   return fmt::format("[{:#<{}}{:.<{}}] ", "", full, "", bar_length - full);
 }
 
-/// Its beginning and, of more use where names of several tests begin alike, its end.
-std::string shortened(const std::string& name, const std::size_t most_characters)
+/// A name cut in its middle: names of several tests begin alike, so that the end tells more.
+std::string beginning_and_end(const std::string& name, const std::size_t most_characters)
 {
   if (name.size() <= most_characters)
     return name;
@@ -90,7 +90,7 @@ void Progress::update(const double fraction, const std::string_view text, const 
       constexpr std::size_t least = 12; // of a name
       const std::size_t others = 4 + start.size() + detail.text.size();
       const std::size_t width = width_of_lines(on_terminal);
-      const std::string name = shortened(detail.name, width > others + least ? width - others : least);
+      const std::string name = beginning_and_end(detail.name, width > others + least ? width - others : least);
       lines.push_back(fmt::format("  {}{}: {}", start, name, detail.text));
     }
   draw(lines, false);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace feldspar
 {
@@ -13,6 +14,11 @@ public:
   {
     for (int shift = 0; shift < 64; shift += 8)
       add_byte(number >> shift & 0xffu);
+  }
+  void add(const std::string_view bytes)
+  {
+    for (const char byte : bytes)
+      add_byte(static_cast<unsigned char>(byte));
   }
   std::uint64_t value() const { return hash; }
 

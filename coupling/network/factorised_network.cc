@@ -17,7 +17,7 @@ std::array<Eigen::Index, 2> first_motions(const Link<dim>& link)
 template <int dim>
 FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, const std::size_t n_grains,
                                           std::shared_ptr<const BoundaryConditions<dim>> admitted,
-                                          const StiffnessOf<dim>& stiffness_of, const Motion<dim>& lent)
+                                          const StiffnessOf<dim>& stiffness_of, const Motion<dim>& regularising)
   : its_conditions(std::move(admitted))
   , of_strains(Stiffness<dim>::Zero())
 {
@@ -44,7 +44,7 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
     for (int c = 0; c < n; ++c)
       {
         const double present = made->diagonal(i, c);
-        made->set_diagonal(i, c, present + (present > 0.0 ? lent[c] : lent[c] + 1.0));
+        made->set_diagonal(i, c, present + (present > 0.0 ? regularising[c] : regularising[c] + 1.0));
       }
   constexpr double rigid = 1e12; // over its own stiffness
   for (const std::uint32_t grain : its_conditions->held())

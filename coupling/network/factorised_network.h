@@ -28,11 +28,11 @@ template <int dim>
 class FactorisedNetwork
 {
 public:
-  /// `lent`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
+  /// `regularising`: of each motion of a grain, added so that what floats does not make the matrix singular [N/m, N m].
   /// Motions are those that the conditions admit.
   FactorisedNetwork(const std::vector<Link<dim>>& links, std::size_t n_grains,
                     std::shared_ptr<const BoundaryConditions<dim>> conditions, const StiffnessOf<dim>& stiffness_of,
-                    const Motion<dim>& lent);
+                    const Motion<dim>& regularising);
 
   /// The same factor under other conditions, which hold the same grains.
   FactorisedNetwork under(std::shared_ptr<const BoundaryConditions<dim>> others) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/voigt.h"
+#include "coupling/network/voigt_tensor.h"
 #include "dem/laws/face.h"
 
 #include <cstdint>

@@ -25,7 +25,7 @@ namespace
 constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
 constexpr double largest_residual = 1e-8;  // of the intact solutions, over the forces under unit strains
 constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
-// An open body may also turn; its tractions stop that, and what is lent must not drown in the difference.
+// An open body may also turn; its tractions stop that, and what regularises must not drown in the difference.
 constexpr double regularity_of_open_cells = 1e-6;
 
 /// Axes n, t (n, t_1, t_2) of a contact as rows; in space t_1 is any vector across n, the same for the same n.
@@ -225,9 +225,9 @@ void Network<dim>::factorise_intact()
     return link < number_of_joints ? &bonded_stiffnesses[link] : nullptr;
   };
   const auto factor_of = [&](const StiffnessOf<dim>& stiffness_of) {
-    const double lent_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
+    const double regularising_share = boundary_conditions->pieces().empty() ? regularity : regularity_of_open_cells;
     return std::make_unique<FactorisedNetwork<dim>>(all_links, number_of_grains, boundary_conditions, stiffness_of,
-                                                    lent_share * stiffness_scale);
+                                                    regularising_share * stiffness_scale);
   };
   factorised = factor_of(bonded);
 
@@ -326,7 +326,7 @@ void Network<dim>::bound_segments()
 }
 
 template <int dim>
-Unknowns Network<dim>::lent(const Unknowns& unknowns) const
+Unknowns Network<dim>::regularising_forces(const Unknowns& unknowns) const
 {
   Unknowns result = Unknowns::Zero(n_unknowns());
   for (std::size_t i = 0; i < number_of_grains; ++i)

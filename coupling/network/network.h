@@ -87,15 +87,15 @@ public:
   const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
   /// The same with every pair that may come to touch touching: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
-  /// With other stiffnesses of its links, and a little lent to what floats.
-  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double lent_share,
+  /// With other stiffnesses of its links, and a small stiffness of loose grains.
+  FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double regularising_share,
                                    std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {
     return FactorisedNetwork<dim>(all_links, number_of_grains, std::move(conditions), stiffness_of,
-                                  lent_share * stiffness_scale);
+                                  regularising_share * stiffness_scale);
   }
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
-  Unknowns lent(const Unknowns& unknowns) const;
+  Unknowns regularising_forces(const Unknowns& unknowns) const;
 
   // The intact response: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
   // whose faces are not, the response of the stiffest state: a scale and a first guess.

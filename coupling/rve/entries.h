@@ -14,6 +14,7 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
 {
   using P = EquilibriumParameters;
   const EntryFlags varies{.varies = true};
+  const EntryFlags basic{.varies = true, .basic = true};
   return {
     entry::number("Event tolerance", &P::event_tolerance, {'[', 1e-12, 0.1, ']'},
                   "largest unbalanced over mean contact force, between breaks", varies),
@@ -30,7 +31,7 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
       "Kinematics", &P::kinematics, {{"small strains", Kinematics::small_strains}, {"finite", Kinematics::finite}},
       "small strains: the contacts of an RVE keep the directions that they have at rest; finite: they turn with their "
       "grains from the first break on; explicit dynamics always turn them",
-      varies),
+      basic),
     entry::integer("Most iterations", &P::most_iterations, {'[', 1.0, 1e6, ']'},
                    "by Newton's method in search of one equilibrium, before damped motion brings it nearer", varies)};
 }
@@ -40,6 +41,7 @@ inline std::vector<Entry<Boundary>> boundary_entries()
 {
   using P = Boundary;
   const EntryFlags varies{.varies = true};
+  const EntryFlags basic{.varies = true, .basic = true};
   return {
     entry::choice(
       "Boundary", &P::kind,
@@ -53,7 +55,7 @@ inline std::vector<Entry<Boundary>> boundary_entries()
       "edge: a uniform traction across Free axis, periodic along the others; in a sample the elements on its "
       "free sides have such cells, the others periodic ones; affine: the grains on the sides are displaced as "
       "the strain says",
-      varies),
+      basic),
     entry::integer("Traction pieces", &P::n_pieces, {'[', 1.0, 1000.0, ']'},
                    "of a side along each of its edges, where the boundary is weakly periodic; 1: minimal kinematic; a "
                    "piece with one grain is periodic",

@@ -82,10 +82,10 @@ Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryCondition
 }
 
 template <int dim>
-BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            LinkForces<dim> of_links)
+BorneForces<dim> borne_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                              LinkForces<dim> of_links)
 {
-  BornForces<dim> forces{std::move(of_links), {}};
+  BorneForces<dim> forces{std::move(of_links), {}};
   if (conditions.n_multipliers() > 0)
     {
       const Eigen::VectorXd multipliers = conditions.multipliers(on_grains(network, forces.of_links));
@@ -97,8 +97,8 @@ BornForces<dim> born_forces(const Network<dim>& network, const BoundaryCondition
 
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
-                            const BornForces<dim>& forces_before, const NetworkState<dim>& after,
-                            const BornForces<dim>& forces_after, const double least_work)
+                            const BorneForces<dim>& forces_before, const NetworkState<dim>& after,
+                            const BorneForces<dim>& forces_after, const double least_work)
 {
   const Unknowns from = unknowns_of(network, before);
   const Unknowns to = unknowns_of(network, after);
@@ -206,9 +206,9 @@ IsotropicConstants isotropic_constants(const Stiffness<dim>& stiffness)
 template LinkForces<2> link_forces<2>(const Network<2>&, const NetworkState<2>&);
 template Tensor<2> branch_stress<2>(const Network<2>&, const LinkForces<2>&);
 template Tensor<2> boundary_stress<2>(const Network<2>&, const BoundaryConditions<2>&, const LinkForces<2>&);
-template BornForces<2> born_forces(const Network<2>&, const BoundaryConditions<2>&, LinkForces<2>);
-template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const BornForces<2>&,
-                                        const NetworkState<2>&, const BornForces<2>&, double);
+template BorneForces<2> borne_forces(const Network<2>&, const BoundaryConditions<2>&, LinkForces<2>);
+template double hill_mandel_residual<2>(const Network<2>&, const NetworkState<2>&, const BorneForces<2>&,
+                                        const NetworkState<2>&, const BorneForces<2>&, double);
 template Tensor<2> fabric<2>(const Network<2>&);
 template SegmentPlace<2> segment_place<2>(const Network<2>&, std::size_t, std::size_t);
 template CrackMeasures<2> crack_measures<2>(const Network<2>&, const NetworkState<2>&);
@@ -217,9 +217,9 @@ template IsotropicConstants isotropic_constants<2>(const Stiffness<2>&);
 template LinkForces<3> link_forces<3>(const Network<3>&, const NetworkState<3>&);
 template Tensor<3> branch_stress<3>(const Network<3>&, const LinkForces<3>&);
 template Tensor<3> boundary_stress<3>(const Network<3>&, const BoundaryConditions<3>&, const LinkForces<3>&);
-template BornForces<3> born_forces(const Network<3>&, const BoundaryConditions<3>&, LinkForces<3>);
-template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const BornForces<3>&,
-                                        const NetworkState<3>&, const BornForces<3>&, double);
+template BorneForces<3> borne_forces(const Network<3>&, const BoundaryConditions<3>&, LinkForces<3>);
+template double hill_mandel_residual<3>(const Network<3>&, const NetworkState<3>&, const BorneForces<3>&,
+                                        const NetworkState<3>&, const BorneForces<3>&, double);
 template Tensor<3> fabric<3>(const Network<3>&);
 template SegmentPlace<3> segment_place<3>(const Network<3>&, std::size_t, std::size_t);
 template CrackMeasures<3> crack_measures<3>(const Network<3>&, const NetworkState<3>&);

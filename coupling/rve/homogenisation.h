@@ -23,17 +23,17 @@ template <int dim>
 Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
                             const LinkForces<dim>& forces);
 
-/// What an RVE bears.
+/// Forces borne by an RVE.
 template <int dim>
-struct BornForces
+struct BorneForces
 {
   LinkForces<dim> of_links;
   Eigen::VectorXd of_boundary; ///< on grains, by the tractions of an open cell; empty where there are none
 };
 
 template <int dim>
-BornForces<dim> born_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
-                            LinkForces<dim> of_links);
+BorneForces<dim> borne_forces(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
+                              LinkForces<dim> of_links);
 
 /// Hill and Mandel: |V σ̄ : Δε + r̄·Δu - Σ s̄·Δm| over the sum of the magnitudes, or over `least_work` [J] if that is more,
 /// between two states, with the mean of the works that the forces of each would do on the motions m of links as they stand
@@ -41,8 +41,8 @@ BornForces<dim> born_forces(const Network<dim>& network, const BoundaryCondition
 /// two. Breaking and sliding do not enter: it only says how well forces balance.
 template <int dim>
 double hill_mandel_residual(const Network<dim>& network, const NetworkState<dim>& before,
-                            const BornForces<dim>& forces_before, const NetworkState<dim>& after,
-                            const BornForces<dim>& forces_after, double least_work = 0.0);
+                            const BorneForces<dim>& forces_before, const NetworkState<dim>& after,
+                            const BorneForces<dim>& forces_after, double least_work = 0.0);
 
 /// Mean of n ⊗ n over the joints; its trace is 1 (Oda 1982).
 template <int dim>

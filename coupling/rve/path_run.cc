@@ -90,7 +90,7 @@ PathRun<dim>::PathRun(std::shared_ptr<const Network<dim>> network, std::vector<P
     {
       body.restore(*begin);
       forces = forces_at(body.state());
-      add(look_at(*begin, *begin, 0.0));
+      add(evaluate(*begin, *begin, 0.0));
     }
   else
     {
@@ -118,7 +118,7 @@ void PathRun<dim>::advance(const std::function<bool()>& gives_up)
   // What an increment changes before its last search.
   const NetworkState<dim> state = body.state();
   const PathSample<dim> row = path_record.samples.back();
-  const BornForces<dim> forces_before = forces;
+  const BorneForces<dim> forces_before = forces;
   const bool was_short = next_is_short;
   try
     {
@@ -173,12 +173,12 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
         ++cuts;
       return;
     }
-  auto look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+  auto evaluated = evaluate(trial.state, body.state(), trial.unbalanced_ratio);
   // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
   // through the RVE: then the same from a more exact beginning, which takes the place of the last row, to a more exact
   // end.
   double share_of_tolerance = 1.0;
-  for (int k = 0; k < 3 && look.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
+  for (int k = 0; k < 3 && evaluated.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
     {
       share_of_tolerance *= 0.1;
       const auto exacter = options(Bonds::may_break, share_of_tolerance);
@@ -189,7 +189,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
       // The correction of the row does hardly any work of its own: it is a part of the increment that led there.
       const std::size_t n_rows = path_record.samples.size();
       const double work_of_row = n_rows > 1 ? row.work.boundary - path_record.samples[n_rows - 2].work.boundary : 0.0;
-      auto last = look_at(beginning.state, body.state(), beginning.unbalanced_ratio, std::abs(work_of_row));
+      auto last = evaluate(beginning.state, body.state(), beginning.unbalanced_ratio, std::abs(work_of_row));
       last.sample.hill_mandel_residual = std::max(row.hill_mandel_residual, last.sample.hill_mandel_residual);
       row = last.sample;
       forces = std::move(last.forces);
@@ -198,7 +198,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
       if (!again.in_equilibrium)
         break;
       trial = std::move(again);
-      look = look_at(trial.state, body.state(), trial.unbalanced_ratio);
+      evaluated = evaluate(trial.state, body.state(), trial.unbalanced_ratio);
     }
   for (const auto& event : trial.breaks)
     {
@@ -208,7 +208,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
                                     event.released_energy});
     }
   body.accept(std::move(trial));
-  add(std::move(look));
+  add(std::move(evaluated));
 
   position += increment;
   if (cuts > 0 && position % (2 * longest) == 0)
@@ -223,13 +223,14 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
 /// A state that follows the one before, whose link forces are `forces`; its Hill-Mandel residual is a share of at least
 /// `least_work` [J].
 template <int dim>
-typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state, const NetworkState<dim>& before,
-                                                  const double unbalanced_ratio, const double least_work) const
+typename PathRun<dim>::Evaluation PathRun<dim>::evaluate(const NetworkState<dim>& state,
+                                                         const NetworkState<dim>& before, const double unbalanced_ratio,
+                                                         const double least_work) const
 {
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
-  Look look;
-  look.forces = born_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
-  auto& sample = look.sample;
+  Evaluation evaluated;
+  evaluated.forces = borne_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
+  auto& sample = evaluated.sample;
   sample.strain = as_array<dim>(state.strain);
   sample.stress = as_array<dim>(state.stress);
   sample.n_tension_cracks = state.n_tension_breaks;
@@ -240,28 +241,28 @@ typename PathRun<dim>::Look PathRun<dim>::look_at(const NetworkState<dim>& state
   // An RVE that has come apart does no work but round-off.
   constexpr double least_share_of_work = 1e-6;
   sample.hill_mandel_residual =
-    hill_mandel_residual(body.network(), before, forces, state, look.forces,
+    hill_mandel_residual(body.network(), before, forces, state, evaluated.forces,
                          std::max(least_work, least_share_of_work * std::abs(state.work.boundary)));
-  const Tensor<dim> stress = branch_stress(body.network(), look.forces.of_links);
+  const Tensor<dim> stress = branch_stress(body.network(), evaluated.forces.of_links);
   if (const double size = stress.norm(); size > 0.0)
     sample.boundary_stress_error =
-      (boundary_stress(body.network(), equilibrium.conditions(), look.forces.of_links) - stress).norm() / size;
+      (boundary_stress(body.network(), equilibrium.conditions(), evaluated.forces.of_links) - stress).norm() / size;
   sample.crack_density = crack_measures(body.network(), state).density;
-  return look;
+  return evaluated;
 }
 
 template <int dim>
-void PathRun<dim>::add(Look&& look)
+void PathRun<dim>::add(Evaluation&& evaluated)
 {
-  path_record.samples.push_back(look.sample);
-  forces = std::move(look.forces);
+  path_record.samples.push_back(evaluated.sample);
+  forces = std::move(evaluated.forces);
 }
 
 template <int dim>
-BornForces<dim> PathRun<dim>::forces_at(const NetworkState<dim>& state) const
+BorneForces<dim> PathRun<dim>::forces_at(const NetworkState<dim>& state) const
 {
   const Equilibrium<dim> equilibrium(body.network(), state, parameters.equilibrium);
-  return born_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
+  return borne_forces(body.network(), equilibrium.conditions(), equilibrium.link_forces());
 }
 
 template <int dim>

@@ -121,15 +121,15 @@ private:
   void go_an_increment(const std::function<bool()>& gives_up);
   void begin_leg();
   Control<dim> control_at(const std::uint64_t place) const { return course.at(double(place) / double(length)); }
-  struct Look
+  struct Evaluation
   {
     PathSample<dim> sample;
-    BornForces<dim> forces;
+    BorneForces<dim> forces;
   };
-  Look look_at(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio,
-               double least_work = 0.0) const;
-  void add(Look&& look);
-  BornForces<dim> forces_at(const NetworkState<dim>& state) const;
+  Evaluation evaluate(const NetworkState<dim>& state, const NetworkState<dim>& before, double unbalanced_ratio,
+                      double least_work = 0.0) const;
+  void add(Evaluation&& evaluated);
+  BorneForces<dim> forces_at(const NetworkState<dim>& state) const;
   template <typename Archive>
   void transfer(Archive& archive);
 
@@ -137,7 +137,7 @@ private:
   PathParameters parameters;
   RepresentativeVolume<dim> body;
   PathRecord<dim> path_record;
-  BornForces<dim> forces; ///< at the last sample
+  BorneForces<dim> forces; ///< at the last sample
 
   std::uint64_t leg = 0;
   NetworkState<dim> start;    ///< strain and stress at which the leg began

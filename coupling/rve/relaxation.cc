@@ -132,8 +132,8 @@ Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<d
                                          [&](const auto& touch) { return is_symmetric(touch.second); });
       const Unknowns right = unbalanced(network, present, control);
       const auto apply = [&](const Unknowns& x) {
-        Unknowns y =
-          apply_tangent(history, present, x, &LinkResponse<dim>::derivative) + lent_stiffness * network.lent(x);
+        Unknowns y = apply_tangent(history, present, x, &LinkResponse<dim>::derivative) +
+                     regularising_stiffness * network.regularising_forces(x);
         for (int c = 0; c < n_voigt<dim>; ++c)
           if (!control.stress_given[c])
             y[n_own + c] = 0.0;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/byte_archive.h"
+#include "base/voigt.h"
 #include "coupling/network/network_state.h"
-#include "coupling/network/voigt.h"
 
 #include <string>
 

@@ -105,7 +105,7 @@ auto TangentSolver<dim>::solution(const NetworkHistory<dim>& history, const Bala
   for (const auto& [k, touch] : at.touches)
     stiffnesses[k] = &touch.tangent;
   kept.network = std::make_shared<const FactorisedNetwork<dim>>(network.factorise(
-    [&](const std::uint32_t link) { return stiffnesses[link]; }, lent_stiffness, history.conditions()));
+    [&](const std::uint32_t link) { return stiffnesses[link]; }, regularising_stiffness, history.conditions()));
   constexpr unsigned int most_iterations = 400;
   auto found = solve_with(*kept.network, most_iterations);
   kept.n_fresh_iterations = found.n_iterations;

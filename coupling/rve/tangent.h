@@ -9,8 +9,8 @@
 /// The linear equations of a network with bonds and open, stick and slip states frozen; docs/theory.md §9.4.
 namespace feldspar
 {
-/// Stiffness lent to what floats, over that of the intact network: no solution runs away, none is changed much.
-constexpr double lent_stiffness = 1e-7;
+/// Stiffness added to loose grains, over that of the intact network: no solution runs away, none is changed much.
+constexpr double regularising_stiffness = 1e-7;
 
 /// Forces on grains, and volume × stress, for small motions from where the network stands: Unknowns or UnitUnknowns.
 template <int dim, typename Columns>

@@ -250,14 +250,14 @@ std::uint64_t point_seed(const GrainMaterialParameters& parameters, const fem::P
 {
   Fingerprint print;
   print.add(parameters.seed);
-  for (const char c : place.cell)
-    print.add_byte(std::uint8_t(c));
+  print.add(place.cell);
   print.add_byte(parameters.to_elements ? 0 : place.quadrature_point);
   return print.value();
 }
 
 /// The realisation that a place gets from a shuffled stack.
-std::size_t dealt_in_turn(const GrainMaterialParameters& parameters, const fem::PointPlace& place, const std::size_t n)
+std::size_t drawn_without_replacement(const GrainMaterialParameters& parameters, const fem::PointPlace& place,
+                                      const std::size_t n)
 {
   std::vector<std::size_t> stack(n);
   std::iota(stack.begin(), stack.end(), std::size_t(0));
@@ -336,9 +336,11 @@ fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, co
                           const fem::PointPlace& place) -> std::unique_ptr<fem::MaterialPoint<dim>> {
     Random random(point_seed(parameters, place), RandomStream::dealing);
     const auto& candidates = weak.cells.contains(place.cell) ? weak.twins : realisations;
-    const auto by_lot = std::size_t(random.uniform() * double(candidates.size()));
-    const auto& dealt = candidates[parameters.in_turn ? dealt_in_turn(parameters, place, candidates.size()) : by_lot];
-    const auto& network = place.side_normal.empty() ? dealt.inside : dealt.at_side;
+    const auto with_replacement = std::size_t(random.uniform() * double(candidates.size()));
+    const auto& assigned =
+      candidates[parameters.without_replacement ? drawn_without_replacement(parameters, place, candidates.size())
+                                                : with_replacement];
+    const auto& network = place.side_normal.empty() ? assigned.inside : assigned.at_side;
     const bool is_edge = network->boundary().kind == BoundaryKind::edge;
     Tensor<dim> turn = Tensor<dim>::Identity();
     if (is_edge && !parameters.in_local_axes)

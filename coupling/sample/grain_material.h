@@ -22,7 +22,7 @@ template <int dim>
 struct GrainStructure
 {
   Tensor<dim> orientation;     ///< turns the axes of the RVE into those of the material
-  const Network<dim>* network; ///< of the realisation that was dealt to the point
+  const Network<dim>* network; ///< of the realisation assigned to the point
   NetworkState<dim> state;
 };
 
@@ -83,10 +83,10 @@ private:
 
 struct GrainMaterialParameters
 {
-  std::uint64_t seed = 1;         ///< of the dealing
-  bool random_orientation = true; ///< each RVE turned by an angle of its own
-  bool to_elements = false;       ///< the points of an element have the same RVE, turned alike
-  bool in_turn = false;           ///< none is dealt twice before all are out; else by lot
+  std::uint64_t seed = 1;           ///< of the assignment
+  bool random_orientation = true;   ///< each RVE turned by an angle of its own
+  bool to_elements = false;         ///< the points of an element have the same RVE, turned alike
+  bool without_replacement = false; ///< no realisation is used twice before all are; else with replacement
   unsigned int n_points_of_cell = 1;
   bool in_local_axes = false; ///< in space: what would be x, y, z is r, θ, z of the point about the axis x = y = 0
   EquilibriumParameters equilibrium;
@@ -98,7 +98,7 @@ struct GrainMaterialParameters
 template <int dim>
 Specimen<dim> weakened(Specimen<dim> specimen, double share);
 
-/// Cells whose points get weaker twins of the RVEs that are dealt to them.
+/// Cells whose points get weaker twins of the RVEs assigned to them.
 template <int dim>
 struct WeakCells
 {
@@ -106,7 +106,7 @@ struct WeakCells
   std::vector<Realisation<dim>> twins; ///< one of each realisation
 };
 
-/// RVEs of these realisations dealt to the points of a sample, each point by itself from the seed: the same for any
+/// RVEs of these realisations assigned to the points of a sample, each point by itself from the seed: the same for any
 /// number of ranks. Edges are not turned by chance: their first axis is the normal of the side. The material's fields are those of GrainPoint::fields().
 template <int dim>
 fem::Material<dim> grain_material(std::vector<Realisation<dim>> realisations, const GrainMaterialParameters& parameters,

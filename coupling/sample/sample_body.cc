@@ -399,8 +399,8 @@ std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, 
   GrainMaterialParameters material;
   material.seed = seed;
   material.random_orientation = sample.random_orientation;
-  material.to_elements = sample.dealt_to_elements;
-  material.in_turn = sample.dealt_in_turn;
+  material.to_elements = sample.assigned_to_elements;
+  material.without_replacement = sample.without_replacement;
   material.n_points_of_cell = n_points_of_cell(sample);
   material.in_local_axes = sample.geometry == SampleGeometry::cylinder; // as a mesh in r-z has them
   material.equilibrium = equilibrium;

@@ -74,7 +74,7 @@ public:
   virtual void restore(const fem::StoredSolid& stored) = 0;
 };
 
-/// With RVEs of these realisations dealt to its points by the seed. Throws std::invalid_argument where they
+/// With RVEs of these realisations assigned to its points by the seed. Throws std::invalid_argument where they
 /// are not of the dimension that the geometry needs.
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,

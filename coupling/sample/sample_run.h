@@ -36,7 +36,7 @@ struct SampleStanding
 class SampleTest
 {
 public:
-  /// The RVEs of `realisations`, of dimension_of_rves(sample.geometry), are dealt to the points by the seed; to
+  /// The RVEs of `realisations`, of dimension_of_rves(sample.geometry), are assigned to the points by the seed; to
   /// those of the weak seed, where there is one, their weak twins.
   /// Throws InputError for a test that such a sample cannot make.
   template <int dim>

@@ -93,7 +93,7 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
       if (n_events > 0)
         {
           found.reset();
-          look_whether_localised(strain, find(strain).response.stress);
+          check_localisation(strain, find(strain).response.stress);
         }
       return n_events;
     }
@@ -118,7 +118,7 @@ std::size_t SofteningPoint<dim>::relax(const Voigt<dim>& strain)
       if (events.n > 0)
         {
           found.reset();
-          look_whether_localised(strain, events.stress);
+          check_localisation(strain, events.stress);
           if (at_work.localised)
             {
               last = {at, events.stress, total_energy(*inner)};
@@ -155,7 +155,7 @@ double SofteningPoint<dim>::gained(const Held& first, const Held& last, const Fo
 }
 
 template <int dim>
-void SofteningPoint<dim>::look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress)
+void SofteningPoint<dim>::check_localisation(const Voigt<dim>& strain, const Voigt<dim>& stress)
 {
   if (at_work.localised || (stress - accepted.stress).dot(strain - accepted.strain) >= 0.0)
     return;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/network/voigt.h"
+#include "base/voigt.h"
 #include "fem/materials/forwarding_point.h"
 
 #include <Eigen/LU>
@@ -92,7 +92,7 @@ private:
   {
     return Stiffness<dim>::Identity() - (1.0 - scale) * compliance * tangent;
   }
-  void look_whether_localised(const Voigt<dim>& strain, const Voigt<dim>& stress);
+  void check_localisation(const Voigt<dim>& strain, const Voigt<dim>& stress);
 
   using fem::ForwardingPoint<dim>::inner;
   double scale;

@@ -8,7 +8,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr std::uint64_t most_steps_between_looks = 10; // for grains that have come near each other
+constexpr std::uint64_t most_steps_between_checks = 10; // for grains that have come near each other
 constexpr double skin_over_smallest_radius = 0.3;
 constexpr double wall_reach_over_skin = 0.25; // as near as a wall may come to a grain that is not in its list
 } // namespace
@@ -33,7 +33,7 @@ bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::
   // Twice the way of the fastest, for what accelerates meanwhile; half the skin, for both grains move.
   const double way_of_a_step = 2.0 * dt * std::sqrt(fastest);
   const double way_left = 0.5 * widest_gap - std::sqrt(farthest);
-  bool missed = way_left <= double(most_steps_between_looks) * way_of_a_step;
+  bool missed = way_left <= double(most_steps_between_checks) * way_of_a_step;
   double steps_allowed = 0.5 * widest_gap / std::max(way_of_a_step, std::numeric_limits<double>::min());
   // Grains keep to half the skin, so that a wall must have gone the rest of it to be near one that is not listed. One
   // that pushes grains before it finds none: the grains' own way has brought on a search before.
@@ -45,7 +45,7 @@ bool ContactWatch<dim>::may_miss_contacts(const Specimen<dim>& body, const std::
         if (walls.way_since_search(w) > 0.5 * widest_gap - reach)
           missed = missed || walls.smallest_gap_not_listed(body, n_own, w) < reach;
       }
-  next_look = step + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_looks)));
+  next_check = step + std::uint64_t(std::clamp(steps_allowed, 1.0, double(most_steps_between_checks)));
   return missed;
 }
 

@@ -21,8 +21,8 @@ public:
 
   void note_search(const Grains<dim>& grains) { position_at_search = grains.position; }
   /// The next look is due after the step.
-  void begin_at(const std::uint64_t step) { next_look = step + 1; }
-  bool is_due(const std::uint64_t step) const { return step == next_look; }
+  void begin_at(const std::uint64_t step) { next_check = step + 1; }
+  bool is_due(const std::uint64_t step) const { return step == next_check; }
 
   /// Whether a pair that was not near at the last search could touch before the next look; sets when that is.
   bool may_miss_contacts(const Specimen<dim>& body, std::size_t n_own, const Walls<dim>& walls, std::uint64_t step,
@@ -33,12 +33,12 @@ public:
   {
     for (int c = 0; c < dim; ++c)
       archive.array(std::string("position_at_search_") + "xyz"[c], position_at_search[c]);
-    archive.value("next_look", next_look);
+    archive.value("next_look", next_check);
   }
 
 private:
   double widest_gap;
   Components<dim> position_at_search;
-  std::uint64_t next_look = 0; ///< step before which no contact can have been missed
+  std::uint64_t next_check = 0; ///< step before which no contact can have been missed
 };
 } // namespace feldspar

@@ -38,7 +38,7 @@ public:
 
   /// Both before the first step; the number identifies the wall or grip.
   std::size_t add_wall(const Wall& wall) { return wall_set.add(wall); }
-  /// A set of grains that moves as one, without turning; of a rigid group it holds all or none, as most of them wish.
+  /// A set of grains that moves as one, without turning; of a rigid group it holds all or none, as most of its grains do.
   std::size_t add_grip(std::vector<std::uint32_t> members, const Vector<dim>& velocity);
   /// Body acceleration [m/s²]; its work counts as boundary work.
   void set_gravity(const Vector<dim>& acceleration) { gravity = acceleration; }

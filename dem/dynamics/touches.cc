@@ -94,10 +94,10 @@ void Touches<dim>::search(const Specimen<dim>& body, const Images<dim>& images, 
   std::vector<std::uint32_t> jointed_to(grains.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t marked = std::numeric_limits<std::uint32_t>::max();
   constexpr std::size_t pairs_between_checks = 100000;
-  std::size_t n_looked_at = 0;
+  std::size_t n_checked = 0;
   for (const auto& [one, two] : pairs_within(grains, skin, check))
     {
-      if (n_looked_at++ % pairs_between_checks == 0)
+      if (n_checked++ % pairs_between_checks == 0)
         check();
       if (!images.pair_counts(one, two))
         continue;

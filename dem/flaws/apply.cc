@@ -1,8 +1,8 @@
 #include "dem/flaws/apply.h"
 
-#include "base/disjoint_sets.h"
 #include "base/input_error.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
@@ -156,22 +156,11 @@ std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& e
   return cut;
 }
 
-template <int dim>
-DisjointSets pieces(const Specimen<dim>& specimen)
-{
-  DisjointSets sets(specimen.grains.size());
-  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
-    sets.merge(specimen.joints.grain_1[j], specimen.joints.grain_2[j]);
-  for (const auto& joint : specimen.smooth_joints)
-    sets.merge(joint.grain_1, joint.grain_2);
-  return sets;
-}
-
 /// Which of the grains hang in the largest piece, by joints whether bonded or not; [n_grains].
 template <int dim>
 std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
 {
-  DisjointSets sets = pieces(specimen);
+  DisjointSets sets = connected_grains(specimen, Faces::all);
   const auto sizes = sets.sizes();
   const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   std::vector<bool> within(specimen.grains.size());
@@ -218,7 +207,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
   for (std::uint32_t i = 0; i < n_grains; ++i)
     if (kept[i])
       old_number.push_back(i);
-  DisjointSets sets = pieces(rest);
+  DisjointSets sets = connected_grains(rest, Faces::all);
   const auto sizes = sets.sizes();
   const auto largest = std::uint32_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   std::vector<bool> stays(rest.grains.size(), true);

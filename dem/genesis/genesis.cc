@@ -58,11 +58,11 @@ template <int dim>
 double relax(Dynamics<dim>& dynamics, const double tolerance, const unsigned int most_steps,
              const std::function<void()>& check)
 {
-  constexpr unsigned int steps_between_looks = 50;
+  constexpr unsigned int steps_between_checks = 50;
   double ratio = 1.0;
-  for (unsigned int n = 0; n < most_steps && ratio > tolerance; n += steps_between_looks)
+  for (unsigned int n = 0; n < most_steps && ratio > tolerance; n += steps_between_checks)
     {
-      for (unsigned int k = 0; k < steps_between_looks; ++k)
+      for (unsigned int k = 0; k < steps_between_checks; ++k)
         {
           check();
           dynamics.step();

@@ -11,7 +11,7 @@
 namespace feldspar
 {
 /// Makes a specimen: packs grains to the wanted stress or reads a packing, then installs joints; docs/theory.md
-/// §3. The seed fixes every bit. Throws InputError where the wish cannot be met.
+/// §3. The seed fixes every bit. Throws InputError where the wanted specimen cannot be made.
 /// `check` is called at every step of the packing, `check_within` within steps and between all parts of genesis too, which
 /// take seconds for millions of grains. Both may throw to end it.
 template <int dim>

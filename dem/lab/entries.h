@@ -17,19 +17,19 @@ inline std::vector<Entry<TestParameters>> common_test_entries()
   return {
     entry::integer("Snapshots", &P::n_snapshots, {'[', 2.0, 1000.0, ']'},
                    "states of the grains kept in the folder fields, at most; the start and the end are among them",
-                   of_grains_alike),
+                   as_basic(of_grains_alike)),
     entry::number(
       "Platen friction", &P::platen_friction, ranges::from_zero,
       "coefficient of the platens in compression. 0: smooth, as in the flat-joint paper; those of a laboratory hold the "
       "ends of a specimen, and raise the uniaxial strength most",
-      of_grains),
+      as_basic(of_grains)),
     entry::number("Seating transits", &P::seating_transits, {'(', 0.0, 1e4, ']'},
                   "travel times of a wave along the specimen over which the confinement is raised", of_grains),
     entry::number(
       "Stop strain over peak strain", &P::stop_strain_over_peak_strain, {'(', 1.0, ranges::infinity, ')'},
       "a test stops at this many times the strain of its peak, once the stress has fallen after the peak; a test whose "
       "stress is rising goes on",
-      varies),
+      as_basic(varies)),
     entry::optional_quantity(
       "Least peak stress", &P::least_peak_stress, Measure::stress, "MPa", ranges::from_zero,
       "a lower highest stress (beyond the confinement) is no peak. none: on grains twice ρ c × strain rate × "

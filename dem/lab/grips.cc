@@ -18,7 +18,7 @@ std::vector<Entry<TestParameters>> tension_entries()
   using P = TensionParameters;
   using namespace tests_flags;
   return within_tests<P>({entry::quantity("Tension strain rate", &P::strain_rate, Measure::rate, "1/s",
-                                          ranges::above_zero, "magnitude", of_grains),
+                                          ranges::above_zero, "magnitude", as_basic(of_grains)),
                           entry::number("Tension sampling strain", &P::sampling_strain, range_of_sampling_strain,
                                         "axial strain between two rows of the curve", of_grains),
                           entry::number("Grip ratio", &P::grip_ratio, {'(', 0.0, 0.4, ']'},

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/own_entries.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <vector>
 

@@ -92,7 +92,7 @@ std::vector<Entry<TestParameters>> loading_table_entries()
     "CSV of the stages of own_loading, a row each, with the columns axial_strain, axial_stress_Pa, hold_s, "
     "confining_pressure_Pa, strain_rate_per_s, lateral_strain; compression positive; on a sample of finite elements "
     "rates only say how long a strain takes beside a hold",
-    of_platens)});
+    as_basic(of_platens))});
 }
 
 std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& path)

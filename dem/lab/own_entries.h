@@ -23,6 +23,11 @@ std::vector<Entry<TestParameters>> within_tests(const std::vector<Entry<Own>>& e
 /// Flags of entries of the tests.
 namespace tests_flags
 {
+inline EntryFlags as_basic(EntryFlags flags)
+{
+  flags.basic = true;
+  return flags;
+}
 inline const EntryFlags of_grains{.varies = true,
                                   .bodies = {Body::plane_box, Body::box, Body::cylinder},
                                   .needs = "is of tests on specimens of grains"};

@@ -1,21 +1,21 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/seating.h"
-#include "dem/lab/test_in_progress.h"
 
 namespace feldspar
 {
-/// The walls below and above a specimen.
-struct Platens
+/// Two walls across one axis, such as the platens below and above a specimen.
+struct WallPair
 {
-  std::size_t lower;
-  std::size_t upper;
+  std::size_t low;
+  std::size_t high;
 };
 
-/// Stands both at rest across the last axis, at the ends of a specimen that leads from one to the other.
+/// Stands both platens at rest across the last axis, at the ends of a specimen that leads from one to the other.
 template <int dim>
-Platens add_platens(SetUpTest<dim>& test, const double friction)
+WallPair add_platens(SetUpTest<dim>& test, const double friction)
 {
   constexpr int axis = dim - 1;
   const Specimen<dim>& body = test.dynamics.specimen();
@@ -26,31 +26,31 @@ Platens add_platens(SetUpTest<dim>& test, const double friction)
 
 /// Between them [m].
 template <int dim>
-double distance(const Dynamics<dim>& dynamics, const Platens& platens)
+double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
 {
-  return dynamics.walls()[platens.upper].position - dynamics.walls()[platens.lower].position;
+  return dynamics.walls()[pair.high].position - dynamics.walls()[pair.low].position;
 }
 
-/// Brings the platens together at `speed` [m/s], half of it each.
+/// Brings the walls together at `speed` [m/s], half of it each.
 template <int dim>
-void close(Dynamics<dim>& dynamics, const Platens& platens, const double speed)
+void close(Dynamics<dim>& dynamics, const WallPair& pair, const double speed)
 {
-  dynamics.wall(platens.lower).velocity = 0.5 * speed;
-  dynamics.wall(platens.upper).velocity = -0.5 * speed;
+  dynamics.wall(pair.low).velocity = 0.5 * speed;
+  dynamics.wall(pair.high).velocity = -0.5 * speed;
 }
 
-/// The stress at both platens, on an area [m²].
+/// The stress at both walls, on an area [m²].
 template <int dim>
-EndStress stress_of(const Dynamics<dim>& dynamics, const Platens& platens, const double area)
+EndStress stress_of(const Dynamics<dim>& dynamics, const WallPair& pair, const double area)
 {
-  return {-dynamics.wall_force(platens.lower) / area, -dynamics.wall_force(platens.upper) / area};
+  return {-dynamics.wall_force(pair.low) / area, -dynamics.wall_force(pair.high) / area};
 }
 
 /// Halfway between them [m].
 template <int dim>
-double middle(const Dynamics<dim>& dynamics, const Platens& platens)
+double middle(const Dynamics<dim>& dynamics, const WallPair& pair)
 {
-  return 0.5 * (dynamics.walls()[platens.lower].position + dynamics.walls()[platens.upper].position);
+  return 0.5 * (dynamics.walls()[pair.low].position + dynamics.walls()[pair.high].position);
 }
 
 /// Gives the grains, on top of what they have, the velocities of a steady, uniform stretch [1/s] about a place of the last axis

@@ -1,7 +1,7 @@
 #include "dem/lab/seating.h"
 
-#include "base/disjoint_sets.h"
 #include "base/input_error.h"
+#include "dem/specimen/fragments.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,14 +67,15 @@ std::vector<bool> grains_of_body(const Specimen<dim>& specimen)
     is_part[specimen.joints.grain_1[j]] = is_part[specimen.joints.grain_2[j]] = true;
   for (const auto& joint : specimen.smooth_joints)
     is_part[joint.grain_1] = is_part[joint.grain_2] = true;
-  if (specimen.groups_are_rigid)
+  if (specimen.groups_are_rigid) // a set with one grain that has a joint is a part with all of its grains
     {
-      std::vector<bool> group_is_part(specimen.report.n_clumps, false);
-      for (std::size_t i = 0; i < n; ++i)
-        if (is_part[i])
-          group_is_part[specimen.groups[i]] = true;
-      for (std::size_t i = 0; i < n; ++i)
-        is_part[i] = group_is_part[specimen.groups[i]];
+      DisjointSets pieces = connected_grains(specimen, Faces::all);
+      const std::vector<bool> has_joint = is_part;
+      for (std::uint32_t i = 0; i < n; ++i)
+        if (has_joint[i])
+          is_part[pieces.root(i)] = true;
+      for (std::uint32_t i = 0; i < n; ++i)
+        is_part[i] = is_part[pieces.root(i)];
     }
   return is_part;
 }
@@ -103,21 +104,7 @@ void check_leads_from_end_to_end(const Specimen<dim>& specimen)
   const std::size_t n = specimen.grains.size();
   if (specimen.n_joints() == 0)
     return;
-  DisjointSets pieces(n);
-  for (std::size_t j = 0; j < specimen.joints.size(); ++j)
-    pieces.merge(specimen.joints.grain_1[j], specimen.joints.grain_2[j]);
-  for (const auto& joint : specimen.smooth_joints)
-    pieces.merge(joint.grain_1, joint.grain_2);
-  if (specimen.groups_are_rigid)
-    {
-      std::vector<std::uint32_t> first_of(specimen.report.n_clumps, std::uint32_t(n));
-      for (std::uint32_t i = 0; i < n; ++i)
-        {
-          std::uint32_t& first = first_of[specimen.groups[i]];
-          first = std::min(first, i);
-          pieces.merge(first, i);
-        }
-    }
+  DisjointSets pieces = connected_grains(specimen, Faces::all);
   const double depth = 2.0 * largest_gap * specimen.grains.mean_radius();
   const auto lead_from_end_to_end = [&] {
     std::vector<bool> is_below(n, false);

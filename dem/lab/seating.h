@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/lab/test_in_progress.h"
+#include "dem/lab/laboratory_run.h"
 
 #include <string_view>
 #include <vector>

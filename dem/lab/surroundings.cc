@@ -25,12 +25,6 @@ std::vector<Entry<TestParameters>> confinement_entries()
 }
 
 template <int dim>
-double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
-{
-  return dynamics.walls()[pair.high].position - dynamics.walls()[pair.low].position;
-}
-
-template <int dim>
 Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const double confining_pressure,
                            const TestParameters& wanted)
 {
@@ -83,8 +77,6 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
   return around;
 }
 
-template double distance<2>(const Dynamics<2>&, const WallPair&);
-template double distance<3>(const Dynamics<3>&, const WallPair&);
 template Surroundings<2> surround<2>(SetUpTest<2>&, const WallPair&, double, const TestParameters&);
 template Surroundings<3> surround<3>(SetUpTest<3>&, const WallPair&, double, const TestParameters&);
 } // namespace feldspar

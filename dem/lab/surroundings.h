@@ -1,8 +1,10 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/own_entries.h"
-#include "dem/lab/test_in_progress.h"
+#include "dem/lab/parameters.h"
+#include "dem/lab/platens.h"
 
 #include <cstddef>
 #include <functional>
@@ -46,17 +48,6 @@ double stress_of(const Dynamics<dim>& dynamics, const Press<dim>& press)
     force += dynamics.wall_force(wall) / double(press.walls.size());
   return -force / press.area(dynamics);
 }
-
-/// Two walls across one axis.
-struct WallPair
-{
-  std::size_t low;
-  std::size_t high;
-};
-
-/// Between them [m].
-template <int dim>
-double distance(const Dynamics<dim>& dynamics, const WallPair& pair);
 
 /// The lateral boundary of a specimen that is pressed between platens.
 template <int dim>

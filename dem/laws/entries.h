@@ -10,7 +10,8 @@ namespace feldspar
 {
 /// `entries` of a joint law, and behind them those that say which pairs get a joint and which joints a bond.
 template <typename P>
-std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock)
+std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock,
+                                       const EntryFlags& basic)
 {
   // Over a gap of a mean radius lie other grains.
   for (
@@ -18,12 +19,12 @@ std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const Entr
     {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::fraction,
                                "largest gap that gets a joint, over the mean radius; none where Coordination number is "
                                "given",
-                               of_rock),
+                               basic),
      entry::optional_number<P>(
        "Coordination number", &P::coordination_number, ranges::above_zero,
        "mean number of joints of a grain, instead of Installation gap ratio, which follows from it. Walls take joints: "
        "with one number small, walled and periodic bodies are different rocks",
-       of_rock),
+       basic),
      entry::number<P>("Gapped fraction", &P::gapped_fraction, ranges::fraction,
                       "share of the joints without bonds and with an initial gap", of_rock),
      entry::number<P>("Slit fraction", &P::slit_fraction, ranges::fraction,
@@ -39,6 +40,7 @@ template <typename P = FlatJointParameters>
 std::vector<Entry<P>> flat_joint_entries()
 {
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  const EntryFlags basic{.varies = true, .of_specimen = true, .basic = true};
   const EntryFlags in_plane{.varies = true,
                             .of_specimen = true,
                             .bodies = {Body::plane_box, Body::sample},
@@ -56,27 +58,26 @@ std::vector<Entry<P>> flat_joint_entries()
     entry::integer<P>("Sectors", &P::n_sectors, {'[', 3.0, 32.0, ']'},
                       "of each ring, of equal angle; each of Rings x Sectors elements breaks by itself", in_space),
     entry::quantity<P>("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
-                       "E; the normal stiffness is E over the sum of both radii", of_rock),
-    entry::number<P>("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness",
-                     of_rock),
-    entry::number<P>("Friction", &P::friction, ranges::from_zero, "coefficient, of broken segments", of_rock),
+                       "E; the normal stiffness is E over the sum of both radii", basic),
+    entry::number<P>("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", basic),
+    entry::number<P>("Friction", &P::friction, ranges::from_zero, "coefficient, of broken segments", basic),
     entry::number<P>("Radius multiplier", &P::radius_multiplier, ranges::above_zero,
                      "half length of the face over the radius of the smaller grain", of_rock),
     entry::quantity<P>("Bond tensile strength", &P::bond_tensile_strength, Measure::stress, "MPa", ranges::from_zero,
-                       "mean; a segment breaks in tension beyond it", of_rock),
+                       "mean; a segment breaks in tension beyond it", basic),
     entry::quantity<P>("Bond tensile strength standard deviation", &P::bond_tensile_strength_deviation, Measure::stress,
-                       "MPa", ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+                       "MPa", ranges::from_zero, "of the normal distribution, redrawn while negative", basic),
     entry::quantity<P>("Bond cohesion", &P::bond_cohesion, Measure::stress, "MPa", ranges::from_zero,
-                       "mean; shear strength of a bond without normal stress", of_rock),
+                       "mean; shear strength of a bond without normal stress", basic),
     entry::quantity<P>("Bond cohesion standard deviation", &P::bond_cohesion_deviation, Measure::stress, "MPa",
-                       ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
+                       ranges::from_zero, "of the normal distribution, redrawn while negative", basic),
     entry::quantity<P>("Bond friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
-                       "by which compression adds to the shear strength of a bond", of_rock),
+                       "by which compression adds to the shear strength of a bond", basic),
     entry::choice<P, StrengthDraw>(
       "Strength draw", &P::strength_draw,
       {{"per segment", StrengthDraw::per_segment}, {"per contact", StrengthDraw::per_contact}},
       "whether the segments of a face draw their strengths one by one or together", of_rock)};
-  return and_installation(entries, of_rock);
+  return and_installation(entries, of_rock, basic);
 }
 
 /// The entries of section Softening flat joint.
@@ -85,10 +86,13 @@ inline std::vector<Entry<SofteningFlatJointParameters>> softening_flat_joint_ent
   using P = SofteningFlatJointParameters;
   std::vector<Entry<P>> entries = flat_joint_entries<P>();
   for (Entry<P>& entry : entries)
-    if (entry.name == "Bond tensile strength")
-      entry.meaning = "mean; beyond it the stress of a segment falls as Softening opening says";
-    else if (entry.name == "Friction")
-      entry.meaning = "coefficient, of segments that are broken or soften in shear";
+    {
+      entry.flags.basic = false;
+      if (entry.name == "Bond tensile strength")
+        entry.meaning = "mean; beyond it the stress of a segment falls as Softening opening says";
+      else if (entry.name == "Friction")
+        entry.meaning = "coefficient, of segments that are broken or soften in shear";
+    }
   entries.push_back(entry::quantity("Softening opening", &P::softening_opening, Measure::length, "um",
                                     Range{'[', 0.0, 1e6, ']'}, // a metre: no bond is as long
                                     "over which the stress of a bond falls along a straight line from its strength to "
@@ -123,7 +127,7 @@ inline std::vector<Entry<ParallelBondParameters>> parallel_bond_entries()
                     ranges::from_zero, "of the normal distribution, redrawn while negative", of_rock),
     entry::quantity("Friction angle", &P::bond_friction_angle, Measure::angle, "deg", {'[', 0.0, 90.0, ')'},
                     "by which compression adds to the shear strength of a bond", of_rock)};
-  return and_installation(entries, of_rock);
+  return and_installation(entries, of_rock, of_rock);
 }
 
 /// The entries of section Smooth joint.
@@ -154,12 +158,12 @@ inline std::vector<Entry<SmoothJointParameters>> smooth_joint_entries()
 inline std::vector<Entry<ParticleContactParameters>> particle_contact_entries()
 {
   using P = ParticleContactParameters;
-  const EntryFlags of_rock{.varies = true, .of_specimen = true};
+  const EntryFlags basic{.varies = true, .of_specimen = true, .basic = true};
   return {
     entry::quantity("Modulus", &P::modulus, Measure::stress, "GPa", ranges::above_zero,
                     "of grains that touch without a face, of the contact beside a parallel bond, and of the packing",
-                    of_rock),
-    entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", of_rock),
-    entry::number("Friction", &P::friction, ranges::from_zero, "coefficient", of_rock)};
+                    basic),
+    entry::number("Stiffness ratio", &P::stiffness_ratio, ranges::above_zero, "normal over shear stiffness", basic),
+    entry::number("Friction", &P::friction, ranges::from_zero, "coefficient", basic)};
 }
 } // namespace feldspar

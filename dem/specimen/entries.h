@@ -18,32 +18,34 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   using P = SpecimenParameters;
   const EntryFlags of_rock{.varies = true, .of_specimen = true};
   const EntryFlags of_body{.of_specimen = true}; // one for all variants
+  const EntryFlags basic_of_rock{.varies = true, .of_specimen = true, .basic = true};
+  const EntryFlags basic_of_body{.of_specimen = true, .basic = true};
   std::vector<std::pair<std::string_view, std::string>> laws;
   for (const std::string_view name : JointLaws::names())
     laws.emplace_back(name, name);
   return {
     entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
-                  "2: discs in the plane, one metre thick; 3: spheres", of_body),
+                  "2: discs in the plane, one metre thick; 3: spheres", basic_of_body),
     entry::choice("Shape", &P::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
                   "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
                   "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
-                  of_body),
+                  basic_of_body),
     entry::quantity(
       "Width", &P::width, Measure::length, "mm", ranges::above_zero,
       "of the box or cell, across the axis of the tests, and in space its depth too; at least four radii of the "
       "largest grain",
-      of_rock),
+      basic_of_rock),
     entry::quantity("Height", &P::height, Measure::length, "mm", ranges::above_zero,
                     "of the box or cell, along the axis of the tests; at least four radii of the largest grain",
-                    of_rock),
+                    basic_of_rock),
     entry::quantity("Minimum radius", &P::minimum_radius, Measure::length, "mm", ranges::above_zero, "of the grains",
-                    of_rock),
+                    basic_of_rock),
     entry::number("Radius ratio", &P::radius_ratio, {'[', 1.0, 100.0, ']'},
-                  "largest over smallest radius; radii are drawn uniformly between them", of_rock),
+                  "largest over smallest radius; radii are drawn uniformly between them", basic_of_rock),
     entry::number("Porosity", &P::porosity, {'(', 0.0, 1.0, ')'},
                   "of the finished packing; with the radii it gives the number of grains; in three dimensions "
                   "0.36 unless it is given",
-                  of_rock),
+                  basic_of_rock),
     entry::quantity("Density", &P::bulk_density, Measure::density, "kg/m^3", ranges::above_zero,
                     "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
     entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
@@ -79,6 +81,6 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
       "Joint law", &P::joint_law, laws,
       "between grains that meet; its parameters are in the section of its name. Clumps and the mineral grains of a "
       "grain-based model are sections of their own, and go with a law",
-      of_rock)};
+      basic_of_rock)};
 }
 } // namespace feldspar

@@ -1,7 +1,5 @@
 #include "dem/specimen/fragments.h"
 
-#include "base/disjoint_sets.h"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -11,11 +9,11 @@ namespace feldspar
 namespace
 {
 template <int dim>
-DisjointSets held_together(const Joints<dim>& joints, const std::size_t n_grains)
+DisjointSets connected(const Joints<dim>& joints, const std::size_t n_grains, const Faces faces)
 {
   DisjointSets sets(n_grains);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints.holds(j))
+    if (faces == Faces::all || joints.holds(j))
       sets.merge(joints.grain_1[j], joints.grain_2[j]);
   return sets;
 }
@@ -39,18 +37,12 @@ std::vector<std::uint32_t> numbers_by_size(DisjointSets sets, const std::size_t 
 } // namespace
 
 template <int dim>
-std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
-{
-  return numbers_by_size(held_together(joints, n_grains), n_grains);
-}
-
-template <int dim>
-std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
+DisjointSets connected_grains(const Specimen<dim>& specimen, const Faces faces)
 {
   const std::size_t n_grains = specimen.grains.size();
-  DisjointSets sets = held_together(specimen.joints, n_grains);
+  DisjointSets sets = connected(specimen.joints, n_grains, faces);
   for (const auto& joint : specimen.smooth_joints)
-    if (joint.state.bonded)
+    if (faces == Faces::all || joint.state.bonded)
       sets.merge(joint.grain_1, joint.grain_2);
   if (specimen.groups_are_rigid)
     {
@@ -61,9 +53,23 @@ std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
         else
           sets.merge(known, i);
     }
-  return numbers_by_size(std::move(sets), n_grains);
+  return sets;
 }
 
+template <int dim>
+std::vector<std::uint32_t> fragments(const Joints<dim>& joints, const std::size_t n_grains)
+{
+  return numbers_by_size(connected(joints, n_grains, Faces::bonded), n_grains);
+}
+
+template <int dim>
+std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
+{
+  return numbers_by_size(connected_grains(specimen, Faces::bonded), specimen.grains.size());
+}
+
+template DisjointSets connected_grains(const Specimen<2>&, Faces);
+template DisjointSets connected_grains(const Specimen<3>&, Faces);
 template std::vector<std::uint32_t> fragments<2>(const Specimen<2>&);
 template std::vector<std::uint32_t> fragments<3>(const Specimen<3>&);
 template std::vector<std::uint32_t> fragments<2>(const Joints<2>&, std::size_t);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/disjoint_sets.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>
@@ -7,6 +8,16 @@
 
 namespace feldspar
 {
+enum class Faces
+{
+  bonded, ///< with at least one bonded segment
+  all
+};
+
+/// Grains connected by such faces, of smooth joints too, and by rigid groups.
+template <int dim>
+DisjointSets connected_grains(const Specimen<dim>& specimen, Faces faces);
+
 /// The number of the fragment each grain belongs to; [n_grains]. Grains hang together by joints with at least one
 /// bonded segment; the largest fragment is 0, equal ones are ordered by their first grain.
 template <int dim>

@@ -19,7 +19,7 @@ StiffnessMatrix<dim> isotropic_stiffness(const double youngs_modulus, const doub
   const double G = E / (2.0 * (1.0 + nu));
   StiffnessMatrix<dim> stiffness = StiffnessMatrix<dim>::Zero();
   stiffness.template topLeftCorner<dim, dim>().setConstant(lambda);
-  for (int i = 0; i < n_components<dim>; ++i)
+  for (int i = 0; i < n_voigt<dim>; ++i)
     stiffness(i, i) += i < dim ? 2.0 * G : G;
   return stiffness;
 }

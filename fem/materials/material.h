@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "base/voigt.h"
 
 #include <any>
 #include <cstddef>
@@ -14,22 +14,17 @@
 
 /// The constitutive seam: what the finite elements ask of a material, and all they know of it.
 ///
-/// Small strain, SI, tension positive. Voigt order xx, yy, xy in 2D and xx, yy, zz, yz, xz, xy in 3D; strain vectors
-/// hold engineering shear (2 ε_xy), so that stress · strain is work and a stiffness is the usual Voigt matrix.
+/// Small strain, SI, tension positive, in Voigt's order (base/voigt.h).
 namespace feldspar::fem
 {
-/// Independent components of a symmetric tensor: 3 in the plane, 6 in space.
 template <int dim>
-inline constexpr int n_components = dim*(dim + 1) / 2;
+using StrainVector = Voigt<dim>;
 
 template <int dim>
-using StrainVector = Eigen::Matrix<double, n_components<dim>, 1>;
+using StressVector = Voigt<dim>; ///< [Pa]
 
 template <int dim>
-using StressVector = Eigen::Matrix<double, n_components<dim>, 1>; ///< [Pa]
-
-template <int dim>
-using StiffnessMatrix = Eigen::Matrix<double, n_components<dim>, n_components<dim>>; ///< [Pa]
+using StiffnessMatrix = Stiffness<dim>; ///< [Pa]
 
 /// Stress and its derivative by strain.
 template <int dim>

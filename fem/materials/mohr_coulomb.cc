@@ -109,14 +109,14 @@ PrincipalUpdate principal_update(const YieldSurface& yield, const Eigen::Matrix3
 /// other way.
 Eigen::Matrix<double, 6, 6> stress_rotation(const Eigen::Matrix3d& axes)
 {
-  constexpr int first[] = {0, 1, 2, 1, 0, 0};
-  constexpr int second[] = {0, 1, 2, 2, 2, 1};
   Eigen::Matrix<double, 6, 6> rotation;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b)
       {
-        const double once = axes(first[a], first[b]) * axes(second[a], second[b]);
-        const double crossed = axes(first[a], second[b]) * axes(second[a], first[b]);
+        const auto [i, j] = voigt_pair<3>(a);
+        const auto [k, l] = voigt_pair<3>(b);
+        const double once = axes(i, k) * axes(j, l);
+        const double crossed = axes(i, l) * axes(j, k);
         rotation(a, b) = b < 3 ? once : once + crossed;
       }
   return rotation;
@@ -128,12 +128,9 @@ Eigen::Matrix<double, 6, 6> tangent_in_principal_axes(const PrincipalUpdate& upd
 {
   Eigen::Matrix<double, 6, 6> tangent = Eigen::Matrix<double, 6, 6>::Zero();
   tangent.topLeftCorner<3, 3>() = update.tangent;
-  constexpr int first[] = {1, 0, 0}; // yz, xz, xy
-  constexpr int second[] = {2, 2, 1};
   for (int shear = 0; shear < 3; ++shear)
     {
-      const int i = first[shear];
-      const int j = second[shear];
+      const auto [i, j] = voigt_pair<3>(3 + shear);
       const double trial_difference = trial[i] - trial[j];
       const double round_off = 1e-9 * trial.cwiseAbs().maxCoeff();
       const double share = std::abs(trial_difference) > round_off

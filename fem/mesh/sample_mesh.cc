@@ -1,22 +1,17 @@
 #include "fem/mesh/sample_mesh.h"
 
 #include "base/input_error.h"
-#include "base/readable_file.h"
-#include "fem/mesh/gmsh_binary.h"
-#include "fem/mesh/gmsh_check.h"
+#include "fem/mesh/gmsh_mesh.h"
 
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
 namespace feldspar::fem
@@ -163,70 +158,50 @@ SampleMesh<3> cylinder_sample(const MPI_Comm communicator, const double radius, 
   return mesh;
 }
 
-namespace
-{
-/// Names of the physical groups of one dimension, from the section $PhysicalNames.
-std::map<std::string, types::boundary_id> physical_names(std::istream& file, const int dimension,
-                                                         const std::string& file_name)
-{
-  std::map<std::string, types::boundary_id> names;
-  std::string line;
-  while (std::getline(file, line))
-    if (line.starts_with("$PhysicalNames"))
-      break;
-  std::size_t n = 0;
-  file >> n;
-  for (std::size_t i = 0; i < n; ++i)
-    {
-      int its_dimension = 0;
-      types::boundary_id id = 0;
-      file >> its_dimension >> id;
-      std::getline(file, line);
-      const std::size_t first = line.find('"');
-      const std::size_t last = line.rfind('"');
-      if (!file || first == last)
-        throw MeshError(fmt::format("{}: its section $PhysicalNames cannot be read", file_name));
-      if (its_dimension == dimension)
-        names[line.substr(first + 1, last - first - 1)] = id;
-    }
-  return names;
-}
-} // namespace
-
 template <int dim>
 SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
                           const unsigned int n_refinements, const double unit)
 {
   const std::string name = file.string();
-  if (const std::string objection = objection_to_reading(file); !objection.empty())
-    throw MeshError(fmt::format("{}: {}", name, objection));
-  ReadableFile opened(file);
-  std::stringstream stream;
-  stream << opened.rdbuf();
-  std::string whose_lines = name;
+  GmshMesh from_file;
   try
     {
-      if (is_binary_gmsh(stream.view()))
-        {
-          stream.str(text_of_binary_gmsh(stream.view()));
-          whose_lines += ", as text";
-        }
-      check_gmsh(stream.view(), dim);
+      from_file = read_gmsh_mesh(file, dim);
     }
   catch (const InputError& error)
     {
-      throw MeshError(fmt::format("{}: {}", whose_lines, error.what()));
+      throw MeshError(fmt::format("{}: {}", name, error.what()));
     }
-  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), physical_names(stream, dim - 1, name)};
+  std::vector<Point<dim>> vertices(from_file.nodes.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    for (unsigned int d = 0; d < dim; ++d)
+      vertices[k][d] = from_file.nodes[k][d];
+  std::vector<CellData<dim>> cells(from_file.cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_cell; ++v)
+      cells[c].vertices[GeometryInfo<dim>::ucd_to_deal[v]] = from_file.cells[c].nodes[v];
+  SubCellData boundary;
+  for (const auto& side : from_file.sides)
+    {
+      CellData<dim - 1> data;
+      for (unsigned int v = 0; v < GeometryInfo<dim - 1>::vertices_per_cell; ++v)
+        data.vertices[GeometryInfo<dim - 1>::ucd_to_deal[v]] = side.nodes[v];
+      data.boundary_id = side.group;
+      if constexpr (dim == 2)
+        boundary.boundary_lines.push_back(data);
+      else
+        boundary.boundary_quads.push_back(data);
+    }
+  SampleMesh<dim> mesh{empty_triangulation<dim>(communicator), {from_file.groups.begin(), from_file.groups.end()}};
 
   // Into a serial triangulation first, which also takes what the distributed one does not.
-  stream.clear();
-  stream.seekg(0);
   Triangulation<dim> coarse;
-  GridIn<dim> reader(coarse);
   try
     {
-      reader.read_msh(stream);
+      GridTools::delete_unused_vertices(vertices, cells, boundary);
+      GridTools::invert_cells_with_negative_measure(vertices, cells);
+      GridTools::consistently_order_cells(cells);
+      coarse.create_triangulation(vertices, cells, boundary);
     }
   catch (const typename Triangulation<dim>::DistortedCellList& list)
     {
@@ -238,9 +213,6 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
       throw MeshError(fmt::format("{}: is not a Gmsh mesh of {} whose cells all have positive {}", name,
                                   dim == 2 ? "quadrilaterals" : "hexahedra", dim == 2 ? "area" : "volume"));
     }
-  if (!coarse.all_reference_cells_are_hyper_cube())
-    throw MeshError(fmt::format("{}: has cells that are not {}; in Gmsh recombine the mesh", name,
-                                dim == 2 ? "quadrilaterals" : "hexahedra"));
   for (const auto& cell : coarse.active_cell_iterators())
     {
       // The Jacobian at each corner; a corner that turns the wrong way inverts part of the cell.

@@ -66,7 +66,7 @@ SampleMesh<2> axisymmetric_sample(MPI_Comm communicator, double radius, double h
 SampleMesh<3> cylinder_sample(MPI_Comm communicator, double radius, double height,
                               std::array<unsigned int, 2> divisions, unsigned int n_refinements);
 
-/// A Gmsh file (.msh, format 2 or 4, text) of quadrilaterals or hexahedra, whose coordinates count in a unit [m].
+/// A Gmsh file (.msh, format 2 or 4, text or binary) of quadrilaterals or hexahedra, whose coordinates count in a unit [m].
 /// Boundaries are its named physical groups of lines or surfaces. Throws MeshError.
 template <int dim>
 SampleMesh<dim> read_gmsh(MPI_Comm communicator, const std::filesystem::path& file, unsigned int n_refinements,

@@ -105,7 +105,7 @@ void assemble_tangent(const Discretisation<dim>& elements, const std::vector<dou
   const unsigned int n_dofs = fe.n_dofs_per_cell();
   FullMatrix<double> cell_matrix(n_dofs, n_dofs);
   Vector<double> no_force(n_dofs);
-  Eigen::Matrix<double, n_components<material_dim>, Eigen::Dynamic> B(n_components<material_dim>, n_dofs);
+  Eigen::Matrix<double, n_voigt<material_dim>, Eigen::Dynamic> B(n_voigt<material_dim>, n_dofs);
   Eigen::MatrixXd stiffness(n_dofs, n_dofs);
   std::vector<types::global_dof_index> dofs(n_dofs);
   matrix = 0.0;

@@ -66,12 +66,12 @@ inline double weight(const Kinematics kinematics, const double radius)
 template <int dim, int material_dim>
 std::vector<std::string> component_names(const Kinematics kinematics)
 {
-  if constexpr (dim == 2 && material_dim == 2)
-    return {"xx", "yy", "xy"};
-  else if constexpr (dim == 2)
+  if constexpr (dim < material_dim)
     return kinematics == Kinematics::axisymmetric ? std::vector<std::string>{"rr", "tt", "zz", "", "rz", ""}
                                                   : std::vector<std::string>{"xx", "zz", "yy", "", "xy", ""};
-  else
-    return {"xx", "yy", "zz", "yz", "xz", "xy"};
+  std::vector<std::string> names;
+  for (int k = 0; k < n_voigt<dim>; ++k)
+    names.push_back(voigt_name<dim>(k));
+  return names;
 }
 } // namespace feldspar::fem

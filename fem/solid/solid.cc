@@ -133,7 +133,7 @@ Balance Solid<dim, material_dim>::rebalance()
   return verdict.balance;
 }
 
-/// The cells that are this rank's once the mesh has been dealt out by these weights.
+/// The cells that are this rank's once the mesh has been distributed by these weights.
 template <int dim, int material_dim>
 std::vector<StoredCell> Solid<dim, material_dim>::moved(const std::vector<StoredCell>& cells,
                                                         const std::vector<unsigned int>& weights)
@@ -205,10 +205,9 @@ double Solid<dim, material_dim>::swept_volume(const std::string& boundary) const
 namespace
 {
 template <int dim, typename Value>
-Eigen::Matrix<double, n_components<dim>, 1> mean(const std::vector<double>& volumes, const Value& value,
-                                                 const MPI_Comm communicator)
+Voigt<dim> mean(const std::vector<double>& volumes, const Value& value, const MPI_Comm communicator)
 {
-  Eigen::Matrix<double, n_components<dim>, 1> sum = Eigen::Matrix<double, n_components<dim>, 1>::Zero();
+  Voigt<dim> sum = Voigt<dim>::Zero();
   double volume = 0.0;
   for (std::size_t i = 0; i < volumes.size(); ++i)
     {

@@ -78,7 +78,7 @@ template <int dim, int material_dim>
 SolidState<material_dim> restored(const Discretisation<dim>& elements, SolidPoints<material_dim>& points,
                                   const SolidState<material_dim>& at_rest, const std::vector<StoredCell>& cells)
 {
-  constexpr std::size_t n = n_components<material_dim>;
+  constexpr std::size_t n = n_voigt<material_dim>;
   const std::size_t n_of_cell = elements.n_points_per_cell();
   std::map<std::uint64_t, const StoredCell*> by_number;
   bool whole = true;

@@ -746,15 +746,21 @@ TEST(Help, IsThereForManAndBash)
   for (const char* const command : {"lab", "rve", "multiscale", "specimen", "contact", "report", "parameters", "help"})
     EXPECT_NE(page.find(fmt::format("\n.SS {}\n", command)), std::string::npos) << command;
   std::string names = run_feldspar(folder.path(), "parameters").output;
+  const std::size_t further = names.find("\nFURTHER ENTRIES\n");
+  ASSERT_NE(further, std::string::npos);
   std::size_t n_entries = 0;
+  std::size_t n_basic = 0;
   for (std::size_t at = 0; (at = names.find("\n  ", at)) != std::string::npos; ++at)
     if (names[at + 3] != ' ')
       {
+        n_basic += at < further;
         std::string entry = names.substr(at + 3, names.find('\n', at + 3) - at - 3);
         EXPECT_NE(page.find("\\fB" + entry + "\\fR\n"), std::string::npos) << entry;
         ++n_entries;
       }
   EXPECT_GT(n_entries, 100u);
+  EXPECT_GT(n_basic, 50u);
+  EXPECT_LT(n_basic, 70u);
   for (std::size_t at = 0; (at = page.find("\n.", at)) != std::string::npos; ++at)
     EXPECT_TRUE(std::isupper(page[at + 2])) << page.substr(at, 80); // TH, SH, SS, TP, PP, EX, EE
 

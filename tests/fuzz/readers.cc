@@ -16,11 +16,10 @@
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
 #include "dem/genesis/packing_file.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
-#include "fem/mesh/gmsh_binary.h"
-#include "fem/mesh/gmsh_check.h"
+#include "fem/mesh/gmsh_mesh.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
@@ -383,15 +382,15 @@ const std::vector<FuzzedReader>& fuzzed_readers()
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
      }},
     {"mesh",
-     [](Content content, Folder) {
-       const std::string text = fem::is_binary_gmsh(content) ? fem::text_of_binary_gmsh(content) : std::string(content);
+     [](Content content, Folder folder) {
+       const fs::path file = write(folder / "mesh.msh", content);
        try
          {
-           fem::check_gmsh(text, 2);
+           fem::read_gmsh_mesh(file, 2);
          }
        catch (const InputError&)
          {
-           fem::check_gmsh(text, 3);
+           fem::read_gmsh_mesh(file, 3);
          }
      }},
     {"traces",

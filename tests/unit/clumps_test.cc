@@ -4,9 +4,9 @@
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/flaws/clumps.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen_file.h"
@@ -233,7 +233,7 @@ TEST(Clumps, MeanStressIsThatOfThePlatens)
 {
   const Specimen<2> specimen = clumped({0.005});
   SetUpTest<2> test{Dynamics<2>(specimen, {0.7, 0.8}, ZeroForce::as_placed), {}};
-  const Platens platens = add_platens(test, 0.0);
+  const WallPair platens = add_platens(test, 0.0);
   Dynamics<2>& dynamics = test.dynamics;
   start_steadily(dynamics, -0.05);
   close(dynamics, platens, 0.05 * 0.040);

@@ -4,8 +4,8 @@
 
 #include "base/random.h"
 #include "dem/lab/compression.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"

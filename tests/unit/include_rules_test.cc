@@ -47,7 +47,7 @@ const std::vector<Room> rooms = {
   {"dem/lab", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/dynamics", "results"}},
   {"dem/lab/protocols",
    {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/dynamics", "results", "dem/lab"}},
-  {"fem/mesh", {"base"}},
+  {"fem/mesh", {"base", "base/system"}},
   {"fem/materials", {"base"}},
   {"fem/solid", {"base", "fem/mesh", "fem/materials"}},
   {"fem", {"base", "fem/mesh", "fem/materials", "fem/solid"}},

@@ -423,8 +423,8 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_FALSE(input.sample.scaled_softening);
   EXPECT_EQ(input.sample.n_realisations, 5u);
   EXPECT_FALSE(input.sample.random_orientation);
-  EXPECT_TRUE(input.sample.dealt_to_elements);
-  EXPECT_TRUE(input.sample.dealt_in_turn);
+  EXPECT_TRUE(input.sample.assigned_to_elements);
+  EXPECT_TRUE(input.sample.without_replacement);
   EXPECT_EQ(input.sample.weak_seed, WeakSeed::element);
   EXPECT_EQ(input.sample.weak_seed_strength, 0.8);
   EXPECT_EQ(input.sample.compression_step, 3e-5);

@@ -1,7 +1,7 @@
 #include "dem/lab/compression.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stop_rule.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

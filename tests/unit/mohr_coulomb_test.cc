@@ -1,5 +1,6 @@
 #include "fem/materials/linear_elasticity.h"
 #include "fem/materials/mohr_coulomb.h"
+#include "tests/stress_tensor.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -16,23 +17,10 @@ const MohrCoulombParameters rock{50e9, 0.2, 20e6, 0.7, 0.3};
 const double k = (1.0 + std::sin(0.7)) / (1.0 - std::sin(0.7));
 const double q_u = 2.0 * 20e6 * std::sqrt(k);
 
-StrainVector<3> strain_vector(const Eigen::Matrix3d& tensor)
-{
-  return (StrainVector<3>() << tensor.diagonal(), 2.0 * tensor(1, 2), 2.0 * tensor(0, 2), 2.0 * tensor(0, 1))
-    .finished();
-}
-
-Eigen::Matrix3d stress_tensor(const StressVector<3>& s)
-{
-  Eigen::Matrix3d tensor;
-  tensor << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
-  return tensor;
-}
-
 /// σ_1 ≥ σ_2 ≥ σ_3.
 Eigen::Vector3d principal(const StressVector<3>& stress)
 {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress_tensor(stress)).eigenvalues().reverse();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tests::stress_tensor<3>(stress)).eigenvalues().reverse();
 }
 
 Eigen::Matrix3d some_rotation(const double a, const double b, const double c)
@@ -65,7 +53,7 @@ TEST(MohrCoulomb, ReturnsToThePartOfTheYieldSurfaceThatEachTrialBelongsTo)
       SCOPED_TRACE(region.name);
       const Eigen::Matrix3d axes = some_rotation(0.3, -1.1, 2.0);
       const auto response =
-        update(rock, {}, strain_vector(axes * region.strain.asDiagonal() * axes.transpose())).response;
+        update(rock, {}, strain_voigt<3>(axes * region.strain.asDiagonal() * axes.transpose())).response;
       const Eigen::Vector3d s = principal(response.stress);
       const double excess = k * s[0] - s[2] - q_u;
       const std::string name = region.name;
@@ -90,7 +78,7 @@ TEST(MohrCoulomb, HasTheTangentOfItsResponse)
     {
       SCOPED_TRACE(region.name);
       const Eigen::Matrix3d axes = some_rotation(0.3, -1.1, 2.0);
-      const StrainVector<3> strain = strain_vector(axes * region.strain.asDiagonal() * axes.transpose());
+      const StrainVector<3> strain = strain_voigt<3>(axes * region.strain.asDiagonal() * axes.transpose());
       const auto response = update(rock, {}, strain).response;
       for (int c = 0; c < 6; ++c)
         {
@@ -113,10 +101,10 @@ TEST(MohrCoulomb, RespondsInTheRotatedFrameWithTheRotatedStress)
       const Eigen::Matrix3d axes = some_rotation(0.9, 0.2, -0.4);
       const Eigen::Matrix3d there = some_rotation(-2.0, 0.5, 1.3);
       const Eigen::Matrix3d strain = axes * region.strain.asDiagonal() * axes.transpose();
-      const auto here = update(rock, {}, strain_vector(strain)).response.stress;
-      const auto turned = update(rock, {}, strain_vector(there * strain * there.transpose())).response.stress;
-      const Eigen::Matrix3d expected = there * stress_tensor(here) * there.transpose();
-      EXPECT_LT((stress_tensor(turned) - expected).norm(), 1e-9 * q_u) << region.name;
+      const auto here = update(rock, {}, strain_voigt<3>(strain)).response.stress;
+      const auto turned = update(rock, {}, strain_voigt<3>(there * strain * there.transpose())).response.stress;
+      const Eigen::Matrix3d expected = there * tests::stress_tensor<3>(here) * there.transpose();
+      EXPECT_LT((tests::stress_tensor<3>(turned) - expected).norm(), 1e-9 * q_u) << region.name;
     }
 }
 

@@ -1,4 +1,5 @@
 #include "coupling/network/rigid_motions.h"
+#include "tests/stress_tensor.h"
 #include "tests/unit/small_rve.h"
 
 #include "base/input_error.h"
@@ -30,7 +31,7 @@ Stiffness<dim> turned(const Stiffness<dim>& stiffness, const Tensor<dim>& R)
     {
       const Tensor<dim> unit = strain_tensor<dim>(Voigt<dim>::Unit(k));
       const Tensor<dim> stress =
-        stress_tensor<dim>(stiffness * strain_voigt<dim>(Tensor<dim>(R.transpose() * unit * R)));
+        tests::stress_tensor<dim>(stiffness * strain_voigt<dim>(Tensor<dim>(R.transpose() * unit * R)));
       result.col(k) = stress_voigt<dim>(Tensor<dim>(R * stress * R.transpose()));
     }
   return result;

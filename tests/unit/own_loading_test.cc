@@ -1,9 +1,9 @@
 // A specimen that follows a table of stages.
 
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

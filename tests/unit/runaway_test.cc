@@ -3,8 +3,8 @@
 #include "dem/flaws/mineral_grains.h"
 #include "dem/lab/compression.h"
 #include "dem/lab/grips.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

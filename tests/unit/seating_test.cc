@@ -1,9 +1,9 @@
 // Walls that hold a specimen before its test counts.
 
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 #include "results/runs/run.h"
 #include "results/runs/trust.h"

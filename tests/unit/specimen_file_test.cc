@@ -1,6 +1,6 @@
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_file.h"
 #include "tests/unit/small_specimen.h"
 

@@ -3,9 +3,9 @@
 
 #include "dem/genesis/genesis.h"
 #include "dem/lab/grips.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_part.h"
 #include "fem/materials/linear_elasticity.h"
 #include "fem/solid/solid.h"

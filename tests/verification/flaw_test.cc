@@ -4,9 +4,9 @@
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
 #include "dem/lab/compression.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "fem/solid/advance.h"
 #include "fem/solid/platens.h"
 #include "fem/solid/solid.h"
+#include "tests/stress_tensor.h"
 #include "tests/unit/small_rve.h"
 
 #include <Eigen/Geometry>
@@ -90,8 +91,8 @@ TYPED_TEST(GrainMaterials, ATurnedRveRespondsInTheAxesOfTheSample)
   const auto response = point.trial(strain);
   const Tensor<dim> in_rve = turn.transpose() * strain_tensor<dim>(strain) * turn;
   const Voigt<dim> of_rve = network->intact_stiffness() * strain_voigt<dim>(in_rve);
-  const Tensor<dim> expected = turn * stress_tensor<dim>(of_rve) * turn.transpose();
-  EXPECT_LT((stress_tensor<dim>(response.stress) - expected).norm(), 1e-13 * expected.norm());
+  const Tensor<dim> expected = turn * tests::stress_tensor<dim>(of_rve) * turn.transpose();
+  EXPECT_LT((tests::stress_tensor<dim>(response.stress) - expected).norm(), 1e-13 * expected.norm());
   EXPECT_LT((response.tangent * strain - response.stress).norm(), 1e-13 * response.stress.norm()); // linear so far
 }
 
@@ -312,7 +313,7 @@ TEST(GrainMaterial, RvesAreDealtByTheSeed)
   std::vector<Realisation<2>> realisations;
   for (const std::uint64_t seed : {1, 2, 3})
     realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
-  const auto dealt = [&](const std::uint64_t seed, const unsigned int q) {
+  const auto assigned = [&](const std::uint64_t seed, const unsigned int q) {
     GrainMaterialParameters parameters;
     parameters.seed = seed;
     const auto point = grain_material<2>(realisations, parameters).make_point({"0_0:", 0, q, {0.0, 0.0}, 0.01});
@@ -323,25 +324,25 @@ TEST(GrainMaterial, RvesAreDealtByTheSeed)
   std::set<double> cosines;
   for (unsigned int q = 0; q < 30; ++q)
     {
-      EXPECT_EQ(dealt(1, q), dealt(1, q));
-      used.insert(dealt(1, q).first);
-      cosines.insert(dealt(1, q).second);
+      EXPECT_EQ(assigned(1, q), assigned(1, q));
+      used.insert(assigned(1, q).first);
+      cosines.insert(assigned(1, q).second);
     }
   EXPECT_EQ(used.size(), 3u); // missing one of three in 30 draws has odds of 2e-5
   EXPECT_EQ(cosines.size(), 30u);
-  EXPECT_NE(dealt(1, 0), dealt(2, 0));
+  EXPECT_NE(assigned(1, 0), assigned(2, 0));
 }
 
 // Two cells of four points. To elements: the points of one have the same network and orientation, those of the other
-// another orientation. In turn: with as many realisations as points (or elements) each is dealt once.
+// another orientation. Without replacement: with as many realisations as points (or elements) each is used once.
 TEST(GrainMaterial, RvesAreDealtToElementsAndInTurn)
 {
   std::vector<Realisation<2>> realisations;
   for (std::uint64_t seed = 1; seed <= 8; ++seed)
     realisations.push_back(std::make_shared<const Network<2>>(periodic_specimen(seed)));
-  using Dealt = std::pair<const Network<2>*, double>;
-  const auto dealt = [&](const GrainMaterialParameters& parameters, const std::size_t n, const std::uint64_t cell,
-                         const unsigned int q) -> Dealt {
+  using Assigned = std::pair<const Network<2>*, double>;
+  const auto assigned = [&](const GrainMaterialParameters& parameters, const std::size_t n, const std::uint64_t cell,
+                            const unsigned int q) -> Assigned {
     const auto material =
       grain_material<2>({realisations.begin(), realisations.begin() + std::ptrdiff_t(n)}, parameters);
     const auto point = material.make_point({cell == 0 ? "0_0:" : "1_0:", cell, q, {0.0, 0.0}, 0.01});
@@ -353,22 +354,22 @@ TEST(GrainMaterial, RvesAreDealtToElementsAndInTurn)
   to_elements.to_elements = true;
   for (unsigned int q = 1; q < 4; ++q)
     {
-      EXPECT_EQ(dealt(to_elements, 8, 0, q), dealt(to_elements, 8, 0, 0));
-      EXPECT_EQ(dealt(to_elements, 8, 1, q), dealt(to_elements, 8, 1, 0));
+      EXPECT_EQ(assigned(to_elements, 8, 0, q), assigned(to_elements, 8, 0, 0));
+      EXPECT_EQ(assigned(to_elements, 8, 1, q), assigned(to_elements, 8, 1, 0));
     }
-  EXPECT_NE(dealt(to_elements, 8, 0, 0).second, dealt(to_elements, 8, 1, 0).second);
+  EXPECT_NE(assigned(to_elements, 8, 0, 0).second, assigned(to_elements, 8, 1, 0).second);
 
-  GrainMaterialParameters in_turn;
-  in_turn.in_turn = true;
-  in_turn.n_points_of_cell = 4;
+  GrainMaterialParameters without_replacement;
+  without_replacement.without_replacement = true;
+  without_replacement.n_points_of_cell = 4;
   std::set<const Network<2>*> of_points;
   for (const std::uint64_t cell : {0, 1})
     for (unsigned int q = 0; q < 4; ++q)
-      of_points.insert(dealt(in_turn, 8, cell, q).first);
+      of_points.insert(assigned(without_replacement, 8, cell, q).first);
   EXPECT_EQ(of_points.size(), 8u);
-  in_turn.to_elements = true;
-  EXPECT_NE(dealt(in_turn, 2, 0, 0).first, dealt(in_turn, 2, 1, 0).first);
-  EXPECT_EQ(dealt(in_turn, 2, 0, 3), dealt(in_turn, 2, 0, 0));
+  without_replacement.to_elements = true;
+  EXPECT_NE(assigned(without_replacement, 2, 0, 0).first, assigned(without_replacement, 2, 1, 0).first);
+  EXPECT_EQ(assigned(without_replacement, 2, 0, 3), assigned(without_replacement, 2, 0, 0));
 }
 
 // Elements on a free side have edges, open along its normal and never turned; others have periodic cells as before.

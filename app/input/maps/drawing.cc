@@ -2,6 +2,7 @@
 #include "app/input/maps/traces.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,15 +29,6 @@ const std::set<std::string, std::less<>> harmless{
   "ACAD_TABLE", "ARC_DIMENSION", "ATTDEF", "ATTRIB",      "DGNUNDERLAY", "DIMENSION", "DWFUNDERLAY",
   "IMAGE",      "LEADER",        "MTEXT",  "MULTILEADER", "OLE2FRAME",   "OLEFRAME",  "PDFUNDERLAY",
   "POINT",      "RTEXT",         "SEQEND", "TEXT",        "TOLERANCE",   "VIEWPORT",  "WIPEOUT"};
-
-/// Names of layers are the same in capital and small letters.
-std::string in_capitals(std::string_view name)
-{
-  std::string capitals(name);
-  std::ranges::transform(capitals, capitals.begin(),
-                         [](const char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-  return capitals;
-}
 
 /// A point of a line with the height over the drawing and the bulge of the arc to the next point.
 struct Corner
@@ -214,16 +206,16 @@ private:
         fmt::format("{}:{}: the layers stand behind the entities; save the drawing anew by a CAD program",
                     file.string(), layer.line));
     if ((layer.integer(70, 0) & is_frozen) != 0 || layer.integer(62, 1) < 0)
-      hidden_layers.insert(in_capitals(layer.text(2, "")));
+      hidden_layers.insert(in_small_letters(layer.text(2, "")));
   }
 
   /// Whether it is to be seen in model space; counts it where it is not.
   bool is_shown(const DxfRecord& entity)
   {
-    std::size_t* const reason = entity.integer(67, 0) != 0                                 ? &n_on_paper
-                                : hidden_layers.contains(in_capitals(entity.text(8, "0"))) ? &n_on_hidden_layers
-                                : entity.integer(60, 0) != 0                               ? &n_invisible
-                                                                                           : nullptr;
+    std::size_t* const reason = entity.integer(67, 0) != 0                                      ? &n_on_paper
+                                : hidden_layers.contains(in_small_letters(entity.text(8, "0"))) ? &n_on_hidden_layers
+                                : entity.integer(60, 0) != 0                                    ? &n_invisible
+                                                                                                : nullptr;
     if (reason)
       ++*reason;
     return !reason;
@@ -281,7 +273,7 @@ private:
   }
 
   std::filesystem::path file;
-  std::set<std::string> hidden_layers;
+  std::set<std::string> hidden_layers; ///< names are the same in capital and small letters
   bool has_entities = false;
   bool is_in_polyline = false;      ///< vertices follow
   std::optional<Polyline> polyline; ///< to which they belong; none of one that is not shown

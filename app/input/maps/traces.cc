@@ -2,10 +2,10 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
 namespace feldspar
@@ -35,8 +35,6 @@ void check_number_of_traces(const std::size_t n, const std::filesystem::path& fi
 
 Traces read_traces(const std::filesystem::path& file)
 {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](const char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return ending == ".dxf" ? read_drawing(file) : read_table(file);
+  return in_small_letters(file.extension().string()) == ".dxf" ? read_drawing(file) : read_table(file);
 }
 } // namespace feldspar

@@ -1,10 +1,10 @@
 #include "dem/lab/protocols/brazilian.h"
 
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/test_in_progress.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
@@ -141,7 +141,7 @@ std::vector<Entry<TestParameters>> brazilian_entries()
   using namespace tests_flags;
   return within_tests<P>(
     {entry::quantity("Brazilian strain rate", &P::strain_rate, Measure::rate, "1/s", ranges::above_zero,
-                     "of the loaded diameter; magnitude", of_grains),
+                     "of the loaded diameter; magnitude", as_basic(of_grains)),
      entry::number("Brazilian sampling strain", &P::sampling_strain, range_of_sampling_strain,
                    "strain of the diameter between two rows of the curve", of_grains),
      entry::number(

@@ -1,10 +1,9 @@
 #include "dem/lab/protocols/direct_shear.h"
-
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +14,8 @@ namespace feldspar
 namespace
 {
 /// The two ends of one half of the box.
-struct HalfBox
-{
-  std::size_t low;
-  std::size_t high;
-};
-
 template <int dim>
-HalfBox add_half_box(SetUpTest<dim>& test, const double from, const double to)
+WallPair add_half_box(SetUpTest<dim>& test, const double from, const double to)
 {
   Wall low{.axis = 0, .side = 1.0, .position = 0.0};
   Wall high{.axis = 0, .side = -1.0, .position = test.dynamics.specimen().size[0]};
@@ -33,7 +26,7 @@ HalfBox add_half_box(SetUpTest<dim>& test, const double from, const double to)
 
 /// The force of a half on its grains along the first axis [N].
 template <int dim>
-double push(const Dynamics<dim>& dynamics, const HalfBox& half)
+double push(const Dynamics<dim>& dynamics, const WallPair& half)
 {
   return dynamics.wall_force(half.low) - dynamics.wall_force(half.high);
 }
@@ -52,18 +45,18 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   constexpr double endless = std::numeric_limits<double>::infinity();
 
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const Platens platens = add_platens(test, 0.0);
-  const HalfBox lower = add_half_box(test, -endless, 0.5 * height - half_gap);
-  const HalfBox upper = add_half_box(test, 0.5 * height + half_gap, endless);
+  const WallPair platens = add_platens(test, 0.0);
+  const WallPair lower = add_half_box(test, -endless, 0.5 * height - half_gap);
+  const WallPair upper = add_half_box(test, 0.5 * height + half_gap, endless);
 
   const double largest_servo_speed = 10.0 * speed;
   const auto hold = [=](Dynamics<dim>& state, const double pressure) {
-    hold_pressure(state, platens.upper, area, pressure, largest_servo_speed);
+    hold_pressure(state, platens.high, area, pressure, largest_servo_speed);
   };
   test.loading.seat = [=](Dynamics<dim>& state, const std::function<void()>& check) {
     const auto largest_deviation = [&] {
       double largest = 0.0;
-      for (const std::size_t platen : {platens.lower, platens.upper})
+      for (const std::size_t platen : {platens.low, platens.high})
         largest = std::max(largest, std::abs(state.wall_force(platen) / area / normal_stress - 1.0));
       return largest;
     };
@@ -79,9 +72,7 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   if (const auto stiffness = own.normal_stiffness)
     {
       test.loading.normal_stiffness = stiffness;
-      test.loading.opening = [=](const Dynamics<dim>& state) {
-        return state.walls()[platens.upper].position - state.walls()[platens.lower].position - height;
-      };
+      test.loading.opening = [=](const Dynamics<dim>& state) { return distance(state, platens) - height; };
       test.loading.drive_against_opening = [=](Dynamics<dim>& state, const double opening) {
         hold(state, std::max(0.0, normal_stress + *stiffness * opening)); // platens do not pull
       };
@@ -94,7 +85,7 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{push(state, lower) / area, -push(state, upper) / area};
   };
-  test.loading.servo_stress = [=](const Dynamics<dim>& state) { return -state.wall_force(platens.upper) / area; };
+  test.loading.servo_stress = [=](const Dynamics<dim>& state) { return -state.wall_force(platens.high) / area; };
   return test;
 }
 std::vector<Entry<TestParameters>> shear_entries()

@@ -1,11 +1,11 @@
 #include "base/input_error.h"
 #include "dem/lab/compression.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/loading_stages.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,10 +28,9 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   for (const LoadingStage& stage : stages)
     fastest = std::max(fastest, stage.lateral_strain ? own.strain_rate : stage.strain_rate.value_or(own.strain_rate));
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test, wanted.platen_friction);
-  const WallPair ends{platens.lower, platens.upper};
+  const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
-  const double about = middle(test.dynamics, platens);
+  const double about = middle(test.dynamics, ends);
   const double largest_servo_speed = 20.0 * 0.5 * fastest * height;
   Surroundings<dim> around;
   if (pressure_at_start > 0.0)
@@ -59,14 +58,14 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       {
         const auto largest_deviation = [&] {
           double largest = 0.0;
-          const auto look = [&](const std::size_t wall, const double area) {
+          const auto compare = [&](const std::size_t wall, const double area) {
             largest = std::max(largest, std::abs(state.wall_force(wall) / area / pressure_at_start - 1.0));
           };
           for (const Press<dim>& side : around.sides)
             for (const std::size_t wall : side.walls)
-              look(wall, side.area(state));
+              compare(wall, side.area(state));
           for (const std::size_t wall : {ends.low, ends.high})
-            look(wall, around.end_area(state));
+            compare(wall, around.end_area(state));
           return largest;
         };
         const auto hold_all = [&](const double share) {
@@ -91,19 +90,17 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
       hold_ends(state, *demand.held_stress);
     else if (demand.missing_widening)
       {
-        const EndStress stress = stress_of(state, platens, around.end_area(state));
+        const EndStress stress = stress_of(state, ends, around.end_area(state));
         const bool may_open = -0.5 * (stress.lower + stress.upper) > demand.confining_pressure;
         const double rate = closing_per_widening * *demand.missing_widening;
-        close(state, platens, (may_open ? rate : std::max(0.0, rate)) * height);
+        close(state, ends, (may_open ? rate : std::max(0.0, rate)) * height);
       }
     else
-      close(state, platens, demand.closing_rate * height);
+      close(state, ends, demand.closing_rate * height);
   };
   test.loading.shortening = [=](const Dynamics<dim>& state) { return 1.0 - distance(state, ends) / height; };
   test.loading.sampling_strain = own.sampling_strain;
-  test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    return stress_of(state, platens, around.end_area(state));
-  };
+  test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, ends, around.end_area(state)); };
   if (!around.sides.empty())
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
       return stress_of(state, side);

@@ -1,10 +1,10 @@
 #include "dem/lab/compression.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
-#include "dem/lab/test_in_progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +36,9 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
 {
   const auto own = wanted.of<CompressionParameters>();
   SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
-  const auto platens = add_platens(test, wanted.platen_friction);
-  const WallPair ends{platens.lower, platens.upper};
+  const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
-  const double about = middle(test.dynamics, platens);
+  const double about = middle(test.dynamics, ends);
   const double closing_speed = own.strain_rate * height;
   const double largest_servo_speed = 20.0 * 0.5 * closing_speed;
   const auto around = surround(test, ends, confining_pressure, wanted);
@@ -71,13 +70,13 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     };
     const auto largest_deviation = [&] {
       double largest = 0.0;
-      const auto look = [&](const Press<dim>& press) {
+      const auto compare = [&](const Press<dim>& press) {
         for (const std::size_t wall : press.walls)
           largest = std::max(largest, std::abs(state.wall_force(wall) / press.area(state) / press.pressure - 1.0));
       };
       for (const auto& side : around.sides)
-        look(side);
-      look(end_press);
+        compare(side);
+      compare(end_press);
       return largest;
     };
     raise_pressures<dim>(state,
@@ -87,7 +86,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
     if (membrane)
       press_membrane(state, ends, confining_pressure);
     start_steadily(state, -own.strain_rate, about);
-    close(state, platens, closing_speed);
+    close(state, ends, closing_speed);
   };
   test.loading.drive = [=](Dynamics<dim>& state) {
     for (const auto& side : around.sides)
@@ -99,9 +98,7 @@ SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const 
   test.loading.intermediate_stress = around.intermediate_stress;
   test.loading.strain_rate = -own.strain_rate;
   test.loading.sampling_strain = own.sampling_strain;
-  test.loading.end_stress = [=](const Dynamics<dim>& state) {
-    return stress_of(state, platens, around.end_area(state));
-  };
+  test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, ends, around.end_area(state)); };
   if (!membrane)
     test.loading.servo_stress = [side = around.sides.front()](const Dynamics<dim>& state) {
       return stress_of(state, side);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "app/input/input.h"
+#include "app/screen/expected_length.h"
 #include "app/screen/progress.h"
 #include "app/screen/stage_length.h"
-#include "app/screen/test_length.h"
 #include "results/curve.h"
 #include "results/kinds.h"
 #include "results/peak.h"
@@ -26,10 +26,10 @@ struct BoardTest
 };
 
 /// Tells the progress how all tests of a run stand. Several threads may call it at the same time.
-class TestBoard
+class ProgressBoard
 {
 public:
-  TestBoard(Progress& shown, const std::vector<BoardTest>& planned);
+  ProgressBoard(Progress& shown, const std::vector<BoardTest>& planned);
 
   /// The k-th test has got to this row of its curve. `more`: what else is to be said of it.
   void update(std::size_t k, const CurveSample& row, const std::string& more);

@@ -1,4 +1,4 @@
-#include "app/screen/test_board.h"
+#include "app/screen/progress_board.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-TestBoard::TestBoard(Progress& shown, const std::vector<BoardTest>& planned)
+ProgressBoard::ProgressBoard(Progress& shown, const std::vector<BoardTest>& planned)
   : progress(shown)
 {
   for (const BoardTest& test : planned)
@@ -18,7 +18,7 @@ TestBoard::TestBoard(Progress& shown, const std::vector<BoardTest>& planned)
   progress.start("tests");
 }
 
-void TestBoard::update(const std::size_t k, const CurveSample& row, const std::string& more)
+void ProgressBoard::update(const std::size_t k, const CurveSample& row, const std::string& more)
 {
   const std::lock_guard lock(showing);
   Entry& entry = entries[k];
@@ -31,7 +31,7 @@ void TestBoard::update(const std::size_t k, const CurveSample& row, const std::s
   draw();
 }
 
-void TestBoard::update(const std::size_t k, const std::string& more)
+void ProgressBoard::update(const std::size_t k, const std::string& more)
 {
   const std::lock_guard lock(showing);
   entries[k].more = more;
@@ -39,13 +39,13 @@ void TestBoard::update(const std::size_t k, const std::string& more)
   draw();
 }
 
-void TestBoard::say(const std::string& sentence)
+void ProgressBoard::say(const std::string& sentence)
 {
   const std::lock_guard lock(showing);
   progress.note(sentence);
 }
 
-void TestBoard::finish(const std::size_t k)
+void ProgressBoard::finish(const std::size_t k)
 {
   const std::lock_guard lock(showing);
   entries[k].running = false;
@@ -55,7 +55,7 @@ void TestBoard::finish(const std::size_t k)
 
 /// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess; 0 where
 /// there is none.
-double TestBoard::strain_at_peak(const Entry& entry) const
+double ProgressBoard::strain_at_peak(const Entry& entry) const
 {
   if (entry.peak.strain() > 0.0 && (entry.peak.has_fallen() || entry.finished))
     return entry.peak.strain();
@@ -70,14 +70,14 @@ double TestBoard::strain_at_peak(const Entry& entry) const
   return guess ? std::max(*guess, beyond * test.kind.strain(entry.row)) : 0.0;
 }
 
-double TestBoard::last_strain(const Entry& entry) const
+double ProgressBoard::last_strain(const Entry& entry) const
 {
   if (entry.stages)
     return entry.stages->gone() + entry.stages->left();
   return expected_last_strain(strain_at_peak(entry), entry.planned.input->tests);
 }
 
-double TestBoard::fraction(const Entry& entry) const
+double ProgressBoard::fraction(const Entry& entry) const
 {
   if (entry.finished)
     return 1.0;
@@ -86,7 +86,7 @@ double TestBoard::fraction(const Entry& entry) const
   return last > 0.0 ? std::min(entry.planned.cost.share(gone, last), 0.99) : 0.0;
 }
 
-void TestBoard::draw()
+void ProgressBoard::draw()
 {
   double cost = 0.0;
   double spent = 0.0;

@@ -1,4 +1,4 @@
-#include "dem/lab/test_in_progress.h"
+#include "dem/lab/laboratory_run.h"
 
 #include "base/hdf5_archive.h"
 #include "dem/lab/seating.h"

@@ -1,8 +1,8 @@
-#include "app/programme/test_effort.h"
+#include "app/programme/laboratory_effort.h"
 
 #include "app/programme/genesis_effort.h"
+#include "app/screen/expected_length.h"
 #include "app/screen/stage_length.h"
-#include "app/screen/test_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
 #include "base/text.h"

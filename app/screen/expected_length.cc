@@ -1,4 +1,4 @@
-#include "app/screen/test_length.h"
+#include "app/screen/expected_length.h"
 
 #include "app/input/joint_sections.h"
 #include "dem/lab/protocols/protocols.h"

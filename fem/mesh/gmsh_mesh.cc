@@ -1,0 +1,283 @@
+#include "fem/mesh/gmsh_mesh.h"
+
+#include "base/byte_archive.h"
+#include "base/input_error.h"
+#include "base/quoted.h"
+#include "base/readable_file.h"
+#include "base/system/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace feldspar::fem
+{
+template <typename Archive>
+void transfer(Archive& archive, GmshMesh& mesh)
+{
+  archive.array("nodes", mesh.nodes);
+  archive.array("cells", mesh.cells);
+  archive.array("sides", mesh.sides);
+  std::vector<std::pair<std::string, std::uint32_t>> groups(mesh.groups.begin(), mesh.groups.end());
+  std::uint64_t n_groups = groups.size();
+  archive.value("number of groups", n_groups);
+  groups.resize(n_groups);
+  for (auto& [name, number] : groups)
+    {
+      archive.text("name", name);
+      archive.value("group", number);
+    }
+  mesh.groups = {groups.begin(), groups.end()};
+}
+
+namespace
+{
+// Elements by Gmsh's numbers.
+constexpr int point = 15;
+constexpr int line = 1;
+constexpr int triangle = 2;
+constexpr int quadrilateral = 3;
+constexpr int tetrahedron = 4;
+constexpr int hexahedron = 5;
+
+/// Has the library read a file, whose name it does not see: an ending or a file of options beside it would count.
+void open_with_gmsh(const std::filesystem::path& file)
+{
+  const int opened = open(file.c_str(), O_RDONLY | O_NONBLOCK);
+  constexpr std::string_view wanted = "$MeshFormat";
+  std::string first(wanted.size(), ' ');
+  if (opened < 0 || pread(opened, first.data(), first.size(), 0) != ssize_t(first.size()) || first != wanted)
+    throw InputError("is not a mesh of Gmsh, which begins with $MeshFormat");
+  const std::string name = fmt::format("/proc/self/fd/{}", opened);
+  std::string problem;
+  try
+    {
+      gmsh::initialize(0, nullptr, false);
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::merge(name);
+      return;
+    }
+  catch (const std::string& error) // Gmsh 4.8
+    {
+      problem = error;
+    }
+  catch (const std::exception& error)
+    {
+      problem = error.what();
+    }
+  if (problem.find(name) == std::string::npos)
+    throw InputError(fmt::format("is damaged; Gmsh says: {}", excerpt(problem)));
+  throw InputError("is damaged, or its format is none that Gmsh reads");
+}
+
+template <typename Nodes>
+Nodes sorted(Nodes nodes)
+{
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+/// What the library has read, taken over and checked.
+class FromGmsh
+{
+public:
+  explicit FromGmsh(const int its_dimension)
+    : dimension(its_dimension)
+  {
+  }
+
+  GmshMesh mesh()
+  {
+    take_nodes();
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities);
+    for (const auto& [entity_dimension, entity] : entities)
+      take_elements(entity_dimension, entity);
+    if (cells.empty())
+      throw InputError(fmt::format("has no {}", wanted));
+    if (has_simplices)
+      throw InputError(fmt::format("has cells that are not {}; in Gmsh recombine the mesh", wanted));
+    for (auto* const elements : {&cells, &sides})
+      std::sort(elements->begin(), elements->end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    for (const Element& cell : cells)
+      std::copy(cell.nodes.begin(), cell.nodes.end(), result.cells.emplace_back().nodes.begin());
+    for (const Element& side : sides)
+      {
+        std::copy(side.nodes.begin(), side.nodes.end(), result.sides.emplace_back().nodes.begin());
+        result.sides.back().group = std::uint32_t(side.group);
+      }
+    check_sides();
+    name_groups();
+    return std::move(result);
+  }
+
+private:
+  struct Element
+  {
+    std::size_t number;
+    std::vector<std::uint32_t> nodes;
+    int group;
+  };
+
+  std::size_t number_of(const std::uint32_t node) const { return numbers[node]; }
+
+  void take_nodes()
+  {
+    std::vector<double> coordinates, parameters;
+    std::vector<std::size_t> in_file;
+    gmsh::model::mesh::getNodes(in_file, coordinates, parameters);
+    std::vector<std::size_t> order(in_file.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+      order[k] = k;
+    std::sort(order.begin(), order.end(),
+              [&](const std::size_t a, const std::size_t b) { return in_file[a] < in_file[b]; });
+    for (const std::size_t k : order)
+      {
+        const std::array<double, 3> place{coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]};
+        constexpr double largest = 1e9; // [m]
+        for (const double coordinate : place)
+          if (!(std::abs(coordinate) <= largest))
+            throw InputError(
+              fmt::format("node {}: a coordinate in metres is expected instead of {:g}", in_file[k], coordinate));
+        places.emplace(in_file[k], std::uint32_t(result.nodes.size()));
+        numbers.push_back(in_file[k]);
+        result.nodes.push_back(place);
+      }
+  }
+
+  void take_elements(const int entity_dimension, const int entity)
+  {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, entity_dimension, entity);
+    for (std::size_t t = 0; t < types.size(); ++t)
+      {
+        const int type = types[t];
+        const int least_dimension = type == point                               ? 0
+                                    : type == line                              ? 1
+                                    : type == triangle || type == quadrilateral ? 2
+                                    : type == tetrahedron || type == hexahedron ? 3
+                                                                                : std::numeric_limits<int>::max();
+        if (least_dimension > dimension)
+          throw InputError(fmt::format("elements of Gmsh's type {}; {} can be read", type,
+                                       dimension == 2 ? "points, lines and quadrilaterals"
+                                                      : "points, lines, quadrilaterals and hexahedra"));
+        if (least_dimension < dimension - 1)
+          continue;
+        const bool is_cell = least_dimension == dimension;
+        has_simplices |= is_cell && (type == triangle || type == tetrahedron);
+        const int group = is_cell ? 0 : group_of(entity_dimension, entity);
+        const std::size_t n_nodes = nodes[t].size() / elements[t].size();
+        for (std::size_t k = 0; k < elements[t].size(); ++k)
+          {
+            Element element{elements[t][k], {}, group};
+            for (std::size_t n = 0; n < n_nodes; ++n)
+              element.nodes.push_back(places.at(nodes[t][k * n_nodes + n]));
+            const auto in_order = sorted(element.nodes);
+            if (std::adjacent_find(in_order.begin(), in_order.end()) != in_order.end())
+              throw InputError(fmt::format("element {} has one node twice", element.number));
+            (is_cell ? cells : sides).push_back(std::move(element));
+          }
+      }
+  }
+
+  /// The library counts an entity with all its elements to a group, in files of format 2 too, which group each element.
+  static int group_of(const int entity_dimension, const int entity)
+  {
+    std::vector<int> groups;
+    gmsh::model::getPhysicalGroupsForEntity(entity_dimension, entity, groups);
+    if (groups.size() > 1)
+      throw InputError(fmt::format("{} {} is in the physical groups {} and {}; a part of the boundary has one",
+                                   entity_dimension == 1 ? "curve" : "surface", entity, groups[0], groups[1]));
+    return groups.empty() ? 0 : groups[0];
+  }
+
+  /// The nodes around a side, begun at the least and gone on towards the lesser neighbour: the same however it is listed.
+  static std::vector<std::uint32_t> as_cycle(std::vector<std::uint32_t> nodes)
+  {
+    std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+    if (nodes.size() > 2 && nodes.back() < nodes[1])
+      std::reverse(nodes.begin() + 1, nodes.end());
+    return nodes;
+  }
+
+  void check_sides() const
+  {
+    const std::vector<std::vector<std::size_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    const std::vector<std::vector<std::size_t>> faces = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    struct Found
+    {
+      std::vector<std::uint32_t> cycle;
+      int n_cells;
+    };
+    std::map<std::vector<std::uint32_t>, Found> by_nodes;
+    for (const Element& cell : cells)
+      for (const auto& corners : dimension == 2 ? edges : faces)
+        {
+          std::vector<std::uint32_t> side;
+          for (const std::size_t corner : corners)
+            side.push_back(cell.nodes[corner]);
+          const auto cycle = as_cycle(side);
+          Found& found = by_nodes.try_emplace(sorted(side), Found{cycle, 0}).first->second;
+          if (++found.n_cells > 2 || found.cycle != cycle)
+            throw InputError(fmt::format("more than two cells meet at the nodes {} and {}, or they do not fit together",
+                                         number_of(cycle[0]), number_of(cycle[1])));
+        }
+    for (const Element& side : sides)
+      {
+        const auto cycle = as_cycle(side.nodes);
+        if (const auto found = by_nodes.find(sorted(cycle)); found == by_nodes.end() || found->second.cycle != cycle)
+          throw InputError(fmt::format("the element on the nodes {} and {} is not the side of a cell",
+                                       number_of(cycle[0]), number_of(cycle[1])));
+      }
+  }
+
+  void name_groups()
+  {
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups, dimension - 1);
+    for (const auto& [group_dimension, group] : groups)
+      {
+        std::string name;
+        gmsh::model::getPhysicalName(group_dimension, group, name);
+        if (!name.empty())
+          result.groups[name] = std::uint32_t(group);
+      }
+  }
+
+  int dimension;
+  const char* wanted = dimension == 2 ? "quadrilaterals" : "hexahedra";
+  GmshMesh result;
+  std::vector<std::size_t> numbers;                      ///< of the nodes in the file
+  std::unordered_map<std::size_t, std::uint32_t> places; ///< of nodes, by their number in the file
+  std::vector<Element> cells, sides;
+  bool has_simplices = false;
+};
+} // namespace
+
+GmshMesh read_gmsh_mesh(const std::filesystem::path& file, const int dimension)
+{
+  if (const std::string objection = objection_to_reading(file); !objection.empty())
+    throw InputError(objection);
+  const std::uint64_t size = std::filesystem::file_size(file);
+  constexpr std::uint64_t megabyte = std::uint64_t(1) << 20;
+  const ProcessLimits limits{10 + size / megabyte, 512 * megabyte + 64 * size};
+  return from_bytes<GmshMesh>(made_by_child(
+    "Gmsh's library", limits,
+    [&] {
+      open_with_gmsh(file);
+      return to_bytes(FromGmsh(dimension).mesh());
+    },
+    [] {}));
+}
+} // namespace feldspar::fem
