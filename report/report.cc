@@ -3,7 +3,7 @@
 #include "base/append.h"
 #include "base/quoted.h"
 #include "base/whole_file.h"
-#include "report/pictures/lab_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/sections/sections.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/bodies.h"

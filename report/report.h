@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/pictures/gnuplot.h"
+#include "report/pictures/picture.h"
 #include "results/fits/strength_envelopes.h"
 #include "results/folder/calibration_record.h"
 #include "results/folder/reference.h"

@@ -167,9 +167,12 @@ public:
     data result = data::type::object;
     set_unless_empty(result, "source", source);
     set_unless_empty(result, "absent", problem);
-    const bool has_room = n_bytes + picture.live.size() <= most_picture_bytes;
-    set_unless_empty(result, "live", has_room ? picture.live : "");
-    n_bytes += has_room ? picture.live.size() : 0;
+    std::string live = picture.live();
+    const bool has_room = n_bytes + live.size() <= most_picture_bytes;
+    if (!has_room)
+      live.clear();
+    n_bytes += live.size();
+    set_unless_empty(result, "live", live);
     result.set("alternative", picture.alternative);
     result.set("caption", picture.caption);
     set_unless_empty(result, "live_caption", has_room ? picture.live_caption : "");

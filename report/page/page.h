@@ -1,7 +1,7 @@
 #pragma once
 
 #include "report/page/table.h"
-#include "report/pictures/gnuplot.h"
+#include "report/pictures/picture.h"
 
 #include <filesystem>
 #include <string>

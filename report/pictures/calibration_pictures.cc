@@ -1,16 +1,16 @@
 #include "report/pictures/calibration_pictures.h"
 
 #include "base/prefixes.h"
-
+#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace feldspar
 {
@@ -57,8 +57,8 @@ double step_of_marks(const std::vector<double>& values)
   return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
 }
 
-/// How many values fall into each of equal parts of the range.
-std::string histogram(const std::vector<double>& values)
+/// How many values fall into each of equal parts of the range, as columns of one area.
+ChartSeries histogram(const std::vector<double>& values)
 {
   constexpr std::size_t n_bins = 24;
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
@@ -66,10 +66,12 @@ std::string histogram(const std::vector<double>& values)
   std::vector<std::size_t> counts(n_bins, 0);
   for (const double value : values)
     ++counts[std::min(n_bins - 1, std::size_t((value - *least) / width))];
-  std::string rows;
+  ChartSeries columns{.kind = ChartSeries::Kind::area, .colour = blue, .opacity = 0.6, .points = {{*least, 0.0}}};
   for (std::size_t b = 0; b < n_bins; ++b)
-    fmt::format_to(std::back_inserter(rows), "{:.6g} {}\n", *least + (double(b) + 0.5) * width, counts[b]);
-  return rows;
+    for (const std::size_t side : {b, b + 1})
+      columns.points.push_back({*least + double(side) * width, double(counts[b])});
+  columns.points.push_back({*largest, 0.0});
+  return columns;
 }
 } // namespace
 
@@ -82,7 +84,7 @@ ShownUnit shown_unit(const std::string& si_unit, const double size)
   return {"", 1.0};
 }
 
-std::vector<Picture> pair_picture(const CalibrationRecord& record)
+Pictures pair_picture(const CalibrationRecord& record)
 {
   std::vector<Column> columns;
   for (std::size_t c = 0; c < record.sampled.size() && columns.size() < most_columns; ++c)
@@ -92,36 +94,28 @@ std::vector<Picture> pair_picture(const CalibrationRecord& record)
   if (columns.size() < 2)
     return {};
   const std::size_t n = columns.size();
-  std::string data;
-  std::string plots;
+  std::vector<Chart> panels;
   for (std::size_t row = 0; row < n; ++row)
     for (std::size_t c = 0; c < n; ++c)
       {
+        Chart& chart = panels.emplace_back(Chart{.look = Chart::Look::matrix, .key_columns = 1});
         if (c > row)
-          {
-            plots += "set multiplot next\n";
-            continue;
-          }
-        plots += fmt::format("set xlabel {} noenhanced offset 0,0.6 font ',9'\n"
-                             "set ylabel {} noenhanced offset 1.2,0 font ',8'\n",
-                             row + 1 == n ? gnuplot_text(columns[c].label) : "''",
-                             c == 0 && row > 0 ? gnuplot_text(columns[row].label) : "''");
-        plots += fmt::format("set xtics {:g}\n", step_of_marks(columns[c].values));
+          continue;
+        chart.x.label = row + 1 == n ? columns[c].label : "";
+        chart.y.label = c == 0 && row > 0 ? columns[row].label : "";
+        chart.x.step = step_of_marks(columns[c].values);
         if (c == row)
           {
-            data += fmt::format("$histogram{} << EOD\n{}EOD\n", c, histogram(columns[c].values));
-            plots += fmt::format("unset ytics\nset yrange [0:*]\nplot $histogram{} using 1:2 with boxes fill solid 0.6 "
-                                 "noborder lc rgb '{}' notitle\nset yrange [*:*]\nset ytics nomirror out\n",
-                                 c, blue);
+            chart.y.from = 0.0;
+            chart.y.bare = true;
+            chart.series = {histogram(columns[c].values)};
             continue;
           }
-        std::string rows;
+        ChartSeries points{.kind = ChartSeries::Kind::marks, .colour = blue, .size = 0.25};
         const std::size_t n_samples = columns[c].values.size();
-        const std::size_t stride = std::max<std::size_t>(1, n_samples / most_points);
-        for (std::size_t i = 0; i < n_samples; i += stride)
-          fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", columns[c].values[i], columns[row].values[i]);
-        data += fmt::format("$pair{}_{} << EOD\n{}EOD\n", row, c, rows);
-        plots += fmt::format("plot $pair{}_{} using 1:2 with points pt 7 ps 0.25 lc rgb '{}' notitle\n", row, c, blue);
+        for (std::size_t i = 0; i < n_samples; i += std::max<std::size_t>(1, n_samples / most_points))
+          points.points.push_back({columns[c].values[i], columns[row].values[i]});
+        chart.series = {std::move(points)};
       }
   Picture picture;
   picture.name = "calibration_pairs";
@@ -133,12 +127,8 @@ std::vector<Picture> pair_picture(const CalibrationRecord& record)
   picture.height = 165 * int(n) + 60;
   picture.raster = true;
   picture.vector = false;
-  picture.script = fmt::format(
-    "{}set multiplot layout {},{} rowsfirst\nset border 3 lw 0.8\nset tics nomirror out\nset autoscale xfix\n"
-    ""
-    "set lmargin 9; set rmargin 1; set tmargin 0.6; set bmargin 3\nunset key\n{}"
-    "unset multiplot\n",
-    data, n, n, plots);
+  picture.panels = std::move(panels);
+  picture.columns = int(n);
   return {picture};
 }
 } // namespace feldspar

@@ -1,189 +1,415 @@
-#include "report/pictures/envelope_pictures.h"
-
-#include "report/pictures/envelope_plot.h"
+#include "report/chart/gnuplot_writer.h"
+#include "report/pictures/envelope_curves.h"
+#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
+#include "results/fits/residual_strength.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
+#include <functional>
+#include <utility>
 
 namespace feldspar
 {
 namespace
 {
 using namespace plot;
+using Kind = ChartSeries::Kind;
+using Bars = ChartSeries::Bars;
 
-/// In the colour of their series: a form by its dashes, what leaves out the tension point thin.
-void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const std::string& of_colour)
+/// Strengths with their scatter [MPa]. A tension test lies at (-sigma_t, 0) and scatters along sigma_3.
+std::vector<ChartPoint> strength_points(const Series& series, const bool tension)
 {
+  std::vector<ChartPoint> points;
+  for (const auto& group : groups_of(series))
+    if (const auto strength = statistics(values(group, &TestResults::peak_stress)))
+      {
+        const double mean = strength->mean / mega;
+        const double deviation = strength->standard_deviation.value_or(0.0) / mega;
+        const EnvelopeRole role = group.envelope_role();
+        if (tension && (role == EnvelopeRole::tension || role == EnvelopeRole::indirect_tension))
+          points.push_back({-mean, 0.0, -mean - deviation, -mean + deviation});
+        else if (!tension && role == EnvelopeRole::compression)
+          points.push_back({group.confining_pressure / mega, mean, mean - deviation, mean + deviation});
+      }
+  return points;
+}
+
+/// A picture of strengths over confinement in the making [MPa].
+struct EnvelopePlot
+{
+  std::vector<ChartSeries> curves;
+  std::vector<ChartSeries> points; ///< drawn over the curves; the picture reaches as far as they do
+
+  void add_points(const Series& series, const std::size_t n)
+  {
+    std::string label = series.label;
+    const std::vector<ChartPoint> pressed = strength_points(series, false);
+    const std::vector<ChartPoint> pulled = strength_points(series, true);
+    const auto scatters = [](const ChartPoint& point) { return point[2] < point[3]; };
+    if (std::any_of(pressed.begin(), pressed.end(), scatters) || std::any_of(pulled.begin(), pulled.end(), scatters))
+      label += ": mean ± s.d.";
+    ChartSeries marks{.kind = Kind::marks,
+                      .label = label,
+                      .colour = colour(series, n),
+                      .bars = Bars::along_y,
+                      .width = 1.4,
+                      .mark = point_type(series),
+                      .points = pressed};
+    points.push_back(marks);
+    marks.bars = Bars::along_x;
+    marks.points = pulled;
+    if (!pressed.empty())
+      marks.goes_with = label;
+    points.push_back(std::move(marks));
+  }
+
+  /// The residual strengths: marks of the same form, open, along a thin line.
+  void add_residual(const Series& series, const std::size_t n)
+  {
+    ChartSeries line{.label = series.label + ": residual", .colour = colour(series, n), .width = 1.2, .dashes = 3};
+    for (const auto& point : residual_points(series))
+      line.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega, (point.sigma_1 - point.deviation) / mega,
+                             (point.sigma_1 + point.deviation) / mega});
+    ChartSeries marks = line;
+    marks.kind = Kind::marks;
+    marks.bars = Bars::along_y;
+    marks.mark = point_type(series) - 1;
+    line.goes_with = line.label;
+    curves.push_back(std::move(line));
+    points.push_back(std::move(marks));
+  }
+
+  /// Between two confinements [Pa].
+  void add_curve(const std::function<double(double)>& sigma_1, const double begin, const double end, ChartSeries looks)
+  {
+    // At its beginning the bracket is 0, or just below it.
+    for (const double sigma_3 : abscissas(begin + 1e-12 * std::abs(begin), end))
+      if (const double value = sigma_1(sigma_3); std::isfinite(value))
+        looks.points.push_back({sigma_3 / mega, value / mega});
+    curves.push_back(std::move(looks));
+  }
+
+  void add_reference(const Reference& reference)
+  {
+    constexpr int open_triangle = 8;
+    constexpr int open_square = 4;
+    const ReferenceSource& experiment = reference.experiment;
+    ChartSeries range{.kind = Kind::marks,
+                      .label = experiment.label + ": mean, range",
+                      .colour = black,
+                      .mark = open_triangle,
+                      .size = 1.1};
+    for (const bool tension : {false, true})
+      if (const auto value = experiment.find(tension ? "tensile_strength_MPa" : "uniaxial_compressive_strength_MPa"))
+        {
+          const double middle = value->middle();
+          const double low = value->low.value_or(middle);
+          const double high = value->high.value_or(middle);
+          range.bars = tension ? Bars::along_x : Bars::along_y;
+          range.points = {tension ? ChartPoint{-middle, 0.0, -high, -low} : ChartPoint{0.0, middle, low, high}};
+          points.push_back(range);
+          range.goes_with = range.label;
+        }
+    add_strengths(experiment,
+                  {.label = experiment.label, .colour = black, .width = 1.6, .mark = open_triangle, .size = 1.1});
+    add_strengths(reference.model,
+                  {.label = reference.model.label, .colour = grey, .width = 1.2, .mark = open_square, .size = 0.9});
+  }
+
+  /// The parameters that a source prints, from its beginning to the largest σ₃ of the source's points; to the end of the
+  /// plot, which must be known, where it has none under confinement.
+  void add_printed(const ReferenceSource& source, const char* const of_colour)
+  {
+    const auto strengths = source.strengths(); // by rising pressure
+    const double end =
+      !strengths.empty() && strengths.back().sigma_3 > 0.0 ? strengths.back().sigma_3 : highest_3() * mega;
+    ChartSeries looks{.label = source.label + ", printed", .colour = of_colour, .width = 1.4, .dashes = 3};
+    if (const auto& printed = source.envelope)
+      add_curve([&](const double x) { return printed->sigma_1(x); }, -printed->s * printed->sigma_ci / printed->m, end,
+                looks);
+    looks.label = source.label + ": c and φ, printed";
+    looks.dashes = 4;
+    if (const auto line = source.line())
+      add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, end, looks);
+  }
+
+  /// As far as its points go, beyond which nothing is known of it.
+  template <typename Fit>
+  void add_fit(const Fit& fit, ChartSeries looks)
+  {
+    add_curve([&](const double x) { return fit.sigma_1(x); }, fit.quality.lowest_sigma_3(),
+              fit.quality.highest_sigma_3(), std::move(looks));
+  }
+
+  /// The curve through the points of the experiment.
+  void add_fit_of(const ReferenceSource& experiment)
+  {
+    for (const auto& pair : experiment.fitted.hoek_brown)
+      if (pair.form == HoekBrownForm::intact)
+        {
+          const auto& best = pair.with_tension_point.fit ? pair.with_tension_point.fit : pair.without_tension_point.fit;
+          if (best && best->quality.degrees_of_freedom > 0)
+            add_fit(*best,
+                    {.label = experiment.label + ": " + label_of(*best), .colour = black, .width = 1.6, .dashes = 2});
+        }
+  }
+
+  double lowest_3() const
+  {
+    double lowest = 0.0;
+    for (const ChartSeries& series : points)
+      for (const auto& [x, y, low, high] : series.points)
+        lowest = std::min(lowest, series.bars == Bars::along_x ? low : x);
+    return lowest;
+  }
+
+  double highest_3() const
+  {
+    double highest = 0.0;
+    for (const ChartSeries& series : points)
+      for (const ChartPoint& point : series.points)
+        highest = std::max(highest, point[0]);
+    return highest;
+  }
+
+  double highest_1() const
+  {
+    double highest = 0.0;
+    for (const ChartSeries& series : points)
+      for (const auto& [x, y, low, high] : series.points)
+        highest = std::max(highest, series.bars == Bars::along_y ? high : y);
+    return highest;
+  }
+
+  /// The part up to these stresses, or all of it.
+  Chart chart(const std::optional<EnvelopePoint>& upper = std::nullopt) const
+  {
+    Chart chart{
+      .x = {.label = "confinement σ₃ [MPa], compression positive",
+            .from = 1.25 * lowest_3(),
+            .to = upper ? upper->sigma_3 / mega : std::max(1.05 * highest_3(), 1.0)},
+      .y = {.label = "strength σ₁ [MPa]", .from = 0.0, .to = upper ? upper->sigma_1 / mega : 1.08 * highest_1()},
+      .series = curves};
+    chart.series.insert(chart.series.end(), points.begin(), points.end());
+    return chart;
+  }
+
+  void add_strengths(const ReferenceSource& source, ChartSeries marks)
+  {
+    marks.kind = Kind::marks;
+    for (const auto& point : source.strengths())
+      marks.points.push_back({point.sigma_3 / mega, point.sigma_1 / mega});
+    points.push_back(std::move(marks));
+  }
+};
+
+/// A fitted form with what tells it apart: a form by its dashes, what leaves out the tension point is thin.
+struct DrawnFit
+{
+  const HoekBrownFit* fit;
+  std::string label;
+  double width;
+  int dashes;
+  bool is_intact;
+};
+
+/// Those with more points than parameters.
+std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
+{
+  std::vector<DrawnFit> fits;
   for (const auto& pair : envelopes.hoek_brown)
     {
       // One curve in two parametrisations (docs/theory.md §6.1): drawn once.
       if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;
-      const std::string name = is_intact                              ? "H–B intact"
-                               : pair.form == HoekBrownForm::as_paper ? "H–B as the paper = general"
-                                                                      : "H–B general";
+      const std::string name = is_intact                              ? "intact"
+                               : pair.form == HoekBrownForm::as_paper ? "as the paper = general"
+                                                                      : "general";
       for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
         if (either->fit && either->fit->quality.degrees_of_freedom > 0)
           {
-            const HoekBrownFit& fit = *either->fit;
-            plotted.add_fit(fit, {fit.with_tension_point ? 2.4 : 1.1, is_intact ? 1 : 2, of_colour},
-                            name + (fit.with_tension_point ? ", with σ_t" : ", without σ_t"));
-            if (is_intact && fit.with_tension_point)
-              plotted.add_cut_off(fit, of_colour);
+            const bool with_tension = either->fit->with_tension_point;
+            fits.push_back({&*either->fit, fmt::format("{}, {} σ_t", name, with_tension ? "with" : "without"),
+                            with_tension ? 2.4 : 1.1, is_intact ? 1 : 2, is_intact});
           }
     }
+  return fits;
+}
+
+/// In the colour of their series.
+void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const std::string& of_colour)
+{
+  for (const auto& [fit, label, width, its_dashes, is_intact] : drawn_fits(envelopes))
+    {
+      plotted.add_fit(*fit, {.label = "H–B " + label, .colour = of_colour, .width = width, .dashes = its_dashes});
+      if (!is_intact || !fit->with_tension_point)
+        continue;
+      const double sigma_3 = fit->tensile_cut_off.value / mega;
+      plotted.curves.push_back(
+        {.label = "tensile cut-off of the intact form",
+         .colour = of_colour,
+         .width = 1.0,
+         .dashes = 3,
+         .points = {{sigma_3, 0.0}, {sigma_3, fit->uniaxial_compressive_strength.value / mega}}});
+    }
   if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
-    plotted.add_fit(*fit, {1.8, 4, of_colour}, "Mohr–Coulomb");
+    plotted.add_fit(*fit, {.label = "Mohr–Coulomb", .colour = of_colour, .width = 1.8, .dashes = 4});
+}
+
+Picture envelope_picture(const std::string& name, const std::string& caption, const std::string& alternative,
+                         Chart chart)
+{
+  constexpr int width = 660;
+  return {.name = name,
+          .caption = caption,
+          .alternative = alternative,
+          .width = width,
+          .height = 640 + further_height(chart, width),
+          .panels = {std::move(chart)}};
 }
 } // namespace
 
-std::vector<Picture> envelope_pictures(const std::vector<Series>& all, const std::size_t which,
-                                       const StrengthEnvelopes& envelopes, const std::optional<Reference>& reference)
+std::string label_of(const HoekBrownFit& fit)
 {
+  return fmt::format("H–B {}, {} σ_t", name(fit.form), fit.with_tension_point ? "with" : "without");
+}
+
+std::vector<double> abscissas(const double begin, const double end)
+{
+  constexpr int n = 150;
+  std::vector<double> result;
+  for (int k = 0; k <= n; ++k)
+    result.push_back(begin + (end - begin) * std::pow(double(k) / n, 4.0));
+  return result;
+}
+
+Pictures envelope_pictures(const SeriesAmong& of)
+{
+  const StrengthEnvelopes& envelopes = of.envelopes;
   EnvelopePlot plotted;
-  plotted.add_points(all[which], which);
-  plotted.add_residual(all[which], which);
-  if (reference)
-    plotted.add_reference(*reference);
-  if (plotted.empty())
+  plotted.add_points(of.series(), of.n);
+  plotted.add_residual(of.series(), of.n);
+  if (of.reference)
+    plotted.add_reference(*of.reference);
+  if (plotted.chart().empty())
     return {};
-  add_fits(plotted, envelopes, colour(all[which], which));
-  if (reference)
-    plotted.add_rock_curves(*reference);
-  const std::string of_series = all.size() > 1 ? fmt::format("_{}", file_name(all[which].label)) : "";
-  std::vector<Picture> pictures;
-  pictures.push_back(
-    {.name = "envelope" + of_series,
-     .caption = (envelopes.data.of_flawed_body ? std::string("Envelope of highest nominal stresses")
-                                               : std::string("Strength envelope")) +
-                (all.size() > 1 ? " of " + all[which].label : std::string()),
-     .alternative = "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
-                    "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
-     .width = plotted.width,
-     .height = plotted.height(),
-     .script = plotted.script(),
-     .live = plotted.json()});
-  // Near the uniaxial test, where the forms differ.
-  if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3 > 0.0)
+  add_fits(plotted, envelopes, colour(of.series(), of.n));
+  if (of.reference)
     {
-      const EnvelopePoint upper{0.2 * plotted.highest_3, 2.2 * *envelopes.data.uniaxial_compressive_strength};
-      pictures.push_back({.name = "envelope_near_uniaxial" + of_series,
-                          .caption = "The same near the uniaxial and the tension test",
-                          .alternative = "The strength envelope between tension and low confinement, enlarged.",
-                          .width = plotted.width,
-                          .height = plotted.height(),
-                          .script = plotted.script(upper),
-                          .live = plotted.json(upper)});
+      plotted.add_fit_of(of.reference->experiment);
+      plotted.add_printed(of.reference->experiment, black);
+      plotted.add_printed(of.reference->model, grey);
     }
+  const bool is_one_of_many = of.all.size() > 1;
+  const std::string ending = is_one_of_many ? "_" + file_name(of.series().label) : "";
+  Pictures pictures{envelope_picture(
+    "envelope" + ending,
+    std::string(envelopes.data.of_flawed_body ? "Envelope of highest nominal stresses" : "Strength envelope") +
+      (is_one_of_many ? " of " + of.series().label : ""),
+    "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
+    "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
+    plotted.chart())};
+  // Near the uniaxial test, where the forms differ.
+  if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3() > 0.0)
+    pictures.push_back(
+      envelope_picture("envelope_near_uniaxial" + ending, "The same near the uniaxial and the tension test",
+                       "The strength envelope between tension and low confinement, enlarged.",
+                       plotted.chart(EnvelopePoint{0.2 * plotted.highest_3() * mega,
+                                                   2.2 * *envelopes.data.uniaxial_compressive_strength})));
   return pictures;
 }
 
-std::vector<Picture> combined_envelope_picture(const std::vector<Series>& all,
-                                               const std::vector<StrengthEnvelopes>& envelopes,
-                                               const std::optional<Reference>& reference)
+Pictures combined_envelope_picture(const AllSeries& of)
 {
-  if (all.size() < 2)
+  if (of.all.size() < 2)
     return {};
   EnvelopePlot plotted;
-  for (std::size_t n = 0; n < all.size(); ++n)
+  for (std::size_t n = 0; n < of.all.size(); ++n)
     {
-      plotted.add_points(all[n], n);
-      plotted.add_residual(all[n], n);
+      plotted.add_points(of.all[n], n);
+      plotted.add_residual(of.all[n], n);
     }
-  if (reference)
-    plotted.add_reference(*reference);
-  if (!(plotted.highest_1 > 0.0)) // tension alone
+  if (of.reference)
+    plotted.add_reference(*of.reference);
+  if (!(plotted.highest_1() > 0.0)) // tension alone
     return {};
-  for (std::size_t n = 0; n < all.size(); ++n)
-    if (const HoekBrownFit* const fit = envelopes[n].representative())
-      plotted.add_fit(*fit, {2.0, dashes(n), colour(all[n], n)}, all[n].label + ": " + label_of(*fit));
-  if (reference)
-    plotted.add_fit_of(reference->experiment);
-  return {{.name = "envelopes",
-           .caption = "Strength of all series",
-           .alternative = "Strength against confinement of all series, each with its Hoek–Brown envelope.",
-           .width = plotted.width,
-           .height = plotted.height(),
-           .script = plotted.script(),
-           .live = plotted.json()}};
+  for (std::size_t n = 0; n < of.all.size(); ++n)
+    if (const HoekBrownFit* const fit = of.envelopes[n].representative())
+      plotted.add_fit(*fit, {.label = of.all[n].label + ": " + label_of(*fit),
+                             .colour = colour(of.all[n], n),
+                             .width = 2.0,
+                             .dashes = dashes(n)});
+  if (of.reference)
+    plotted.add_fit_of(of.reference->experiment);
+  return {envelope_picture("envelopes", "Strength of all series",
+                           "Strength against confinement of all series, each with its Hoek–Brown envelope.",
+                           plotted.chart())};
 }
 
-std::vector<Picture> residual_picture(const Series& series, const std::size_t which, const StrengthEnvelopes& envelopes)
+Pictures residual_picture(const SeriesAmong& of)
 {
-  const std::string of_colour = colour(series, which);
-  std::string data;
-  std::string plots;
-  int n = 0;
-  const auto add = [&](const FitQuality& quality, const std::string& label, const std::string& looks) {
-    fmt::format_to(std::back_inserter(data), "$fit{} << EOD\n", n);
+  Chart chart{.x = {.label = "confinement σ₃ [MPa], compression positive", .room = 0.03},
+              .y = {.label = "residual in σ₁ [MPa]", .room = 0.05},
+              .key_columns = 2};
+  const auto add = [&](const FitQuality& quality, ChartSeries looks) {
+    looks.kind = Kind::marked_line;
+    looks.colour = colour(of.series(), of.n);
+    looks.size = 0.7;
     for (const auto& [point, residual] : quality.residuals)
-      fmt::format_to(std::back_inserter(data), "{} {}\n", point.sigma_3 / mega, residual / mega);
-    data += "EOD\n";
-    plots += fmt::format("{}$fit{} using 1:2 with linespoints {} {}", n ? ", \\\n" : "", n, looks, title(label));
-    ++n;
+      looks.points.push_back({point.sigma_3 / mega, residual / mega});
+    chart.series.push_back(std::move(looks));
   };
-  for (const auto& pair : envelopes.hoek_brown)
-    {
-      if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
-        continue;
-      const bool is_intact = pair.form == HoekBrownForm::intact;
-      for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
-        if (either->fit && either->fit->quality.degrees_of_freedom > 0)
-          add(either->fit->quality,
-              fmt::format("{}, {} σ_t", is_intact ? "intact" : "as the paper = general",
-                          either->fit->with_tension_point ? "with" : "without"),
-              fmt::format("lw {} dt {} pt {} ps 0.7 lc rgb '{}'", either->fit->with_tension_point ? 2.4 : 1.1,
-                          is_intact ? 1 : 2, is_intact ? 7 : 5, of_colour));
-    }
-  if (const auto& fit = envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
-    add(fit->quality, "Mohr–Coulomb", fmt::format("lw 1.6 dt 4 pt 9 ps 0.7 lc rgb '{}'", of_colour));
-  if (n == 0)
+  for (const auto& [fit, label, width, its_dashes, is_intact] : drawn_fits(of.envelopes))
+    add(fit->quality, {.label = label, .width = width, .dashes = its_dashes, .mark = is_intact ? 7 : 5});
+  if (const auto& fit = of.envelopes.mohr_coulomb.fit; fit && fit->quality.degrees_of_freedom > 0)
+    add(fit->quality, {.label = "Mohr–Coulomb", .width = 1.6, .dashes = 4, .mark = 9});
+  if (chart.empty())
     return {};
-  return {
-    {.name = "residuals_" + file_name(series.label),
-     .caption = "Residuals: strength of each point less that of the envelope",
-     .alternative = "Residual of each point for each fitted envelope; the figures are in the table below.",
-     .width = 660,
-     .height = 460,
-     .script =
-       data + frame("confinement σ₃ [MPa], compression positive", "residual in σ₁ [MPa]") +
-       "set xzeroaxis lw 1 lc rgb '#808080'\nset key vertical maxrows 3 font ',12'\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\nplot " +
-       plots + "\n"}};
+  return {{.name = "residuals_" + file_name(of.series().label),
+           .caption = "Residuals: strength of each point less that of the envelope",
+           .alternative = "Residual of each point for each fitted envelope; the figures are in the table below.",
+           .width = 660,
+           .height = 460,
+           .panels = {std::move(chart)}}};
 }
 
-std::vector<Picture> shear_share_picture(const std::vector<Series>& all)
+Pictures shear_share_picture(const AllSeries& of)
 {
-  std::string data;
-  std::string plots;
-  for (std::size_t n = 0; n < all.size(); ++n)
+  Chart chart{.x = {.label = "confinement σ₃ [MPa]"},
+              .y = {.label = "shear cracks at the peak [%]", .from = 0.0},
+              .key_columns = 2};
+  for (std::size_t n = 0; n < of.all.size(); ++n)
     {
-      std::string rows;
-      for (const auto& group : groups_of(all[n]))
+      ChartSeries line{.kind = Kind::marked_line,
+                       .label = of.all[n].label + ": mean ± s.d.",
+                       .colour = colour(of.all[n], n),
+                       .bars = Bars::along_y,
+                       .width = 1.6,
+                       .dashes = dashes(n),
+                       .size = 0.7};
+      for (const auto& group : groups_of(of.all[n]))
         if (group.envelope_role() == EnvelopeRole::compression)
           if (const auto share = statistics(values(group, &TestResults::shear_share_at_peak)))
-            fmt::format_to(std::back_inserter(rows), "{} {} {}\n", group.confining_pressure / mega,
-                           share->mean / percent, share->standard_deviation.value_or(0.0) / percent);
-      if (rows.empty())
-        continue;
-      fmt::format_to(std::back_inserter(data), "$share{} << EOD\n{}EOD\n", n, rows);
-      fmt::format_to(std::back_inserter(plots),
-                     "{}$share{} using 1:2:3 with yerrorlines pt 7 ps 0.7 lw 1.6 dt {} lc rgb '{}' {}",
-                     plots.empty() ? "" : ", ", n, dashes(n), colour(all[n], n), title(all[n].label + ": mean ± s.d."));
+            {
+              const double mean = share->mean / percent;
+              const double deviation = share->standard_deviation.value_or(0.0) / percent;
+              line.points.push_back({group.confining_pressure / mega, mean, mean - deviation, mean + deviation});
+            }
+      chart.series.push_back(std::move(line));
     }
-  if (plots.empty())
+  if (chart.empty())
     return {};
   return {{.name = "shear_share",
            .caption = "Share of shear cracks at the peak against confinement",
            .alternative = "Share of shear cracks among all cracks at the peak, against confinement.",
            .width = 640,
            .height = 420,
-           .script = data + frame("confinement σ₃ [MPa]", "shear cracks at the peak [%]") +
-                     "set offsets 0, graph 0.03, graph 0.03, 0\nset yrange [0:*]\nplot " + plots + "\n"}};
+           .panels = {std::move(chart)}}};
 }
 } // namespace feldspar

@@ -1,17 +1,15 @@
-#include "report/pictures/lab_pictures.h"
-
-#include "base/quoted.h"
-#include "report/pictures/maps/crack_map.h"
-#include "report/pictures/maps/map_marks.h"
-#include "report/pictures/plane_view.h"
+#include "base/append.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace feldspar
 {
@@ -21,123 +19,103 @@ using namespace plot;
 
 std::string title_of(const FinishedTest& test) { return group_of(test.record).title(); }
 
-/// A name for the data of a test.
-std::string block(const char* what, const FinishedTest& test) { return data_block(what, test.name); }
+std::string with_seed(const FinishedTest& test) { return fmt::format("{}, seed {}", title_of(test), test.record.seed); }
 
-std::string curve_data(const FinishedTest& test)
+/// Stress over strain; of a simulated test the cracks, too.
+Chart curve_of(const FinishedTest& test, const std::string& title, const bool is_measured)
 {
-  const double sign = test.record.kind.sign;
-  std::string text = fmt::format("{} << EOD\n", block("curve", test));
-  for (const auto& row : test.record.curve)
-    fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", sign * row.axial_strain * 100.0,
-                   test.record.kind.stress(row) / mega, row.n_tension_cracks, row.n_shear_cracks);
-  return text + "EOD\n";
-}
-
-/// Grains of the largest fragment and the others; cracks as the faces that broke.
-std::string map_data(const FinishedTest& test)
-{
-  std::string text;
-  for (const bool loose : {false, true})
+  const TestKind& kind = test.record.kind;
+  ChartSeries stress{.label = is_measured ? "" : "stress", .colour = black, .width = 2.5};
+  ChartSeries tension{.label = "tension cracks",
+                      .colour = tension_colour,
+                      .width = 2.0,
+                      .dashes = 2,
+                      .to_the_right = true};
+  ChartSeries shear{.label = "shear cracks", .colour = shear_colour, .width = 2.0, .dashes = 4, .to_the_right = true};
+  double least_strain = 0.0;
+  double least_stress = 0.0;
+  for (const CurveSample& row : test.record.curve)
     {
-      text += fmt::format("{} << EOD\n", block(loose ? "loose" : "grains", test));
-      for (const auto& grain : test.appearance.grains_at_end)
-        if ((grain.fragment > 0) == loose)
-          fmt::format_to(std::back_inserter(text), "{} {} {}\n", grain.position[0] / milli, grain.position[1] / milli,
-                         grain.radius / milli);
-      text += "EOD\n";
+      const double strain = kind.sign * row.axial_strain / percent;
+      stress.points.push_back({strain, kind.stress(row) / mega});
+      tension.points.push_back({strain, double(row.n_tension_cracks)});
+      shear.points.push_back({strain, double(row.n_shear_cracks)});
+      least_strain = std::min(least_strain, strain);
+      least_stress = std::min(least_stress, kind.stress(row) / mega);
     }
-  for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
+  Chart chart{.look = Chart::Look::sheet,
+              .title = title,
+              .x = {.label = fmt::format("{} [%]", kind.channel.strain_name), .from = is_measured ? least_strain : 0.0},
+              .y = {.label = fmt::format("{} [MPa]", kind.channel.name), .from = is_measured ? least_stress : 0.0},
+              .key_columns = 3,
+              .series = {std::move(stress)}};
+  if (is_measured)
+    return chart;
+  chart.right = {.label = "broken segments", .from = 0.0};
+  chart.series.push_back(std::move(tension));
+  if (test.record.curve.back().n_shear_cracks > 0)
+    chart.series.push_back(std::move(shear));
+  return chart;
+}
+
+/// Grains of the largest fragment and the others; cracks as the faces that broke. upwards: the name of the axis.
+Chart map_of(const FinishedTest& test, const char upwards)
+{
+  const auto& grains = test.appearance.grains_at_end;
+  const double width = test.record.size[0] / milli;
+  const double height = test.record.size[1] / milli;
+  Chart chart{
+    .look = Chart::Look::map,
+    .title = with_seed(test) + ": cracks at the end",
+    .x = {.label = "x [mm]", .from = -0.08 * width, .to = 1.08 * width, .step = 10.0},
+    .y = {.label = fmt::format("{} [mm]", upwards), .from = -0.02 * height, .to = 1.02 * height, .step = 10.0},
+    .equal_scales = true,
+    .key_columns = 2,
+    .series = {grain_circles(grains, false, 1), grain_circles(grains, true, 1)}};
+  chart.series[0].label = "main body";
+  chart.series[1].label = "fragments";
+  append(chart.series, flaw_lines(test));
+  append(chart.series, crack_traces(test.record.cracks, 1, 2.0));
+  return chart;
+}
+/// A test in space as pictures in the plane show it: the grains and cracks of a slice through the axis, a quarter of the
+/// depth thick, seen from the front (x to the right, z up). A test in the plane stays as it is.
+FinishedTest plane_view(FinishedTest test)
+{
+  TestRecord& record = test.record;
+  auto& grains = test.appearance.grains_at_end;
+  if (record.dimension() == 2)
+    return test;
+  const double depth = record.size[1];
+  const auto outside_slice = [depth](const std::array<double, 3>& point) {
+    return std::abs(point[1] - 0.5 * depth) > 0.125 * depth;
+  };
+  std::erase_if(grains, [&](const GrainPicture& grain) { return outside_slice(grain.position); });
+  std::erase_if(record.cracks, [&](const Crack& crack) { return outside_slice(crack.centroid); });
+  // The ones in front are drawn last.
+  std::sort(grains.begin(), grains.end(),
+            [](const GrainPicture& a, const GrainPicture& b) { return a.position[1] > b.position[1]; });
+  for (auto& grain : grains)
+    grain.position = {grain.position[0], grain.position[2], 0.0};
+  for (auto& crack : record.cracks)
     {
-      text += fmt::format("{} << EOD\n", block(kind == CrackKind::tension ? "tension" : "shear", test));
-      for (const auto& crack : test.record.cracks)
-        if (crack.kind == kind)
-          text += trace_of(crack, 1);
-      text += "EOD\n";
+      // A small plate seen from the front: the line along which its plane cuts the picture's.
+      const double across = std::hypot(crack.normal[0], crack.normal[2]);
+      crack.centroid = {crack.centroid[0], crack.centroid[2], 0.0};
+      crack.normal = across > 0.0 ? std::array<double, 3>{crack.normal[0] / across, crack.normal[2] / across, 0.0}
+                                  : std::array<double, 3>{1.0, 0.0, 0.0};
     }
-  return text + flaw_outlines(test, test.name).data;
+  for (auto& flaw : test.appearance.flaws)
+    for (auto& point : flaw.outline)
+      point = {point[0], point[2], 0.0};
+  record.size = {record.size[0], record.size[2], 0.0};
+  return test;
 }
-
-/// The curve of a measurement: stress alone.
-std::string measured_plot(const FinishedTest& test, const std::string& title)
-{
-  return fmt::format("set title {} noenhanced\n"
-                     "set xlabel '{} [%]'\n"
-                     "set ylabel '{} [MPa]'\n"
-                     "set xtics nomirror; set ytics nomirror; set border 3\n"
-                     "set xrange [*<0:*]; set yrange [*<0:*]\n"
-                     "unset key\n"
-                     "plot {} using 1:2 with lines lw 2.5 lc rgb '{}'\n",
-                     gnuplot_text(title), test.record.kind.channel.strain_name, test.record.kind.channel.name,
-                     block("curve", test), black);
-}
-
-std::string curve_plot(const FinishedTest& test)
-{
-  const auto& last = test.record.curve.back();
-  std::string text = fmt::format("set title {} noenhanced\n"
-                                 "set size noratio\n"
-                                 "set xlabel '{} [%]'\n"
-                                 "set ylabel '{} [MPa]'\n"
-                                 "set y2label 'broken segments'\n"
-                                 "set xtics nomirror autofreq; set ytics nomirror autofreq; set y2tics autofreq\n"
-                                 "set xrange [0:*]; set yrange [0:*]; set y2range [0:*]\n"
-                                 "set border 11; set lmargin 10; set rmargin 14\n"
-                                 "set bmargin 6\n"
-                                 "set key outside bottom center horizontal Left reverse samplen 2 width 1\n",
-                                 gnuplot_text(fmt::format("{}, seed {}", title_of(test), test.record.seed)),
-                                 test.record.kind.channel.strain_name, test.record.kind.channel.name);
-  const std::string data = block("curve", test);
-  text += fmt::format("plot {0} using 1:2 with lines lw 2.5 lc rgb 'black' title 'stress', "
-                      "{0} using 1:3 axes x1y2 with lines lw 2 dt 2 lc rgb '{1}' title 'tension cracks'",
-                      data, tension_colour);
-  if (last.n_shear_cracks > 0)
-    text +=
-      fmt::format(", {} using 1:4 axes x1y2 with lines lw 2 dt 4 lc rgb '{}' title 'shear cracks'", data, shear_colour);
-  return text + "\nunset y2tics; unset y2label\n";
-}
-
-/// upwards: the name of the axis.
-std::string map_plot(const FinishedTest& test, const char upwards)
-{
-  const auto& size = test.record.size;
-  std::string text =
-    fmt::format("set title {} noenhanced\n"
-                "set size ratio -1\n"
-                "set xlabel 'x [mm]'; set ylabel '{} [mm]'\n"
-                "set xtics 10 nomirror; set ytics 10 nomirror; set border 3; set lmargin 10; set rmargin 10\n"
-                "set xrange [{}:{}]; set yrange [{}:{}]\n"
-                "set bmargin 7\n"
-                "set key outside bottom center horizontal maxcols 2 Left reverse samplen 1 width -1\n",
-                gnuplot_text(fmt::format("{}, seed {}: cracks at the end", title_of(test), test.record.seed)), upwards,
-                -0.08 * size[0] / milli, 1.08 * size[0] / milli, -0.02 * size[1] / milli, 1.02 * size[1] / milli);
-  const auto n_loose = std::count_if(test.appearance.grains_at_end.begin(), test.appearance.grains_at_end.end(),
-                                     [](const GrainPicture& grain) { return grain.fragment > 0; });
-  text += fmt::format("plot {} with circles fill solid noborder lc rgb '{}' title 'main body'", block("grains", test),
-                      light_grey);
-  if (n_loose > 0)
-    text += fmt::format(", {} with circles fill solid noborder lc rgb '{}' title 'fragments'", block("loose", test),
-                        single_grain_colour);
-  const auto cracks = [&](const char* what, const char* colour, const std::uint64_t n) {
-    if (n > 0)
-      text +=
-        fmt::format(", {} with vectors nohead lw 2 lc rgb '{}' title '{}: {}'", block(what, test), colour, what, n);
-  };
-  const auto n_drawn = [&](const CrackKind kind) {
-    return std::uint64_t(std::count_if(test.record.cracks.begin(), test.record.cracks.end(),
-                                       [kind](const Crack& crack) { return crack.kind == kind; }));
-  };
-  text += flaw_outlines(test, test.name).plots;
-  cracks("tension", tension_colour, n_drawn(CrackKind::tension));
-  cracks("shear", shear_colour, n_drawn(CrackKind::shear));
-  return text + "\n";
-}
-
 } // namespace
 
-std::vector<Picture> single_test_pictures(const Series& series)
+Pictures single_test_pictures(const Series& series)
 {
-  std::vector<Picture> pictures;
+  Pictures pictures;
   for (const auto& test : series.tests)
     {
       if (test.record.curve.empty())
@@ -151,32 +129,29 @@ std::vector<Picture> single_test_pictures(const Series& series)
                           .width = 900,
                           .height = 650,
                           .raster = true,
-                          .script = curve_data(test) + (is_measured ? measured_plot(test, title) : curve_plot(test))});
-      for (auto& map : crack_map(test, title))
-        pictures.push_back(std::move(map));
+                          .panels = {curve_of(test, is_measured ? title : with_seed(test), is_measured)}});
+      append(pictures, crack_map(test, title));
     }
   return pictures;
 }
 
-std::vector<Picture> overview_picture(const Series& series)
+Pictures overview_picture(const Series& series)
 {
-  std::string data;
-  std::string curves;
-  std::string maps;
-  int n_columns = 0;
+  std::vector<Chart> panels;
+  std::vector<Chart> maps;
   for (const auto& group : shown(groups_of(series)))
     if (FinishedTest test = *group.tests.front();
         !test.record.curve.empty() && test.record.body == TestBody::grains) // maps are of grains
       {
         const char upwards = test.record.dimension() == 2 ? 'y' : 'z';
         test = plane_view(std::move(test));
-        data += curve_data(test) + map_data(test);
-        curves += curve_plot(test);
-        maps += map_plot(test, upwards);
-        ++n_columns;
+        panels.push_back(curve_of(test, with_seed(test), false));
+        maps.push_back(map_of(test, upwards));
       }
-  if (n_columns == 0)
+  if (panels.empty())
     return {};
+  const int n_columns = int(panels.size());
+  append(panels, std::move(maps));
   return {{.name = "overview",
            .caption = "Curves and crack maps of the first specimen",
            .alternative = "Stress-strain curves above, crack maps below.",
@@ -184,6 +159,7 @@ std::vector<Picture> overview_picture(const Series& series)
            .height = 1250,
            .raster = true,
            .vector = false,
-           .script = data + fmt::format("set multiplot layout 2,{}\n{}{}unset multiplot\n", n_columns, curves, maps)}};
+           .panels = std::move(panels),
+           .columns = n_columns}};
 }
 } // namespace feldspar

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "base/prefixes.h"
-#include "results/evaluation.h"
 #include "results/runs/series.h"
 
-#include <array>
 #include <cstddef>
 #include <string>
 
@@ -41,47 +39,11 @@ inline constexpr const char* rose = "#CC6677";
 /// The colour of the n-th series; a measured curve is black.
 std::string colour(const Series& series, std::size_t n);
 
-/// gnuplot's number of the mark for points of a series: by what its tests were made on.
+/// The mark for points of a series: by what its tests were made on.
 int point_type(const Series& series);
 
 /// Dashes tell series apart where colours repeat.
 int dashes(std::size_t n);
-
-/// Axis labels, grid, and the key under the plot, where it hides nothing.
-std::string frame(const std::string& x_label, const std::string& y_label);
-
-/// `title` for the key of a plot, or none.
-std::string title(const std::string& text);
-
-/// The key under a plot in columns of five rows. Where labels are too long for so many columns side by side there are fewer,
-/// with more rows: gnuplot would draw what does not fit beyond the edge of the picture.
-class ColumnKey
-{
-public:
-  /// `title` of an entry, as above.
-  std::string entry(const std::string& label);
-  /// gnuplot's setting, for a picture of this width [px].
-  std::string set_up(int picture_width) const;
-  /// What a picture of this width must be higher, so that the key takes no room from the axes [px].
-  int further_height(int picture_width) const;
-
-private:
-  int n_rows(int picture_width) const;
-
-  int n_entries = 0;
-  int longest = 0; ///< [characters]
-};
-
-/// gnuplot's name for data of an owner, such as a test: letters that it takes, a `_` for each other.
-std::string data_block(const std::string& what, const std::string& owner);
-
-/// A row `x y dx dy` [mm] for add_cracks(): the trace of a crack's face in the plane of the picture, whose vertical axis is
-/// this one of the crack's; origin [m].
-std::string trace_of(const Crack& crack, std::size_t axis, const std::array<double, 2>& origin = {});
-
-/// Adds the cracks of one kind to the n-th of several plots, their rows `x y dx dy` to its data; none, nothing.
-void add_cracks(std::string& data, std::string& plots, std::size_t n, CrackKind kind, const std::string& rows,
-                double line_width);
 
 /// A part of the names of files out of a label: letters, digits, `-` and `.` of it, at most 60, a
 /// letter or a digit first; empty if there is none.

@@ -1,13 +1,13 @@
-#include "report/pictures/rve_pictures.h"
-
+#include "base/append.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
-#include "report/pictures/space_pictures.h"
+#include "report/pictures/rves.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace feldspar
@@ -32,7 +32,7 @@ std::string standing_of(const PointRve& rve, const SampleFields& fields)
   return fmt::format("({:.1f}, {:.1f}) mm", at[0] / milli, at[in_space ? 2 : 1] / milli);
 }
 
-std::vector<Picture> rve_picture(const FinishedTest& test, const std::string& title)
+Pictures rve_picture(const FinishedTest& test, const std::string& title)
 {
   const auto& rves = test.appearance.rves;
   if (rves.empty() || std::any_of(rves.begin(), rves.end(), [](const auto& v) { return v.grains.empty(); }))
@@ -58,8 +58,6 @@ std::vector<Picture> rve_picture(const FinishedTest& test, const std::string& ti
       return {picture};
     }
 
-  std::string data;
-  std::string plots;
   double reach = 0.0; // from an RVE's point
   for (const PointRve& rve : rves)
     for (std::size_t c = 0; c < 2; ++c)
@@ -70,55 +68,33 @@ std::vector<Picture> rve_picture(const FinishedTest& test, const std::string& ti
           reach = std::max(reach, std::abs(crack.centroid[c] - rve.position[c]) + 0.5 * crack.size);
       }
   reach *= 1.03 / milli;
+  std::vector<Chart> panels;
   for (std::size_t k = 0; k < rves.size(); ++k)
     {
-      const auto& centre = rves[k].position;
-      std::string body;
-      std::string loose;
-      for (const auto& grain : rves[k].grains)
-        fmt::format_to(std::back_inserter(grain.fragment > 0 ? loose : body), "{:.6g} {:.6g} {:.6g}\n",
-                       (grain.position[0] - centre[0]) / milli, (grain.position[1] - centre[1]) / milli,
-                       grain.radius / milli);
-      data += fmt::format("$grains{0} << EOD\n{1}EOD\n", k, body);
-      plots +=
-        fmt::format("set title {} noenhanced\nplot $grains{} with circles fill solid noborder lc rgb '{}' notitle",
-                    gnuplot_text(headings[k]), k, light_grey);
-      if (!loose.empty())
-        {
-          data += fmt::format("$loose{} << EOD\n{}EOD\n", k, loose);
-          plots += fmt::format(", $loose{} with circles fill solid noborder lc rgb '{}' title 'cut off'", k,
-                               single_grain_colour);
-        }
-      for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
-        {
-          std::string rows;
-          for (const auto& crack : rves[k].cracks)
-            if (crack.kind == kind)
-              rows += trace_of(crack, 1, {centre[0], centre[1]});
-          add_cracks(data, plots, k, kind, rows, 2.2);
-        }
-      if (rves[k].cracks.empty())
-        plots += ", NaN with lines lc rgb '#ffffff' title 'nothing broken'";
-      plots += "\n";
+      const std::array<double, 2> centre{rves[k].position[0], rves[k].position[1]};
+      Chart chart{
+        .look = Chart::Look::map,
+        .title = headings[k] + (rves[k].cracks.empty() ? ", nothing broken" : ""),
+        .x = {.label = "x from the point [mm]", .from = -reach, .to = reach},
+        .y = {.label = "y from the point [mm]", .from = -reach, .to = reach},
+        .equal_scales = true,
+        .key_columns = 3,
+        .series = {grain_circles(rves[k].grains, false, 1, centre), grain_circles(rves[k].grains, true, 1, centre)}};
+      chart.series.back().label = "cut off";
+      append(chart.series, crack_traces(rves[k].cracks, 1, 2.2, centre));
+      panels.push_back(std::move(chart));
     }
-  return {
-    {.name = name,
-     .caption =
-       caption +
-       ". Coordinates are from the point of the sample; the cell is periodic, so that cracks at its rim go on at "
-       "the other side",
-     .alternative = alternative,
-     .width = 400 * int(rves.size()),
-     .height = 480,
-     .raster = true,
-     .vector = false,
-     .script =
-       data +
-       "set size ratio -1\nset xlabel 'x from the point [mm]' offset 0,0.4; set ylabel 'y from the point [mm]'\nset tics "
-       "nomirror out; set border 3\nset key below center horizontal maxcols 3 Left reverse samplen 1.5 "
-       "width 1 noenhanced\n" +
-       fmt::format("set xrange [{0:.4g}:{1:.4g}]; set yrange [{0:.4g}:{1:.4g}]\nset multiplot layout 1,{2}\n"
-                   "{3}unset multiplot\n",
-                   -reach, reach, rves.size(), plots)}};
+  return {{.name = name,
+           .caption =
+             caption +
+             ". Coordinates are from the point of the sample; the cell is periodic, so that cracks at its rim go on at "
+             "the other side",
+           .alternative = alternative,
+           .width = 400 * int(rves.size()),
+           .height = 480,
+           .raster = true,
+           .vector = false,
+           .panels = std::move(panels),
+           .columns = int(rves.size())}};
 }
 } // namespace feldspar

@@ -1,15 +1,14 @@
-#include "report/pictures/sample_pictures.h"
-
+#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
-#include "report/pictures/rve_pictures.h"
+#include "report/pictures/rves.h"
 #include "report/pictures/sample_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace feldspar
 {
@@ -51,19 +50,10 @@ PlanePoint stroke(const CrackDirections& cracks, const double size, const double
   return {-length * std::sin(angle), length * std::cos(angle)};
 }
 
-std::string corners_of_polygon(const std::vector<PlanePoint>& corners)
-{
-  std::string text;
-  for (std::size_t k = 0; k <= corners.size(); ++k)
-    text += fmt::format("{}{:.6g},{:.6g}", k == 0 ? "from " : " to ", corners[k % corners.size()][0] / milli,
-                        corners[k % corners.size()][1] / milli);
-  return text;
-}
-
 std::string percent_text(const double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 } // namespace
 
-std::vector<Picture> sample_picture(const FinishedTest& test, const std::string& title)
+Pictures sample_picture(const FinishedTest& test, const std::string& title)
 {
   const SampleFields& fields = test.appearance.fields;
   if (fields.nodes.empty() || !fields.has(share_field) || !fields.has("cell"))
@@ -83,12 +73,13 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
 
   PlanePoint low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   PlanePoint high{-low[0], -low[1]};
-  std::string objects;
-  std::string colours; // gnuplot draws the bar of a palette only for what it plots
-  std::string strokes;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
+  ChartSeries cells{.kind = ChartSeries::Kind::area, .colours = ChartSeries::Colours::by_value, .rim = "#ffffff"};
+  ChartSeries strokes{.kind = ChartSeries::Kind::segments,
+                      .label = "mean direction of the cracks",
+                      .colour = black,
+                      .width = 2.0};
+  for (const SamplePiece& piece : pieces)
     {
-      const SamplePiece& piece = pieces[k];
       for (const auto* points : {&piece.rest, &piece.moved})
         for (const PlanePoint& point : *points)
           for (std::size_t c = 0; c < 2; ++c)
@@ -96,45 +87,36 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
               low[c] = std::min(low[c], point[c]);
               high[c] = std::max(high[c], point[c]);
             }
-      const double value = share[piece.cell] / percent;
-      objects += fmt::format("set object {} polygon {} behind fc palette cb {:.6g} fs solid border lc rgb '#ffffff' lw "
-                             "0.4\n",
-                             k + 1, corners_of_polygon(piece.moved), value);
+      for (const PlanePoint& corner : piece.moved)
+        cells.points.push_back({corner[0] / milli, corner[1] / milli, 0.0, share[piece.cell] / percent});
+      cells.points.push_back(gap);
       const PlanePoint middle = middle_of(piece.moved);
-      fmt::format_to(std::back_inserter(colours), "{:.6g} {:.6g} {:.6g}\n", middle[0] / milli, middle[1] / milli,
-                     value);
       PlanePoint line = stroke(directions(fields, piece.cell), 0.8 * std::sqrt(area_of(piece.rest)), most_dense);
       if (fields.is_axisymmetric() && middle[0] < 0.0)
         line[0] = -line[0];
       if (line != PlanePoint{})
-        fmt::format_to(std::back_inserter(strokes), "{:.6g} {:.6g} {:.6g} {:.6g}\n",
-                       (middle[0] - 0.5 * line[0]) / milli, (middle[1] - 0.5 * line[1]) / milli, line[0] / milli,
-                       line[1] / milli);
+        strokes.points.push_back(
+          {(middle[0] - 0.5 * line[0]) / milli, (middle[1] - 0.5 * line[1]) / milli, line[0] / milli, line[1] / milli});
     }
+  ChartSeries around_strokes = strokes;
+  around_strokes.label.clear();
+  around_strokes.colour = "#ffffff";
+  around_strokes.width = 4.5;
   const auto everywhere = [](const SamplePiece&) { return true; };
-  std::string zone;
+  ChartSeries zone{.label = "localised zone", .colour = teal, .width = 3.5};
   if (fields.has(localised_field))
-    zone = outline(pieces, &SamplePiece::moved, [&](const SamplePiece& piece) {
+    zone.points = outline(pieces, &SamplePiece::moved, [&](const SamplePiece& piece) {
       return fields.of_each_cell.at(localised_field)[piece.cell] >= 0.5;
     });
-
-  std::string letters;
-  const double radius = 0.022 * (high[1] - low[1]) / milli;
-  for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)
+  ChartSeries discs{.kind = ChartSeries::Kind::circles, .colour = "#ffffff", .rim = black};
+  ChartSeries letters{.kind = ChartSeries::Kind::texts, .colour = black, .size = 14.0};
+  for (const PointRve& rve : test.appearance.rves)
     {
-      const PlanePoint at = view.place(test.appearance.rves[k]);
-      letters += fmt::format("set object {0} circle at {1:.6g},{2:.6g} size {3:.4g} front fc rgb '#ffffff' fs solid 1 "
-                             "border lc rgb '{4}' lw 1\nset label '{5}' at {1:.6g},{2:.6g} center front tc rgb '{4}'\n",
-                             pieces.size() + k + 1, at[0] / milli, at[1] / milli, radius, black, letter_of_rve(k));
+      const PlanePoint at = view.place(rve);
+      discs.points.push_back({at[0] / milli, at[1] / milli, 0.022 * (high[1] - low[1]) / milli});
+      letters.points.push_back(discs.points.back());
+      letters.texts.push_back(letter_of_rve(letters.texts.size()));
     }
-
-  std::string data = fmt::format("$rest << EOD\n{}EOD\n$outline << EOD\n{}EOD\n$cells << EOD\n{}EOD\n",
-                                 outline(pieces, &SamplePiece::rest, everywhere),
-                                 outline(pieces, &SamplePiece::moved, everywhere), colours);
-  std::string plots =
-    fmt::format("plot $cells using 1:2:3 with dots lc palette notitle, $rest with lines lw 1 dt 2 lc rgb "
-                "'{}' title 'at rest', $outline with lines lw 1.2 lc rgb '{}' title 'displacements drawn {:g} times'",
-                grey, black, scale);
   std::string caption =
     fmt::format("{}, seed {}: share of the segments that are broken, in each cell, {}; displacements drawn {:g} times",
                 title, test.record.seed,
@@ -146,20 +128,10 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
     caption += ". The left half is the mirror image of the right";
   else if (fields.dimension == 3)
     caption += ". The section through the axis, seen from the front";
-  if (!strokes.empty())
-    {
-      data += fmt::format("$strokes << EOD\n{}EOD\n", strokes);
-      plots += fmt::format(", $strokes with vectors nohead lw 4.5 lc rgb '#ffffff' notitle, $strokes with "
-                           "vectors nohead lw 2 lc rgb '{}' title 'mean direction of the cracks'",
-                           black);
-      caption += ". Strokes: where the mean crack would cut the picture, the longer the more cracks lie alike";
-    }
-  if (!zone.empty())
-    {
-      data += fmt::format("$zone << EOD\n{}EOD\n", zone);
-      plots += fmt::format(", $zone with lines lw 3.5 lc rgb '{}' title 'localised zone'", teal);
-      caption += ". Localised: at least half of a cell's points";
-    }
+  if (!strokes.points.empty())
+    caption += ". Strokes: where the mean crack would cut the picture, the longer the more cracks lie alike";
+  if (!zone.points.empty())
+    caption += ". Localised: at least half of a cell's points";
   else if (fields.has(localised_field))
     caption += ". Nowhere have half of a cell's points localised";
   if (!test.appearance.rves.empty())
@@ -172,6 +144,35 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
   const double width = 1.12 * (high[0] - low[0]);
   const double height = 1.06 * (high[1] - low[1]);
   constexpr int inner_height = 620;
+  const PlanePoint middle{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
+  const bool stands_on_z = fields.dimension == 3 || fields.is_axisymmetric();
+  Chart chart{.look = Chart::Look::map,
+              .x = {.label = fields.is_axisymmetric() ? "r [mm]" : "x [mm]",
+                    .from = (middle[0] - 0.5 * width) / milli,
+                    .to = (middle[0] + 0.5 * width) / milli},
+              .y = {.label = stands_on_z ? "z [mm]" : "y [mm]",
+                    .from = (middle[1] - 0.5 * height) / milli,
+                    .to = (middle[1] + 0.5 * height) / milli},
+              .colour = {.label = "broken segments [%]", .from = 0.0, .to = most > 0.0 ? most / percent : 1.0},
+              // Light where little broke, so that the strokes are seen; its brightness falls all the way.
+              .palette = {"#f3f1ea", "#fdd49e", "#fc8d59", "#d7301f", "#a00000"},
+              .equal_scales = true,
+              .key_columns = 1,
+              .series = {std::move(cells),
+                         {.label = "at rest",
+                          .colour = grey,
+                          .width = 1.0,
+                          .dashes = 2,
+                          .points = outline(pieces, &SamplePiece::rest, everywhere)},
+                         {.label = fmt::format("displacements drawn {:g} times", scale),
+                          .colour = black,
+                          .width = 1.2,
+                          .points = outline(pieces, &SamplePiece::moved, everywhere)},
+                         std::move(around_strokes),
+                         std::move(strokes),
+                         std::move(zone),
+                         std::move(discs),
+                         std::move(letters)}};
   return {
     {.name = test.name + "_sample",
      .caption = caption,
@@ -181,18 +182,6 @@ std::vector<Picture> sample_picture(const FinishedTest& test, const std::string&
      .height = inner_height + 160,
      .raster = pieces.size() > 3000,
      .vector = pieces.size() <= 3000,
-     .script =
-       data + fmt::format(
-                "set size ratio -1\nset xlabel '{}' offset 0,0.4; set ylabel '{}'\nset tics nomirror out; "
-                "set border 3\nset xrange [{:.6g}:{:.6g}]; set yrange [{:.6g}:{:.6g}]\nset key below center horizontal "
-                "maxcols 1 Left reverse samplen 1.5 noenhanced\n"
-                // Light where little broke, so that the strokes are seen; its brightness falls all the way.
-                "set palette defined (0 '#f3f1ea', 1 '#fdd49e', 2 '#fc8d59', 3 '#d7301f', 4 '#a00000')\n"
-                "set cbrange [0:{:.6g}]\nset cblabel 'broken segments [%]'\n{}{}{}\n",
-                fields.is_axisymmetric() ? "r [mm]" : "x [mm]",
-                fields.dimension == 3 || fields.is_axisymmetric() ? "z [mm]" : "y [mm]",
-                (0.5 * (low[0] + high[0]) - 0.5 * width) / milli, (0.5 * (low[0] + high[0]) + 0.5 * width) / milli,
-                (0.5 * (low[1] + high[1]) - 0.5 * height) / milli, (0.5 * (low[1] + high[1]) + 0.5 * height) / milli,
-                most > 0.0 ? most / percent : 1.0, objects, letters, plots)}};
+     .panels = {std::move(chart)}}};
 }
 } // namespace feldspar

@@ -3,7 +3,6 @@
 #include "report/pictures/plot_style.h"
 
 #include <Eigen/Dense>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,15 +147,16 @@ SamplePiece SampleView::section(const std::size_t k) const
   return piece;
 }
 
-std::string outline(const std::vector<SamplePiece>& pieces, const std::vector<PlanePoint> SamplePiece::*drawn,
-                    const std::function<bool(const SamplePiece&)>& inside)
+std::vector<ChartPoint> outline(const std::vector<SamplePiece>& pieces,
+                                const std::vector<PlanePoint> SamplePiece::*drawn,
+                                const std::function<bool(const SamplePiece&)>& inside)
 {
   // Nodes of each cell are its own: those at one place are one.
   const auto key_of = [](const PlanePoint& point) {
     constexpr double small = 1e-8; // [m]
     return std::array{std::llround(point[0] / small), std::llround(point[1] / small)};
   };
-  std::map<std::array<std::array<long long, 2>, 2>, std::pair<int, std::string>> edges;
+  std::map<std::array<std::array<long long, 2>, 2>, std::pair<int, std::array<PlanePoint, 2>>> edges;
   for (const SamplePiece& piece : pieces)
     if (inside(piece))
       for (std::size_t k = 0; k < piece.rest.size(); ++k)
@@ -167,17 +167,20 @@ std::string outline(const std::vector<SamplePiece>& pieces, const std::vector<Pl
             continue;
           if (key[1] < key[0])
             std::swap(key[0], key[1]);
-          auto& [n, rows] = edges[key];
-          ++n;
           const auto& points = piece.*drawn;
-          rows = fmt::format("{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", points[k][0] / milli, points[k][1] / milli,
-                             points[next][0] / milli, points[next][1] / milli);
+          auto& [n, ends] = edges[key];
+          ++n;
+          ends = {points[k], points[next]};
         }
-  std::string rows;
+  std::vector<ChartPoint> lines;
   for (const auto& [key, edge] : edges)
     if (edge.first == 1)
-      rows += edge.second;
-  return rows;
+      {
+        for (const PlanePoint& end : edge.second)
+          lines.push_back({end[0] / milli, end[1] / milli});
+        lines.push_back(gap);
+      }
+  return lines;
 }
 
 PlanePoint middle_of(const std::vector<PlanePoint>& corners)

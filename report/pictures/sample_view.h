@@ -1,10 +1,10 @@
 #pragma once
 
+#include "report/chart/chart.h"
 #include "results/runs/run.h"
 
 #include <array>
 #include <functional>
-#include <string>
 #include <vector>
 
 /// The way from the mesh of a sample to the plane of a picture [m].
@@ -44,9 +44,10 @@ private:
   double cut = 0.0; ///< y of the section of a body in space
 };
 
-/// Edges of the pieces for which `inside` holds, as rows for gnuplot [mm], unless pieces on both sides are inside.
-std::string outline(const std::vector<SamplePiece>& pieces, const std::vector<PlanePoint> SamplePiece::*drawn,
-                    const std::function<bool(const SamplePiece&)>& inside);
+/// Edges of the pieces for which `inside` holds [mm], a gap after each, unless pieces on both sides are inside.
+std::vector<ChartPoint> outline(const std::vector<SamplePiece>& pieces,
+                                const std::vector<PlanePoint> SamplePiece::*drawn,
+                                const std::function<bool(const SamplePiece&)>& inside);
 
 PlanePoint middle_of(const std::vector<PlanePoint>& corners);
 double area_of(const std::vector<PlanePoint>& corners);

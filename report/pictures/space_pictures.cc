@@ -1,6 +1,6 @@
-#include "report/pictures/space_pictures.h"
-
+#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
+#include "report/pictures/rves.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -155,7 +155,7 @@ Json fragment_panel(const std::vector<GrainPicture>& grains, const Box& box)
 }
 } // namespace
 
-std::vector<Picture> space_picture(const FinishedTest& test, const std::string& title)
+Pictures space_picture(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
   const auto& grains = test.appearance.grains_at_end;
@@ -180,8 +180,7 @@ std::vector<Picture> space_picture(const FinishedTest& test, const std::string& 
      .height = 900,
      .raster = true,
      .vector = false,
-     .drawn_by = DrawnBy::vtk,
-     .script = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
+     .scene = fmt::format("panels = {}\n{}", panels.dump(), space_scene)}};
 }
 
 Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vector<std::string>& headings)
@@ -217,8 +216,7 @@ Picture space_picture_of_rves(const std::vector<PointRve>& rves, const std::vect
   picture.height = 560;
   picture.raster = true;
   picture.vector = false;
-  picture.drawn_by = DrawnBy::vtk;
-  picture.script = fmt::format("panels = {}\n{}", panels.dump(), space_scene);
+  picture.scene = fmt::format("panels = {}\n{}", panels.dump(), space_scene);
   return picture;
 }
 } // namespace feldspar

@@ -1,10 +1,12 @@
-#include "report/pictures/study_pictures.h"
-
 #include "base/append.h"
-#include "report/pictures/plane_plot.h"
+#include "report/chart/gnuplot_writer.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/plot_style.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -237,36 +239,22 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const Property&
 {
   constexpr int width = 660; // [px]
   const std::string& entry = over.varied.entry;
-  PlanePlot plotted(
-    {.x_label = with_unit(entry, over.varied.unit), .y_label = with_unit(property.title, property.unit)});
+  Chart chart{.x = {.label = with_unit(entry, over.varied.unit), .room = 0.04},
+              .y = {.label = with_unit(property.title, property.unit), .from = 0.0}};
   for (std::size_t n = 0; n < shown.lines.size(); ++n)
     {
-      const std::string label = shown.lines[n].label();
-      const std::string of_colour = colour({}, n);
-      ChartLine means{.label = label, .colour = of_colour, .width = 2.0};
-      ChartLine marks{.kind = ChartLine::Kind::marks, .label = label, .goes_with = label, .colour = of_colour};
-      ChartLine bars{.kind = ChartLine::Kind::bars,
-                     .label = label,
-                     .goes_with = label,
-                     .colour = of_colour,
-                     .width = 1.4};
+      ChartSeries means{.kind = shown.joined ? ChartSeries::Kind::marked_line : ChartSeries::Kind::marks,
+                        .label = shown.lines[n].label(),
+                        .colour = colour({}, n),
+                        .bars = ChartSeries::Bars::along_y,
+                        .width = shown.joined ? 2.0 : 1.4};
       for (const auto& [value, results] : shown.lines[n].results)
         {
           const Statistics of = *statistics(results);
-          means.points.push_back({value, of.mean});
-          if (!of.standard_deviation)
-            continue;
-          for (const double sign : {-1.0, 1.0})
-            bars.points.push_back({value, of.mean + sign * *of.standard_deviation});
-          bars.points.push_back(gap);
+          const double deviation = of.standard_deviation.value_or(0.0);
+          means.points.push_back({value, of.mean, of.mean - deviation, of.mean + deviation});
         }
-      marks.points = means.points;
-      if (shown.joined)
-        plotted.add(std::move(means));
-      else
-        marks.goes_with.clear();
-      plotted.add(std::move(marks));
-      plotted.add(std::move(bars));
+      chart.series.push_back(std::move(means));
     }
   std::string along;
   for (const std::string& other : over.along)
@@ -278,10 +266,8 @@ Picture picture_of(const Selection& shown, const Abscissa& over, const Property&
           .alternative = fmt::format("The {} over the values of {}; the numbers are in the table of the comparison.",
                                      property.title, entry),
           .width = width,
-          .height = 420 + plotted.columns().further_height(width),
-          .script = plotted.script("set yrange [0:*]\nset offsets graph 0.04, graph 0.04, 0, 0\n" +
-                                   plotted.columns().set_up(width) + "\n"),
-          .live = plotted.json()};
+          .height = 420 + further_height(chart, width),
+          .panels = {std::move(chart)}};
 }
 
 /// Results over two entries.
@@ -333,33 +319,56 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
   if (cells.size() < fewest || values[0].size() < 2 || values[1].size() < 2)
     return std::nullopt;
   const bool is_grid = cells.size() == values[0].size() * values[1].size();
-  std::string rows;
+  ChartSeries fields{.kind = is_grid ? ChartSeries::Kind::area : ChartSeries::Kind::marks,
+                     .colours = ChartSeries::Colours::by_value,
+                     .size = 2.4};
+  ChartSeries numbers{.kind = ChartSeries::Kind::texts, .colour = black, .size = 11.0};
+  // Numbers stand on fields, but above points.
+  const double above = is_grid ? 0.0 : 0.04 * (*values[1].rbegin() - *values[1].begin());
   for (const auto& [place, results] : cells)
     {
-      const auto [left, right] = cell_about(place[0], values[0]);
-      const auto [bottom, top] = cell_about(place[1], values[1]);
-      rows += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.5g} {:.4g}\n", place[0], place[1], left, right,
-                          bottom, top, statistics(results)->mean, statistics(results)->mean);
+      const auto& [x, y] = place;
+      const auto [left, right] = cell_about(x, values[0]);
+      const auto [bottom, top] = cell_about(y, values[1]);
+      const double mean = statistics(results)->mean;
+      if (is_grid)
+        append(fields.points, {{left, bottom, 0.0, mean},
+                               {right, bottom, 0.0, mean},
+                               {right, top, 0.0, mean},
+                               {left, top, 0.0, mean},
+                               gap});
+      else
+        fields.points.push_back({x, y, 0.0, mean});
+      numbers.points.push_back({x, y + above});
+      numbers.texts.push_back(fmt::format("{:.4g}", mean));
     }
-  const std::string& x = over[0].varied.entry;
-  const std::string& y = over[1].varied.entry;
-  std::string plots = is_grid ? "plot $map using 1:2:3:4:5:6:7 with boxxyerror fill solid noborder lc palette notitle"
-                              : "plot $map using 1:2:7 with points pt 7 ps 2.4 lc palette notitle";
-  if (cells.size() <= most_labels)
-    plots += fmt::format(", $map using 1:2:8 with labels{} font ',11' notitle", is_grid ? "" : " offset 0,1");
+  if (cells.size() > most_labels)
+    numbers = {};
+  const std::array<std::string, 2> names{over[0].varied.entry, over[1].varied.entry};
+  std::array<ChartAxis, 2> axes;
+  for (std::size_t c = 0; c < 2; ++c)
+    {
+      axes[c] = {.label = with_unit(names[c], over[c].varied.unit), .room = is_grid ? 0.0 : 0.04};
+      if (is_grid) // its fields reach beyond the values
+        {
+          axes[c].from = cell_about(*values[c].begin(), values[c])[0];
+          axes[c].to = cell_about(*values[c].rbegin(), values[c])[1];
+        }
+    }
   return Picture{
-    .name = fmt::format("study_map_{}_{}_{}_{}", file_name(x), file_name(y), property.name, group.name()),
+    .name = fmt::format("study_map_{}_{}_{}_{}", file_name(names[0]), file_name(names[1]), property.name, group.name()),
     .caption = fmt::format("{}{}, {}, over {} and {}: mean over the seeds", char(std::toupper(property.title.front())),
-                           property.title.substr(1), group.title(), x, y),
+                           property.title.substr(1), group.title(), names[0], names[1]),
     .alternative = fmt::format("A map of the {} over {} and {}; the numbers are in the table of the comparison.",
-                               property.title, x, y),
+                               property.title, names[0], names[1]),
     .width = 660,
     .height = 480,
-    .script = fmt::format("$map << EOD\n{}EOD\n", rows) +
-              frame(with_unit(x, over[0].varied.unit), with_unit(y, over[1].varied.unit)) +
-              "unset grid\nset palette defined (0 '#deebf7', 1 '#9ecae1', 2 '#4292c6')\nset offsets graph 0.01, graph "
-              "0.01, graph 0.01, graph 0.01\n" +
-              fmt::format("set cblabel {}\n", gnuplot_text(with_unit(property.title, property.unit))) + plots + "\n"};
+    .panels = {{.x = axes[0],
+                .y = axes[1],
+                .colour = {.label = with_unit(property.title, property.unit)},
+                .palette = {"#deebf7", "#9ecae1", "#4292c6"},
+                .key_columns = 1,
+                .series = {std::move(fields), std::move(numbers)}}}};
 }
 
 /// Named for what they are: of a body with flaws the highest stress is a nominal one.

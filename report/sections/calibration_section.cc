@@ -1,4 +1,5 @@
 #include "report/pictures/calibration_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/sections/sections.h"
 #include "report/sections/text.h"
 
@@ -156,7 +157,7 @@ PageSection calibration_section(const CalibrationRecord& record, PictureBook& bo
   for (const auto& row : record.parameters)
     if (!row.sentence.empty())
       block.points.push_back(row.sentence);
-  block.pictures = book.keep(pair_picture(record));
+  block.pictures = book.keep(pictures_of(calibration_figures, record));
   section.blocks.push_back(block);
   PageBlock more;
   if (Table table = prediction_table(record); !table.rows.empty())

@@ -1,11 +1,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/envelope_pictures.h"
-#include "report/pictures/maps/crack_map.h"
-#include "report/pictures/maps/fragment_pictures.h"
-#include "report/pictures/maps/rose_picture.h"
-#include "report/pictures/space_pictures.h"
+#include "report/pictures/figures.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/test_groups.h"
 
@@ -36,9 +32,8 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
         if (const auto* test = typical(group))
           {
             const std::string title = findings.titled(group.title(), series);
-            append(maps, crack_map(*test, title));
-            append(maps, space_picture(*test, title));
-            append(fragments, fragment_map(*test, title));
+            append(maps, pictures_of(crack_figures, *test, title));
+            append(fragments, pictures_of(fragment_figures, *test, title));
           }
       if (!findings.one_folder)
         for (auto* pictures : {&maps, &fragments})
@@ -50,14 +45,17 @@ PageSection crack_section(const Findings& findings, PictureBook& book)
             ? "No crack map: there are no cracks, or no test with a peak, in this result folder."
             : "No crack map: the positions of the grains, or a test with a peak, are missing in this result folder.");
       block.pictures = place(std::move(maps));
-      append(block.pictures, place(rose_picture(series)));
+      const SeriesAmong among{findings.all, n, findings.envelopes[n], findings.reference};
+      append(block.pictures, place(pictures_of(direction_figures, among)));
       append(block.pictures, place(std::move(fragments)));
-      append(block.pictures, place(fragment_size_picture(series, n)));
+      append(block.pictures, place(pictures_of(fragment_size_figures, among)));
       if (findings.is_in_full(n))
         section.blocks.push_back(block);
     }
   PageBlock together;
-  together.pictures = book.keep(shear_share_picture(findings.pictured));
+  const std::vector<StrengthEnvelopes> envelopes = findings.pictured_envelopes();
+  together.pictures =
+    book.keep(pictures_of(crack_figures_of_all, AllSeries{findings.pictured, envelopes, findings.reference}));
   if (!together.pictures.empty())
     section.blocks.push_back(together);
   append(section.blocks,

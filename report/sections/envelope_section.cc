@@ -1,8 +1,7 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/envelope_pictures.h"
-#include "report/pictures/stress_plane_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/sections/text.h"
 #include "results/folder/result_folder.h"
 
@@ -175,9 +174,9 @@ bool make_an_envelope(const StrengthData& data)
 PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& book)
 {
   const StrengthEnvelopes& envelopes = findings.envelopes[n];
-  book.keep_as_files(envelope_pictures(findings.all, n, envelopes, findings.reference));
-  book.keep_as_files(mohr_picture(findings.all[n], n, envelopes));
-  book.keep_as_files(residual_picture(findings.all[n], n, envelopes));
+  const SeriesAmong among{findings.all, n, envelopes, findings.reference};
+  book.keep_as_files(pictures_of(strength_figures, among));
+  book.keep_as_files(pictures_of(residual_figures, among));
   PageBlock block;
   block.tables_as_files = {fit_table(envelopes, "envelopes" + findings.ending_of_files(n)),
                            residual_table(envelopes, "residuals" + findings.ending_of_files(n))};
@@ -212,12 +211,12 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
         "No series has strengths at two confinements, or in compression and tension, so there is no envelope.");
       return section;
     }
-  if (auto combined = combined_envelope_picture(findings.pictured, pictured_envelopes, findings.reference);
-      any_envelope && !combined.empty())
+  Pictures of_all =
+    pictures_of(strength_figures_of_all, AllSeries{findings.pictured, pictured_envelopes, findings.reference});
+  if (any_envelope && findings.has_several() && !of_all.empty())
     {
       PageBlock together;
-      together.pictures = book.keep(std::move(combined));
-      append(together.pictures, book.keep(p_q_picture(findings.pictured, pictured_envelopes)));
+      together.pictures = book.keep(of_all);
       section.blocks.push_back(together);
     }
   for (std::size_t n = 0; n < findings.all.size(); ++n)
@@ -252,10 +251,10 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
           block.paragraphs.push_back(printed);
       block.paragraphs.push_back("Each fit is drawn between the least and the largest σ₃ of its points, and only if it "
                                  "has more points than parameters; q over p shows the part under compression.");
-      block.pictures = book.keep(envelope_pictures(findings.all, n, envelopes, findings.reference));
-      append(block.pictures, book.keep(mohr_picture(findings.all[n], n, envelopes)));
+      const SeriesAmong among{findings.all, n, envelopes, findings.reference};
+      block.pictures = book.keep(pictures_of(strength_figures, among));
       if (!findings.has_several())
-        append(block.pictures, book.keep(p_q_picture(findings.all, findings.envelopes)));
+        append(block.pictures, book.keep(of_all));
       section.blocks.push_back(block);
       PageBlock figures;
       figures.tables.push_back(fit_table(envelopes, "envelopes" + findings.ending_of_files(n)));
@@ -267,7 +266,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       section.blocks.push_back(figures);
       PageBlock residuals;
       residuals.folded = findings.titled("Residual of every point", findings.all[n]);
-      residuals.pictures = book.keep(residual_picture(findings.all[n], n, envelopes));
+      residuals.pictures = book.keep(pictures_of(residual_figures, among));
       residuals.tables.push_back(residual_table(envelopes, "residuals" + findings.ending_of_files(n)));
       if (!residuals.pictures.empty())
         section.blocks.push_back(residuals);

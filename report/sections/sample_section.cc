@@ -1,8 +1,8 @@
 #include "report/sections/sections.h"
 
 #include "base/append.h"
-#include "report/pictures/rve_pictures.h"
-#include "report/pictures/sample_pictures.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/rves.h"
 #include "report/sections/text.h"
 #include "results/runs/test_groups.h"
 
@@ -72,25 +72,19 @@ PageSection sample_section(const Findings& findings, PictureBook& book)
         for (const auto* test : group.tests)
           {
             const std::string title = findings.titled(group.title(), series);
-            const auto named = [&](std::vector<Picture> pictures) {
-              if (!findings.one_folder)
-                for (auto& picture : pictures)
-                  picture.name += findings.ending_of_files(n);
-              return pictures;
-            };
-            std::vector<Picture> sample = named(sample_picture(*test, title));
-            std::vector<Picture> rves = named(rve_picture(*test, title));
+            Pictures pictures = pictures_of(sample_figures, *test, title);
+            if (!findings.one_folder)
+              for (Picture& picture : pictures)
+                picture.name += findings.ending_of_files(n);
             if (std::find(on_page.begin(), on_page.end(), test) == on_page.end())
               {
                 if (findings.one_folder)
-                  for (auto* pictures : {&sample, &rves})
-                    book.keep_as_files(std::move(*pictures));
+                  book.keep_as_files(std::move(pictures));
                 continue;
               }
             PageBlock block;
             block.subheading = title;
-            block.pictures = book.keep(std::move(sample));
-            append(block.pictures, book.keep(std::move(rves)));
+            block.pictures = book.keep(std::move(pictures));
             if (block.pictures.empty())
               continue;
             block.tables = rve_tables(*test, title, findings.one_folder ? "" : findings.ending_of_files(n));

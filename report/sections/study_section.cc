@@ -1,4 +1,4 @@
-#include "report/pictures/study_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/sections/sections.h"
 
 namespace feldspar

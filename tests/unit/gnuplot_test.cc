@@ -1,8 +1,8 @@
 // What gnuplot makes of texts of others: by gnuplot itself, for a rule of ours about it could be wrong.
 
-#include "report/pictures/gnuplot.h"
-
 #include "base/quoted.h"
+#include "report/chart/gnuplot_writer.h"
+#include "report/pictures/picture.h"
 #include "report/pictures/plot_style.h"
 #include "tests/content.h"
 #include "tests/temporary_folder.h"
@@ -103,13 +103,25 @@ TEST(GnuplotText, IsReadByGnuplotAsThatTextAlone)
   EXPECT_TRUE(fs::exists(folder.path() / "marker"));
 }
 
-Picture picture(const std::string& name, const std::string& script)
+/// Two lines in a frame, with a text wherever a chart has one.
+Picture picture(const std::string& name, const std::string& text = "")
 {
+  const ChartSeries line{.label = text, .colour = plot::blue, .points = {{0.0, 0.0}, {1.0, 1.0}}};
+  const ChartSeries words{.kind = ChartSeries::Kind::texts,
+                          .colour = plot::blue,
+                          .size = 14.0,
+                          .points = {{0.5, 0.5}},
+                          .texts = {text}};
   Picture result;
   result.name = name;
   result.width = 900;
   result.height = 400;
-  result.script = script;
+  result.panels = {{.title = text,
+                    .x = {.label = text},
+                    .y = {.label = text},
+                    .right = {.label = text},
+                    .key_columns = 1,
+                    .series = {line, line, words}}};
   return result;
 }
 
@@ -129,10 +141,7 @@ TEST(GnuplotText, IsWrittenIntoPicturesAsItIsShown)
   const auto texts = hostile_texts();
   for (const std::string& text : texts)
     if (text.size() < 1000) // longer ones leave no room for a plot
-      pictures.push_back(
-        picture(fmt::format("picture_{}", pictures.size()),
-                plot::frame(text, text) + fmt::format("set title {} noenhanced\nplot x {}, 2*x {}\n",
-                                                      gnuplot_text(text), plot::title(text), plot::title(text))));
+      pictures.push_back(picture(fmt::format("picture_{}", pictures.size()), text));
   std::vector<std::pair<std::size_t, std::size_t>> heard;
   DrawingWatch watch;
   watch.hear = [&](const std::size_t n_done, const std::size_t n) { heard.emplace_back(n_done, n); };
@@ -152,7 +161,7 @@ TEST(GnuplotText, IsWrittenIntoPicturesAsItIsShown)
       const std::string all = unescaped(svg);
       for (std::size_t at = 0; (at = all.find(words, at)) != std::string::npos; at += words.size())
         ++n;
-      EXPECT_GE(n, 5u) << words; // two axes, the title of all and those of two lines
+      EXPECT_GE(n, 7u) << words; // three axes, the title of all, those of two lines and a text beside them
     }
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     EXPECT_NE(entry.path().filename(), "marker");
@@ -163,9 +172,9 @@ TEST(Draw, WorksInAFolderOfAnyNameAndTakesPlainNamesAlone)
   const TemporaryFolder folder;
   const fs::path odd = folder.path() / "|touch marker; `touch marker`\n' \xff -x";
   fs::create_directory(odd);
-  EXPECT_EQ(draw({picture("line", "plot x\n")}, odd).front(), "");
+  EXPECT_EQ(draw({picture("line")}, odd).front(), "");
   EXPECT_GT(fs::file_size(odd / "line.svg"), 1000u);
-  EXPECT_THROW(draw({picture("../line", "plot x\n")}, odd), std::logic_error);
+  EXPECT_THROW(draw({picture("../line")}, odd), std::logic_error);
   for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
     EXPECT_NE(entry.path().filename(), "marker");
 }
@@ -180,7 +189,7 @@ TEST(Gnuplot, ThatHangsIsEndedAndNotAskedAgain)
   setenv("PATH", ((folder.path() / "bin").string() + ":" + path).c_str(), 1);
   std::vector<Picture> pictures; // drawn side by side, so that each needs its own name
   for (const char* const name : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"})
-    pictures.push_back(picture(name, "plot x\n"));
+    pictures.push_back(picture(name));
   const auto begin = std::chrono::steady_clock::now();
   const auto problems = draw(pictures, folder.path(), std::chrono::milliseconds(300));
   setenv("PATH", path.c_str(), 1);

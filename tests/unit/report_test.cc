@@ -3,18 +3,15 @@
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
-#include "report/live/chart.h"
-#include "report/live/crack_story.h"
-#include "report/live/group_colour.h"
+#include "report/chart/page_writer.h"
 #include "report/page/picture_book.h"
 #include "report/page/table.h"
 #include "report/pictures/curves/curve_pictures.h"
-#include "report/pictures/envelope_pictures.h"
-#include "report/pictures/envelope_plot.h"
-#include "report/pictures/maps/crack_map.h"
-#include "report/pictures/maps/map_marks.h"
-#include "report/pictures/stress_plane_pictures.h"
-#include "report/pictures/study_pictures.h"
+#include "report/pictures/envelope_curves.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/crack_story.h"
+#include "report/pictures/maps/group_colour.h"
+#include "report/pictures/maps/map.h"
 #include "report/report.h"
 #include "report/sections/comparison.h"
 #include "report/sections/provenance.h"
@@ -46,6 +43,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -730,34 +728,37 @@ FinishedTest pressed(const double confinement, const double strength, const std:
 
 TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
 {
-  const auto script_of = [&](const std::vector<FinishedTest>& tests) {
+  // The rock was tested to 60 MPa, so that the plot goes on beyond the points of the model.
+  std::optional<Reference> reference(std::in_place);
+  reference->experiment.values["strength_at_60_MPa"] = {500.0, std::nullopt, std::nullopt};
+  const auto curves_of = [&](const std::vector<FinishedTest>& tests) {
     const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
-    // The rock was tested to 60 MPa, so that the plot goes on beyond the points of the model.
-    Reference reference;
-    reference.experiment.values["strength_at_60_MPa"] = {500.0, std::nullopt, std::nullopt};
-    return envelope_pictures(all, 0, fit_strength_envelopes(strength_data(tests)), reference).at(0).script;
+    const StrengthEnvelopes envelopes = fit_strength_envelopes(strength_data(tests));
+    std::map<std::string, std::vector<ChartPoint>> curves;
+    for (const ChartSeries& series : envelope_pictures({all, 0, envelopes, reference}).at(0).panels.at(0).series)
+      curves[series.label] = series.points;
+    return curves;
   };
-  const std::string of_two = script_of({pressed(0.0, 120e6), pressed(10e6, 200e6)});
-  EXPECT_EQ(of_two.find("Mohr–Coulomb"), std::string::npos);
-  EXPECT_EQ(of_two.find("H–B"), std::string::npos);
-  const std::string of_three = script_of({pressed(0.0, 120e6), pressed(10e6, 200e6), pressed(20e6, 250e6)});
-  ASSERT_NE(of_three.find("Mohr–Coulomb"), std::string::npos);
-  // Rows "σ_3 σ_1" of the curves come first, in blocks that end at 20 MPa.
-  const std::string curve = of_three.substr(of_three.rfind("<< EOD"));
-  const std::string rows = curve.substr(7, curve.find("EOD\n", 7) - 7);
-  const std::string last_row = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
-  EXPECT_NEAR(std::stod(last_row), 20.0, 1e-6) << last_row;
+  const auto of_two = curves_of({pressed(0.0, 120e6), pressed(10e6, 200e6)});
+  for (const auto& [label, points] : of_two)
+    EXPECT_EQ(label.find("Mohr–Coulomb") + label.find("H–B"), 2 * std::string::npos) << label;
+  auto of_three = curves_of({pressed(0.0, 120e6), pressed(10e6, 200e6), pressed(20e6, 250e6)});
+  ASSERT_TRUE(of_three.contains("Mohr–Coulomb"));
+  EXPECT_NEAR(of_three["Mohr–Coulomb"].back()[0], 20.0, 1e-6);
 
   // A printed envelope ends where the points of its source do, though the plot goes on to those of the model.
-  Reference printed;
-  printed.experiment.values = {{"strength_at_20_MPa", {300.0, std::nullopt, std::nullopt}},
-                               {"friction_angle_deg", {40.0, std::nullopt, std::nullopt}},
-                               {"cohesion_MPa", {30.0, std::nullopt, std::nullopt}}};
-  plot::EnvelopePlot plotted;
-  plotted.take_in(60e6, 500e6);
-  plotted.add_printed(printed.experiment, plot::black);
-  const auto chart = nlohmann::json::parse(plotted.json());
-  EXPECT_NEAR(chart["lines"].back()["points"].back()[0].get<double>(), 20.0, 1e-9) << chart;
+  reference->experiment.values = {{"strength_at_20_MPa", {300.0, std::nullopt, std::nullopt}},
+                                  {"friction_angle_deg", {40.0, std::nullopt, std::nullopt}},
+                                  {"cohesion_MPa", {30.0, std::nullopt, std::nullopt}}};
+  const auto printed = curves_of({pressed(0.0, 120e6), pressed(60e6, 500e6)});
+  std::size_t n_printed = 0;
+  for (const auto& [label, points] : printed)
+    if (label.ends_with(": c and φ, printed"))
+      {
+        ++n_printed;
+        EXPECT_NEAR(points.back()[0], 20.0, 1e-9);
+      }
+  EXPECT_EQ(n_printed, 1u);
 }
 
 TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
@@ -851,7 +852,7 @@ TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
   const auto live_of = [](const std::vector<Series>& all) {
     const auto pictures = study_pictures(all);
     EXPECT_FALSE(pictures.empty());
-    return pictures.empty() ? nlohmann::json() : nlohmann::json::parse(pictures.front().live);
+    return pictures.empty() ? nlohmann::json() : nlohmann::json::parse(pictures.front().live());
   };
   const std::vector<Series> all{series_at("a", {{"Flat joint/Friction", "0.2"}}, {100e6, 120e6}),
                                 series_at("b", {{"Flat joint/Friction", "0.5"}}, {150e6})};
@@ -886,9 +887,9 @@ TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
   ASSERT_EQ(of_step.size(), 1u);
   EXPECT_EQ(of_step[0].name, "study_Flat_joint_Friction_strength");
   EXPECT_NE(of_step[0].caption.find("; along with it goes Flat joint/Modulus, Specimen/Width"), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(of_step[0].live)["lines"][0]["points"],
+  EXPECT_EQ(nlohmann::json::parse(of_step[0].live())["lines"][0]["points"],
             nlohmann::json::parse("[[0.2, 80.0], [0.4, 90.0], [0.5, 95.0]]"));
-  EXPECT_EQ(nlohmann::json::parse(of_step[0].live)["lines"][0]["label"], "Uniaxial compression");
+  EXPECT_EQ(nlohmann::json::parse(of_step[0].live())["lines"][0]["label"], "Uniaxial compression");
 
   // A table of samples, in which no two agree in an entry: points without lines, over each.
   const std::vector<Series> samples{
@@ -899,7 +900,7 @@ TEST(StudyPicture, ShowsResultsOverTheNumberThatVaries)
   ASSERT_EQ(of_samples.size(), 2u);
   for (const Picture& picture : of_samples)
     {
-      const auto lines = nlohmann::json::parse(picture.live)["lines"];
+      const auto lines = nlohmann::json::parse(picture.live())["lines"];
       ASSERT_EQ(lines.size(), 1u); // marks
       EXPECT_EQ(lines[0]["points"].size(), 3u);
     }
@@ -928,7 +929,7 @@ TEST(StudyPicture, OfManyTestsShowsEachKindByItself)
   EXPECT_EQ(pictures[0].name, "study_Flat_joint_Friction_strength_direct_tension");
   EXPECT_EQ(pictures[1].name, "study_Flat_joint_Friction_strength_triaxial_compression");
   EXPECT_NE(pictures[1].caption.find("; 6 of 8 lines, all are in tests.csv"), std::string::npos) << pictures[1].caption;
-  const auto lines = nlohmann::json::parse(pictures[1].live)["lines"];
+  const auto lines = nlohmann::json::parse(pictures[1].live())["lines"];
   ASSERT_EQ(lines.size(), 2u * 6u); // means and marks
   EXPECT_EQ(lines[0]["label"], "Triaxial compression, 1 MPa");
   EXPECT_EQ(lines[10]["label"], "Triaxial compression, 8 MPa");
@@ -950,19 +951,18 @@ TEST(EnvelopePicture, GivesLongLabelsOfManySeriesAKeyOfMoreRows)
     std::vector<StrengthEnvelopes> envelopes;
     for (const Series& series : all)
       envelopes.push_back(fit_strength_envelopes(strength_data(series.tests)));
-    return combined_envelope_picture(all, envelopes, std::nullopt).at(0);
+    return combined_envelope_picture({all, envelopes, std::nullopt}).at(0);
   };
   const Picture brief = picture_of("law ");
   const Picture verbose = picture_of("Specimen/Joint law = softening flat joint ");
-  EXPECT_NE(brief.script.find("set key vertical maxrows 5"), std::string::npos);
+  EXPECT_NE(brief.script().find("set key vertical maxrows 5"), std::string::npos);
   const auto entries = [](const Picture& picture) {
-    std::size_t n = 0;
-    for (std::size_t at = 0; (at = picture.script.find(" title '", at)) != std::string::npos; ++at)
-      ++n;
-    return n;
+    const auto& series = picture.panels.at(0).series;
+    return std::count_if(series.begin(), series.end(),
+                         [](const ChartSeries& one) { return !one.points.empty() && one.goes_with.empty(); });
   };
-  ASSERT_EQ(entries(brief), 6u);
-  EXPECT_NE(verbose.script.find("set key vertical maxrows 6"), std::string::npos);
+  ASSERT_EQ(entries(brief), 6);
+  EXPECT_NE(verbose.script().find("set key vertical maxrows 6"), std::string::npos);
   EXPECT_EQ(verbose.height, brief.height + 23);
 }
 
@@ -1414,9 +1414,9 @@ TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
 
 TEST(Chart, IsDataThatEndsNoScript)
 {
-  Chart chart{.x_label = "</script><b>", .y_label = "q \xff [MPa]"};
-  chart.lines.push_back({.label = "a \"b\"", .colour = "#000000", .points = {{1.0 / 3.0, 2e6}, gap, {-1e-9, 0.0}}});
-  const std::string text = chart.json();
+  Chart chart{.x = {.label = "</script><b>"}, .y = {.label = "q \xff [MPa]"}};
+  chart.series.push_back({.label = "a \"b\"", .colour = "#000000", .points = {{1.0 / 3.0, 2e6}, gap, {-1e-9, 0.0}}});
+  const std::string text = live::chart_data(chart);
   EXPECT_EQ(text.find('<'), std::string::npos) << text;
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["x"], "</script><b>");
@@ -1435,7 +1435,7 @@ TEST(Chart, OfCurvesHasTheirPoints)
 {
   const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1), compression(2, 1.2)}, {}}};
   const auto pictures = curve_pictures(all).at(0).pictures;
-  const auto json = nlohmann::json::parse(pictures.at(0).live);
+  const auto json = nlohmann::json::parse(pictures.at(0).live());
   double highest = 0.0;
   std::size_t n_thin = 0;
   for (const auto& line : json["lines"])
@@ -1502,8 +1502,12 @@ TEST(CrackMap, NumbersTheFirstJointsThatBroke)
     EXPECT_GT(one.place[1], floor + 0.5 * letter);
 
   const auto map = crack_map(compression(1), "rock").at(0);
-  EXPECT_NE(map.script.find("$first using 1:2:3 with labels"), std::string::npos);
-  EXPECT_NE(map.script.find("$later with vectors"), std::string::npos) << "other segments of it break after initiation";
+  ASSERT_EQ(map.panels.size(), 3u);
+  const auto& at_initiation = map.panels[0].series;
+  EXPECT_FALSE(at_initiation.back().texts.empty());
+  const ChartSeries& later = at_initiation.at(at_initiation.size() - 2);
+  EXPECT_EQ(later.colour, "#707070");
+  EXPECT_FALSE(later.points.empty()) << "other segments of it break after initiation";
   EXPECT_NE(map.caption.find("numbers: the order in which the first joints broke"), std::string::npos) << map.caption;
   // Under the slider nothing is numbered, and there is one map instead of several.
   EXPECT_EQ(map.live_caption.find("numbers"), std::string::npos) << map.live_caption;

@@ -1,9 +1,9 @@
-#include "report/pictures/sample_pictures.h"
+#include "report/pictures/figures.h"
 
 #include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "dem/lab/protocols/protocols.h"
-#include "report/pictures/rve_pictures.h"
+#include "report/pictures/rves.h"
 #include "results/folder/result_folder.h"
 #include "tests/temporary_folder.h"
 
@@ -12,7 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,55 +66,47 @@ FinishedTest test_with(const SampleFields& fields)
   return test;
 }
 
-std::string script_of(const SampleFields& fields)
+Chart chart_of(const SampleFields& fields)
 {
   const auto pictures = sample_picture(test_with(fields), "Direct tension");
   EXPECT_EQ(pictures.size(), 1u);
-  return pictures.at(0).script;
+  return pictures.at(0).panels.at(0);
 }
 
-/// Rows of a block of data, without empty ones.
-std::vector<std::vector<double>> rows_of(const std::string& script, const std::string& block)
+constexpr const char* outline = "displacements drawn 10 times";
+constexpr const char* strokes_label = "mean direction of the cracks";
+
+/// Points of the series of a label or, without one, of a kind; without gaps.
+std::vector<ChartPoint> points_of(const Chart& chart, const std::string& label,
+                                  const std::optional<ChartSeries::Kind> kind = std::nullopt)
 {
-  std::istringstream lines(script.substr(std::min(script.find(block + " << EOD\n"), script.size())));
-  std::string line;
-  std::getline(lines, line);
-  std::vector<std::vector<double>> rows;
-  while (std::getline(lines, line) && line != "EOD")
-    if (!line.empty())
-      {
-        std::istringstream words(line);
-        rows.emplace_back();
-        for (double word = 0.0; words >> word;)
-          rows.back().push_back(word);
-      }
-  return rows;
+  std::vector<ChartPoint> points;
+  for (const ChartSeries& series : chart.series)
+    if (series.label == label && (!kind || series.kind == *kind))
+      std::copy_if(series.points.begin(), series.points.end(), std::back_inserter(points),
+                   [](const ChartPoint& point) { return std::isfinite(point[0]); });
+  return points;
 }
 
-std::size_t count(const std::string& text, const std::string& what)
-{
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size())
-    ++n;
-  return n;
-}
+std::size_t n_cells(const Chart& chart) { return points_of(chart, "", ChartSeries::Kind::area).size() / 4; }
 
 TEST(SamplePicture, DrawsCellsAsTheyAreDisplacedAndSaysHowMuch)
 {
   const auto test = test_with(blocks(2));
   const auto picture = sample_picture(test, "Direct tension").at(0);
-  EXPECT_EQ(count(picture.script, " polygon from "), 4u);
+  const Chart chart = picture.panels.at(0);
+  EXPECT_EQ(n_cells(chart), 4u);
   // Lifted by 0.1 mm of 20: to be seen as at most 6 %, which is 12 times, round: 10 times.
   EXPECT_NE(picture.caption.find("displacements drawn 10 times"), std::string::npos) << picture.caption;
   EXPECT_NE(picture.caption.find("at the end"), std::string::npos) << picture.caption;
   double highest = 0.0;
-  for (const auto& row : rows_of(picture.script, "$outline"))
+  for (const auto& row : points_of(chart, outline))
     highest = std::max(highest, row.at(1));
   EXPECT_NEAR(highest, 21.0, 1e-9);
   // The outline of a square of four cells has eight of their edges, each of two ends.
-  EXPECT_EQ(rows_of(picture.script, "$outline").size(), 16u);
-  EXPECT_EQ(rows_of(picture.script, "$rest").size(), 16u);
-  EXPECT_NE(picture.script.find("set cbrange [0:3]"), std::string::npos); // 3 % of the last cell
+  EXPECT_EQ(points_of(chart, outline).size(), 16u);
+  EXPECT_EQ(points_of(chart, "at rest").size(), 16u);
+  EXPECT_NEAR(chart.colour.to.value(), 3.0, 1e-9); // 3 % of the last cell
 }
 
 TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
@@ -126,27 +119,27 @@ TEST(SamplePicture, SaysThatAnInterruptedTestIsShownAsLastWritten)
 TEST(SamplePicture, OutlinesWhatHasLocalisedWhereTheFieldsKnow)
 {
   SampleFields fields = blocks(2);
-  EXPECT_EQ(script_of(fields).find("$zone"), std::string::npos);
+  EXPECT_TRUE(points_of(chart_of(fields), "localised zone").empty());
   // The lower two cells together: six edges, none between them. A quarter of a cell's points is too few.
   fields.of_each_cell["localised_share"] = {1.0, 0.5, 0.25, 0.0};
-  const auto zone = rows_of(script_of(fields), "$zone");
+  const auto zone = points_of(chart_of(fields), "localised zone");
   EXPECT_EQ(zone.size(), 12u);
   for (const auto& point : zone)
     EXPECT_LE(point.at(1), 10.5 + 1e-9);
   fields.of_each_cell["localised_share"] = {0.0, 0.0, 0.0, 0.0};
-  EXPECT_EQ(script_of(fields).find("$zone"), std::string::npos);
+  EXPECT_TRUE(points_of(chart_of(fields), "localised zone").empty());
 }
 
 TEST(SamplePicture, StrokesLieInTheMeanCrack)
 {
   SampleFields fields = blocks(2);
-  EXPECT_TRUE(rows_of(script_of(fields), "$strokes").empty());
+  EXPECT_TRUE(points_of(chart_of(fields), strokes_label).empty());
   const double along = std::sqrt(0.5);
   for (const auto& [name, values] : {std::pair("xx", std::vector{0.0, 0.0, 2.0, 0.5}),
                                      {"yy", std::vector{0.0, 3.0, 0.0, 0.5}},
                                      {"xy", std::vector{0.0, 0.0, 0.0, 0.5}}})
     fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = values;
-  const auto strokes = rows_of(script_of(fields), "$strokes");
+  const auto strokes = points_of(chart_of(fields), strokes_label);
   ASSERT_EQ(strokes.size(), 3u); // none where nothing broke
   // Normals all along y: a level crack, 0.8 of the cell's 10 mm, for no cell has more. All along x: upright, with two
   // thirds of the cracks. Along the diagonal: across it, with a third.
@@ -162,7 +155,7 @@ TEST(SamplePicture, StrokesLieInTheMeanCrack)
   for (const char* name : {"xx", "yy"})
     fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = {0.0, 1.0, 1.0, 1.0};
   fields.of_each_cell["crack_orientation_xy_per_m"] = {0.0, 0.0, 0.0, 0.0};
-  for (const auto& row : rows_of(script_of(fields), "$strokes"))
+  for (const auto& row : points_of(chart_of(fields), strokes_label))
     EXPECT_NEAR(std::hypot(row.at(2), row.at(3)), 0.0, 1e-9);
 }
 
@@ -170,17 +163,17 @@ TEST(SamplePicture, MirrorsAHalfSectionAndCutsABodyInSpace)
 {
   SampleFields half = blocks(2);
   half.of_each_cell["stress_rr_Pa"] = half.of_each_cell["stress_xx_Pa"];
-  const std::string both = script_of(half);
-  EXPECT_EQ(count(both, " polygon from "), 8u);
+  const Chart both = chart_of(half);
+  EXPECT_EQ(n_cells(both), 8u);
   // Around both halves: what lies on the axis is inside.
-  EXPECT_EQ(rows_of(both, "$outline").size(), 24u);
-  EXPECT_NE(both.find("set xlabel 'r [mm]'"), std::string::npos);
+  EXPECT_EQ(points_of(both, outline).size(), 24u);
+  EXPECT_EQ(both.x.label, "r [mm]");
 
   // The section between the cubes takes the four behind it.
-  const std::string section = script_of(blocks(3));
-  EXPECT_EQ(count(section, " polygon from "), 4u);
-  EXPECT_EQ(rows_of(section, "$outline").size(), 16u);
-  for (const auto& row : rows_of(section, "$rest"))
+  const Chart section = chart_of(blocks(3));
+  EXPECT_EQ(n_cells(section), 4u);
+  EXPECT_EQ(points_of(section, outline).size(), 16u);
+  for (const auto& row : points_of(section, "at rest"))
     EXPECT_TRUE(row.at(0) >= 0.0 && row.at(0) <= 20.0 && row.at(1) >= 0.0 && row.at(1) <= 20.0);
 }
 
@@ -206,13 +199,17 @@ TEST(SamplePicture, MarksTheRvesThatAreDrawn)
   auto test = test_with(blocks(2));
   test.appearance.rves = {rve()};
   const auto sample = sample_picture(test, "Direct tension").at(0);
-  EXPECT_NE(sample.script.find("set label 'A' at 15,12.6 "), std::string::npos); // lifted by 0.06 mm, ten times
+  const ChartSeries letters = sample.panels.at(0).series.back();
+  EXPECT_EQ(letters.texts, std::vector<std::string>{"A"});
+  EXPECT_NEAR(letters.points.at(0)[0], 15.0, 1e-9);
+  EXPECT_NEAR(letters.points.at(0)[1], 12.6, 1e-9); // lifted by 0.06 mm, ten times
   const auto rves = rve_picture(test, "Direct tension").at(0);
-  EXPECT_NE(rves.script.find("'A: most damaged'"), std::string::npos);
-  EXPECT_EQ(rows_of(rves.script, "$grains0").size(), 1u);
-  EXPECT_EQ(rows_of(rves.script, "$loose0").size(), 1u);
+  const Chart panel = rves.panels.at(0);
+  EXPECT_EQ(panel.title, "A: most damaged");
+  EXPECT_EQ(points_of(panel, "", ChartSeries::Kind::circles).size(), 1u);
+  EXPECT_EQ(points_of(panel, "cut off").size(), 1u);
   // A crack stands across its normal.
-  const auto tension = rows_of(rves.script, "$tension0").at(0);
+  const auto tension = points_of(panel, "tension: 1").at(0);
   EXPECT_NEAR(tension.at(2), 0.0, 1e-12);
   EXPECT_NEAR(std::abs(tension.at(3)), 0.5, 1e-9);
   EXPECT_EQ(broken_share(test.appearance.rves[0]), 0.01);

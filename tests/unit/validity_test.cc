@@ -1,8 +1,8 @@
 // What results are called, which of them count, and what is said of a study: no figure stands for what was not measured.
 
 #include "dem/lab/protocols/protocols.h"
-#include "report/live/crack_story.h"
-#include "report/pictures/study_pictures.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/crack_story.h"
 #include "report/sections/comparison.h"
 #include "results/fits/run_envelopes.h"
 #include "results/fits/strength_data.h"
@@ -313,22 +313,31 @@ TEST(Study, OfTwoEntriesHasAMap)
       return picture.name == "study_map_Flat_joint_Bond_tensile_strength_Flat_joint_Installation_gap_ratio_strength_"
                              "uniaxial_compression";
     });
-    return found == pictures.end() ? std::string() : found->script;
+    return found == pictures.end() ? ChartSeries() : found->panels.front().series.front();
   };
   for (const auto& [gap, of_gap] : {std::pair("0.02", 10e6), {"0.05", 20e6}, {"0.1", 30e6}})
     for (const auto& [strength, of_strength] : {std::pair("10 MPa", 50e6), {"20 MPa", 100e6}})
       add(gap, strength, of_gap + of_strength);
   // Fields reach halfway to their neighbours: gaps of 0.02, 0.05, 0.1 from 0.005 to 0.035, 0.075 and 0.125.
-  const std::string grid = map_of_strength();
-  EXPECT_NE(grid.find("\n20 0.05 15 25 0.035 0.075 120 120\n"), std::string::npos) << grid;
-  EXPECT_NE(grid.find("<< EOD\n10 0.02 5 15 0.005 0.035 60 60\n"), std::string::npos) << grid;
-  EXPECT_NE(grid.find("boxxyerror"), std::string::npos);
+  const ChartSeries grid = map_of_strength();
+  EXPECT_EQ(grid.kind, ChartSeries::Kind::area);
+  const auto expect_field = [&](const std::size_t n, const std::array<double, 4>& ends, const double value) {
+    const auto& [left, right, bottom, top] = ends;
+    const std::array<ChartPoint, 4> corners{
+      {{left, bottom, 0.0, value}, {right, bottom, 0.0, value}, {right, top, 0.0, value}, {left, top, 0.0, value}}};
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t c = 0; c < 4; ++c)
+        EXPECT_NEAR(grid.points.at(5 * n + k)[c], corners[k][c], 1e-9) << n << ": " << k;
+  };
+  ASSERT_EQ(grid.points.size(), 6u * 5u); // four corners and a gap each
+  expect_field(0, {5.0, 15.0, 0.005, 0.035}, 60.0);
+  expect_field(4, {15.0, 25.0, 0.035, 0.075}, 120.0);
   // A design that is no grid has points; three entries, or one, have no map.
   all.pop_back();
-  EXPECT_NE(map_of_strength().find("with points"), std::string::npos);
+  EXPECT_EQ(map_of_strength().kind, ChartSeries::Kind::marks);
   for (Series& series : all)
     series.tests[0].settings.pop_back();
-  EXPECT_EQ(map_of_strength(), "");
+  EXPECT_TRUE(map_of_strength().points.empty());
 }
 
 TEST(NumbersThatAreNone, AreNullInJsonWithTheReasonBesideThem)

@@ -1,13 +1,91 @@
 #include "report/pictures/curves/curve_pictures.h"
 
-#include "report/pictures/curves/courses.h"
-#include "report/pictures/curves/stress_curves.h"
+#include "report/chart/gnuplot_writer.h"
+#include "report/pictures/figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace feldspar
 {
+bool SeriesGroup::counts_cracks() const
+{
+  return series->kind != SeriesKind::laboratory_curve &&
+         std::none_of(group.tests.begin(), group.tests.end(), [](const FinishedTest* test) {
+           const bool is_continuum =
+             test->record.body == TestBody::finite_elements && test->record.specimen.n_joints == 0;
+           return is_continuum ||
+                  (!test->record.curve.empty() && std::isnan(test->record.curve.back().energies.strain));
+         });
+}
+
+bool any_has_several(const SameTests& same)
+{
+  return std::any_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+}
+
+std::string means_of_several(const SameTests& same, const bool shows_single_tests)
+{
+  if (!any_has_several(same))
+    return "";
+  const bool all_have =
+    std::all_of(same.begin(), same.end(), [](const SeriesGroup& of) { return of.group.tests.size() > 1; });
+  if (all_have)
+    return std::string(". Lines: means; bands: ± standard deviation") +
+           (shows_single_tests ? "; thin lines: single tests" : "");
+  return std::string(". Of a series with several tests the line is the mean and the band ± standard deviation") +
+         (shows_single_tests ? "; thin lines are single tests" : "");
+}
+
+std::string abscissa_name(const SameTests& same)
+{
+  const TestKind& kind = same.front().group.kind;
+  return kind.follows_stages ? "time" : std::string(kind.channel.strain_name);
+}
+
+std::string abscissa_label(const SameTests& same)
+{
+  return abscissa_name(same) + (same.front().group.kind.follows_stages ? " [ms]" : " [10⁻³]");
+}
+
+void add_mean(Chart& chart, ChartSeries mean, const std::vector<std::array<double, 2>>& deviations)
+{
+  if (!deviations.empty())
+    {
+      ChartSeries band{.kind = ChartSeries::Kind::area,
+                       .label = mean.label + ", ± standard deviation",
+                       .goes_with = mean.label,
+                       .colour = mean.colour,
+                       .opacity = 0.18};
+      for (std::size_t k = 0; k < deviations.size(); ++k)
+        band.points.push_back({mean.points[k][0] + deviations[k][0], mean.points[k][1] + deviations[k][1]});
+      for (std::size_t k = deviations.size(); k-- > 0;)
+        band.points.push_back({mean.points[k][0] - deviations[k][0], mean.points[k][1] - deviations[k][1]});
+      chart.series.push_back(std::move(band));
+    }
+  chart.series.push_back(std::move(mean));
+}
+
+std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std::string& ending,
+                                   const std::string& caption, const std::string& alternative)
+{
+  constexpr int width = 580; // [px]
+  if (chart.empty())
+    return {};
+  const auto layer = [](const ChartSeries& series) {
+    return series.kind == ChartSeries::Kind::area ? 0 : !series.goes_with.empty() ? 1 : series.to_the_right ? 3 : 2;
+  };
+  std::stable_sort(chart.series.begin(), chart.series.end(),
+                   [&](const ChartSeries& a, const ChartSeries& b) { return layer(a) < layer(b); });
+  return {{.name = same.front().group.name() + ending,
+           .caption = caption,
+           .alternative = alternative,
+           .width = width,
+           .height = 450 + further_height(chart, width),
+           .panels = {std::move(chart)}}};
+}
+
 std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
 {
   // Of every series the tests of the same kind and pressure.
@@ -32,13 +110,9 @@ std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
   for (const auto& [group, same] : programme)
     {
       const std::string name = group.name();
-      const std::string of_tests = group.title();
       const bool is_shown =
         std::any_of(on_page.begin(), on_page.end(), [&](const TestGroup& one) { return one.name() == name; });
-      GroupPictures pictures{of_tests, is_shown, {}};
-      for (const auto& make : {stress_picture, crack_count_picture, energy_picture, crack_rate_picture})
-        if (auto picture = make(same, name, of_tests))
-          pictures.pictures.push_back(std::move(*picture));
+      GroupPictures pictures{group.title(), is_shown, pictures_of(curve_figures, same)};
       if (!pictures.pictures.empty())
         result.push_back(std::move(pictures));
     }

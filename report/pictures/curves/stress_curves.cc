@@ -1,6 +1,5 @@
-#include "report/pictures/curves/stress_curves.h"
-
-#include "report/pictures/curves/curve_plot.h"
+#include "report/pictures/curves/curve_pictures.h"
+#include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -36,7 +35,7 @@ double strain_at_peak(const TestGroup& group)
 
 /// Stress over a strain, up to `end` of the axial strain; the band lies along the axis along which `sideways` says the
 /// tests scatter.
-void add_stress_curve(CurvePlot& plot, const SeriesGroup& of, const Quantity& strain, const bool sideways,
+void add_stress_curve(Chart& chart, const SeriesGroup& of, const Quantity& strain, const bool sideways,
                       const double end, const int dashes, const std::string& label)
 {
   const auto& group = of.group;
@@ -48,20 +47,15 @@ void add_stress_curve(CurvePlot& plot, const SeriesGroup& of, const Quantity& st
       {
         const auto& curve = test->record.curve;
         const std::size_t stride = 1 + curve.size() / most_rows;
-        CurvePlot::Points points;
+        ChartSeries line{.label = fmt::format("{}, seed {}", label, test->record.seed),
+                         .goes_with = each_alone ? "" : label,
+                         .colour = series_colour,
+                         .width = !each_alone              ? 0.5
+                                  : group.tests.size() > 1 ? 1.0
+                                                           : 2.2};
         for (std::size_t k = 0; k < curve.size() && sign * curve[k].axial_strain <= end; k += stride)
-          points.push_back({sign * strain(curve[k]) / milli, group.kind.stress(curve[k]) / mega});
-        if (each_alone)
-          plot.add(2, {.label = fmt::format("{}, seed {}", label, test->record.seed),
-                       .colour = series_colour,
-                       .width = group.tests.size() > 1 ? 1.0 : 2.2,
-                       .points = std::move(points)});
-        else
-          plot.add(1, {.label = fmt::format("{}, seed {}", label, test->record.seed),
-                       .goes_with = label,
-                       .colour = series_colour,
-                       .width = 0.5,
-                       .points = std::move(points)});
+          line.points.push_back({sign * strain(curve[k]) / milli, group.kind.stress(curve[k]) / mega});
+        chart.series.push_back(std::move(line));
       }
   if (each_alone)
     return;
@@ -69,27 +63,33 @@ void add_stress_curve(CurvePlot& plot, const SeriesGroup& of, const Quantity& st
   const Band stress = band(
     group, [&](const CurveSample& row) { return row.*group.kind.channel.value; }, true);
   const Band strains = band(group, strain, true);
-  CurvePlot::Mean mean{label, series_colour, dashes, {}, {}, {}};
+  ChartSeries mean{.label = label, .colour = series_colour, .dashes = dashes};
+  std::vector<std::array<double, 2>> deviations;
   for (std::size_t k = 0; k < stress.abscissa.size() && stress.abscissa[k] <= end; ++k)
     {
-      const double x = strains.mean[k] / milli;
-      const double y = stress.mean[k] / mega;
-      const double dx = sideways ? strains.deviation[k] / milli : 0.0;
-      const double dy = sideways ? 0.0 : stress.deviation[k] / mega;
-      mean.points.push_back({x, y});
-      mean.above.push_back({x + dx, y + dy});
-      mean.below.push_back({x - dx, y - dy});
+      mean.points.push_back({strains.mean[k] / milli, stress.mean[k] / mega});
+      if (group.tests.size() > 1)
+        deviations.push_back(
+          {sideways ? strains.deviation[k] / milli : 0.0, sideways ? 0.0 : stress.deviation[k] / mega});
     }
-  plot.add(std::move(mean), group.tests.size() > 1);
+  add_mean(chart, std::move(mean), deviations);
 }
 } // namespace
 
-std::optional<Picture> stress_picture(const SameTests& same, const std::string& name, const std::string& of_tests)
+Pictures stress_picture(const SameTests& same)
 {
   const TestKind& kind = same.front().group.kind;
   // A test without uniform stress has no uniform strains either.
   const bool is_uniform = kind.has_uniform_stress;
-  CurvePlot plot;
+  const bool pulls = kind.sign > 0.0;
+  Chart chart{
+    .x = {.label = is_uniform ? (pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive")
+                              : fmt::format("{} [10⁻³]", kind.channel.strain_name)},
+    .y = {.label = is_uniform
+                     ? fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")
+                     : fmt::format("{} [MPa]", kind.channel.name),
+          .from = 0.0},
+    .key_columns = is_uniform ? 3 : 2};
   for (const auto& of : same)
     {
       const std::string beginning =
@@ -98,39 +98,24 @@ std::optional<Picture> stress_picture(const SameTests& same, const std::string& 
         return beginning.empty() ? ending : is_uniform ? beginning + ", " + ending : beginning;
       };
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
+        chart, of, [](const CurveSample& row) { return row.axial_strain; }, false, 1.0, 1,
         label(is_uniform ? std::string("axial") : std::string(kind.channel.name)));
       if (!is_uniform)
         continue;
       const double peak = strain_at_peak(of.group);
       const double end = peak > 0.0 ? peak : 1.0;
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"));
+        chart, of, [](const CurveSample& row) { return row.gauge_lateral_strain; }, true, end, 2, label("lateral"));
       add_stress_curve(
-        plot, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
+        chart, of, [](const CurveSample& row) { return row.gauge_volumetric_strain; }, true, end, 4,
         label("volumetric"));
     }
-  if (plot.empty())
-    return std::nullopt;
-  const bool pulls = kind.sign > 0.0;
-  const Chart axes{
-    .x_label = is_uniform ? (pulls ? "strain [10⁻³], extension positive" : "strain [10⁻³], shortening positive")
-                          : fmt::format("{} [10⁻³]", kind.channel.strain_name),
-    .y_label = is_uniform ? fmt::format("{} [MPa], {} positive", kind.channel.name, pulls ? "tension" : "compression")
-                          : fmt::format("{} [MPa]", kind.channel.name)};
   const std::string what = is_uniform
                              ? std::string("Stress against axial, lateral and volumetric strain")
                              : fmt::format("{} against {}", with_capital(kind.channel.name), kind.channel.strain_name);
-  return Picture{
-    .name = name + "_stress",
-    .caption = what + (kind.follows_stages ? "" : means_of_several(same, true)) +
-               (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
-    .alternative = what + " in " + of_tests + ".",
-    .width = CurvePlot::width,
-    .height = plot.height(is_uniform ? 3 : 2),
-    .script = plot.script(axes, fmt::format("set xzeroaxis; set yzeroaxis lw 0.8 lc rgb '#b0b0b0'\nset yrange [0:*]\n"
-                                            "set key maxcols {}\n",
-                                            is_uniform ? 3 : 2)),
-    .live = plot.json(axes)};
+  return curve_picture(std::move(chart), same, "_stress",
+                       what + (kind.follows_stages ? "" : means_of_several(same, true)) +
+                         (is_uniform ? ". Lateral and volumetric strain up to the mean strain at peak" : ""),
+                       what + " in " + same.front().group.title() + ".");
 }
 } // namespace feldspar

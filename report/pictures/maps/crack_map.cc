@@ -1,11 +1,9 @@
-#include "report/pictures/maps/crack_map.h"
-
-#include "report/live/crack_story.h"
-#include "report/live/group_colour.h"
-#include "report/pictures/maps/damage_map.h"
-#include "report/pictures/maps/map_frame.h"
-#include "report/pictures/maps/map_marks.h"
-#include "report/pictures/plot_style.h"
+#include "base/append.h"
+#include "base/prefixes.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/crack_story.h"
+#include "report/pictures/maps/group_colour.h"
+#include "report/pictures/maps/map.h"
 
 #include <fmt/format.h>
 
@@ -21,8 +19,6 @@ namespace feldspar
 {
 namespace
 {
-using namespace plot;
-
 /// Cracks where they came to: moved as the two grains whose surfaces were the nearest moved on the mean.
 std::vector<Crack> carried(const FinishedTest& test)
 {
@@ -61,100 +57,80 @@ std::vector<Crack> carried(const FinishedTest& test)
   return cracks;
 }
 
-std::string stage_rows(const std::vector<Crack>& cracks, const std::size_t axis, const CrackKind kind,
-                       const MapStage& stage)
-{
-  std::string rows;
-  for (const auto& crack : cracks)
-    if (crack.kind == kind && crack.step <= stage.last_step)
-      rows += trace_of(crack, axis);
-  return rows;
-}
-
-/// The order in which the first joints broke, to a map of that stage; those that broke later in grey.
-void add_numbers(std::string& data, std::string& plots, const std::vector<Crack>& cracks, const std::size_t axis,
-                 const MapStage& stage, const MapPaper& paper)
+/// The order in which the first joints broke, on a map of that stage; those that broke later in grey.
+void add_numbers(Chart& chart, const std::vector<Crack>& cracks, const std::size_t axis, const MapStage& stage,
+                 const MapPaper& paper)
 {
   const auto first = number_first_cracks(cracks, axis, paper);
-  if (first.empty())
-    return;
-  std::string numbers;
-  for (const auto& one : first)
-    fmt::format_to(std::back_inserter(numbers), "{:.6g} {:.6g} {}\n", one.place[0] / milli, one.place[1] / milli,
-                   one.number);
-  std::string later;
+  ChartSeries later{.kind = ChartSeries::Kind::segments, .colour = "#707070", .width = 1.8};
   for (const auto& crack : cracks)
     if (crack.step > stage.last_step &&
         std::any_of(first.begin(), first.end(), [&](const auto& one) { return one.joint == crack.joint; }))
-      later += trace_of(crack, axis);
-  if (!later.empty())
+      later.points.push_back(trace_of(crack, axis));
+  ChartSeries numbers{.kind = ChartSeries::Kind::texts, .colour = "#101010", .size = 14.0};
+  for (const auto& one : first)
     {
-      data += fmt::format("$later << EOD\n{}EOD\n", later);
-      plots += ", $later with vectors nohead lw 1.8 lc rgb '#707070' notitle";
+      numbers.points.push_back({one.place[0] / milli, one.place[1] / milli});
+      numbers.texts.push_back(fmt::format("{}", one.number));
     }
-  data += fmt::format("$first << EOD\n{}EOD\n", numbers);
-  plots += ", $first using 1:2:3 with labels font ',14' tc rgb '#101010' notitle";
+  append(chart.series, {later, numbers});
 }
 } // namespace
 
-std::vector<Picture> crack_map(const FinishedTest& test, const std::string& title)
+Pictures crack_map(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
   if (record.body == TestBody::finite_elements)
     return damage_map(test, title);
-  if (test.appearance.grains_at_end.empty() || record.curve.empty())
+  const auto& grains = test.appearance.grains_at_end;
+  if (grains.empty() || record.curve.empty())
     return {};
   const std::size_t axis = vertical_axis(record);
   const auto all_stages = map_stages(record);
-  const bool in_space = record.dimension() == 3;
   const MapFrame map_frame = map_frame_of(test);
   const MapLimits& frame = map_frame.frame;
-  const std::vector<Crack> cracks_at_end = carried(test);
-  const FlawOutlines flaws = flaw_outlines(test, "");
-  const auto colours = group_colours(test.appearance.grains_at_end);
-  std::string data = flaws.data;
-  std::string plots;
-  for (std::size_t s = 0; s < all_stages.size(); ++s)
+  const auto colours = group_colours(grains);
+  std::vector<Chart> panels;
+  for (const MapStage& stage : all_stages)
     {
-      const bool at_end = s + 1 == all_stages.size();
-      std::string grains;
-      for (std::size_t i = 0; i < colours.size(); ++i)
+      const bool at_end = &stage == &all_stages.back();
+      Chart chart = empty_map(frame, record, stage.title);
+      ChartSeries circles{.kind = ChartSeries::Kind::circles, .colours = ChartSeries::Colours::own};
+      for (std::size_t i = 0; i < grains.size(); ++i)
         {
-          const GrainPicture& grain = test.appearance.grains_at_end[i];
-          const auto& centre = at_end ? grain.position : grain.start;
-          fmt::format_to(std::back_inserter(grains), "{:.6g} {:.6g} {:.6g} {}\n", centre[0] / milli,
-                         centre[axis] / milli, grain.radius / milli, colours[i]);
+          const auto& centre = at_end ? grains[i].position : grains[i].start;
+          circles.points.push_back(
+            {centre[0] / milli, centre[axis] / milli, grains[i].radius / milli, double(colours[i])});
         }
-      data += fmt::format("$grains{} << EOD\n{}EOD\n", s, grains);
-      plots += fmt::format("set title {} noenhanced\nplot $grains{} using 1:2:3:4 with circles fill solid noborder lc "
-                           "rgb variable notitle",
-                           gnuplot_text(all_stages[s].title), s);
-      plots += flaws.plots;
-      for (const CrackKind kind : {CrackKind::tension, CrackKind::shear})
-        add_cracks(data, plots, s, kind, stage_rows(at_end ? cracks_at_end : record.cracks, axis, kind, all_stages[s]),
-                   1.8);
-      if (s == 0)
-        add_numbers(data, plots, at_end ? cracks_at_end : record.cracks, axis, all_stages[s], paper_of(frame));
-      plots += "\n";
+      chart.series.push_back(std::move(circles));
+      append(chart.series, flaw_lines(test));
+      const std::vector<Crack> cracks = at_end ? carried(test) : record.cracks;
+      std::vector<Crack> broken;
+      std::copy_if(cracks.begin(), cracks.end(), std::back_inserter(broken),
+                   [&](const Crack& crack) { return crack.step <= stage.last_step; });
+      append(chart.series, crack_traces(broken, axis, 1.8));
+      if (panels.empty())
+        add_numbers(chart, cracks, axis, stage, paper_of(frame));
+      panels.push_back(std::move(chart));
     }
   const auto [width, height] = panel_size(frame);
-  const int columns = is_long(frame) ? 1 : int(all_stages.size());
-  const int rows = is_long(frame) ? int(all_stages.size()) : 1;
+  const int n_panels = int(panels.size());
+  const int columns = is_long(frame) ? 1 : n_panels;
+  const std::string view = record.dimension() == 3 ? ", seen from the front through the whole body" : "";
   return {{.name = test.name + "_cracks",
-           .caption = fmt::format("{}, {}: cracks {}{}{}{}", title, seed_of(test), in_words(all_stages),
-                                  in_space ? ", seen from the front through the whole body" : "",
+           .caption = fmt::format("{}, {}: cracks {}{}{}{}", title, seed_of(test), in_words(all_stages), view,
                                   record.cracks.empty() ? "" : "; numbers: the order in which the first joints broke",
                                   map_frame.remark()),
            .alternative = fmt::format("Maps of the cracks of {} ({}): {} tension and {} shear cracks at the end.",
                                       title, seed_of(test), test.results.n_tension_cracks, test.results.n_shear_cracks),
            .width = width * columns,
-           .height = height * rows,
+           .height = height * (n_panels / columns),
            .raster = true,
            .vector = false,
-           .script = data + map_set_up(frame, record) +
-                     fmt::format("set multiplot layout {},{}\n{}unset multiplot\n", rows, columns, plots),
-           .live = crack_story(test),
-           .live_caption = fmt::format("{}, {}: segments broken up to the place of the slider{}", title, seed_of(test),
-                                       in_space ? ", seen from the front through the whole body" : "")}};
+           .panels = std::move(panels),
+           .columns = columns,
+           .story = crack_story(test),
+           .live_caption =
+             fmt::format("{}, {}: segments broken up to the place of the slider{}", title, seed_of(test), view)}};
 }
 } // namespace feldspar

@@ -1,6 +1,6 @@
-#include "report/pictures/maps/damage_map.h"
 
-#include "report/pictures/maps/map_frame.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
+#include <utility>
 
 namespace feldspar
 {
@@ -56,7 +56,7 @@ double room_for_circles(const std::map<std::uint64_t, PointDamage>& points, cons
 } // namespace
 
 // Circles at the points: area by the number of broken segments, the inner one of those broken in shear.
-std::vector<Picture> damage_map(const FinishedTest& test, const std::string& title)
+Pictures damage_map(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
   if (record.cracks.empty() || record.curve.empty())
@@ -73,31 +73,29 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
   const double height = record.size[vertical_axis(record)];
   frame.low = {-0.12 * record.size[0], -0.02 * height};
   frame.high = {1.12 * record.size[0], 1.02 * height};
-  std::string data;
-  std::string plots;
-  for (std::size_t s = 0; s < all_stages.size(); ++s)
+  const double x = record.size[0] / milli;
+  const double y = height / milli;
+  const ChartSeries body{.kind = ChartSeries::Kind::area,
+                         .colour = light_grey,
+                         .points = {{0.0, 0.0}, {x, 0.0}, {x, y}, {0.0, y}, gap}};
+  std::vector<Chart> panels;
+  for (const MapStage& stage : all_stages)
     {
-      std::string rows;
+      ChartSeries whole{.kind = ChartSeries::Kind::circles, .colour = tension_colour};
+      ChartSeries inner{.kind = ChartSeries::Kind::circles, .colour = shear_colour};
       std::size_t n_tension = 0;
       std::size_t n_shear = 0;
-      for (const auto& [number, point] : damage(record, all_stages[s].last_step))
+      for (const auto& [number, point] : damage(record, stage.last_step))
         {
-          fmt::format_to(std::back_inserter(rows), "{:.6g} {:.6g} {:.6g} {:.6g}\n", point.place[0] / milli,
-                         point.place[1] / milli, radius(point.n()) / milli, radius(point.n_shear) / milli);
+          whole.points.push_back({point.place[0] / milli, point.place[1] / milli, radius(point.n()) / milli});
+          inner.points.push_back({point.place[0] / milli, point.place[1] / milli, radius(point.n_shear) / milli});
           n_tension += point.n_tension;
           n_shear += point.n_shear;
         }
-      plots += fmt::format("set title {} noenhanced\n", gnuplot_text(all_stages[s].title));
-      if (rows.empty())
-        {
-          plots += "plot NaN notitle\n";
-          continue;
-        }
-      data += fmt::format("$points{} << EOD\n{}EOD\n", s, rows);
-      plots += fmt::format("plot $points{0} using 1:2:3 with circles fill solid noborder lc rgb '{1}' title "
-                           "'tension: {2}', $points{0} using 1:2:4 with circles fill solid noborder lc rgb '{3}' title "
-                           "'shear: {4}'\n",
-                           s, tension_colour, n_tension, shear_colour, n_shear);
+      whole.label = fmt::format("tension: {}", n_tension);
+      inner.label = fmt::format("shear: {}", n_shear);
+      panels.push_back(empty_map(frame, record, stage.title));
+      panels.back().series = {body, std::move(whole), std::move(inner)};
     }
   const auto [panel_width, panel_height] = panel_size(frame);
   return {
@@ -113,9 +111,7 @@ std::vector<Picture> damage_map(const FinishedTest& test, const std::string& tit
      .height = panel_height,
      .raster = true,
      .vector = false,
-     .script = data + map_set_up(frame, record) +
-               fmt::format("set object 1 rectangle from 0,0 to {:.6g},{:.6g} fc rgb '{}' fs solid noborder behind\n"
-                           "set multiplot layout 1,{}\n{}unset multiplot\n",
-                           record.size[0] / milli, height / milli, light_grey, all_stages.size(), plots)}};
+     .panels = std::move(panels),
+     .columns = int(all_stages.size())}};
 }
 } // namespace feldspar

@@ -1,13 +1,11 @@
-#include "report/pictures/maps/fragment_pictures.h"
-
-#include "report/pictures/maps/map_frame.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -37,7 +35,7 @@ std::map<std::uint32_t, double> fragment_diameters(const FinishedTest& test)
 }
 } // namespace
 
-std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& title)
+Pictures fragment_map(const FinishedTest& test, const std::string& title)
 {
   const TestRecord& record = test.record;
   if (test.appearance.grains_at_end.empty())
@@ -54,43 +52,50 @@ std::vector<Picture> fragment_map(const FinishedTest& test, const std::string& t
         smallest = std::min(smallest, diameter);
         largest = std::max(largest, diameter);
       }
-  const bool is_broken = largest > 0.0;
-  std::string body;
-  std::string loose;
-  for (const auto& grain : test.appearance.grains_at_end)
-    fmt::format_to(std::back_inserter(grain.fragment > 0 ? loose : body), "{:.6g} {:.6g} {:.6g} {:.4g}\n",
-                   grain.position[0] / milli, grain.position[axis] / milli, grain.radius / milli,
-                   diameters.at(grain.fragment) / milli);
+  const auto& grains = test.appearance.grains_at_end;
+  ChartSeries body = grain_circles(grains, false, axis);
+  body.label = "largest piece";
+  ChartSeries loose = grain_circles(grains, true, axis);
+  loose.colours = ChartSeries::Colours::by_value;
+  auto circle = loose.points.begin();
+  for (const auto& grain : grains)
+    if (grain.fragment > 0)
+      (*circle++)[3] = diameters.at(grain.fragment) / milli;
+  Chart chart = empty_map(frame, record);
+  chart.series = {std::move(body), std::move(loose)};
+  // viridis, whose brightness grows all the way
+  chart.palette = {"#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"};
+  chart.colour = {.label = "equivalent diameter [mm]",
+                  .logarithmic = true,
+                  .ticks = {0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}};
+  if (largest > 0.0)
+    {
+      chart.colour.from = 0.95 * smallest / milli;
+      chart.colour.to = 1.05 * largest / milli;
+    }
   const auto [width, height] = panel_size(frame);
-  return {
-    {.name = test.name + "_fragments",
-     .caption =
-       fmt::format("{}, {}: fragments at the end, coloured by their size{}", title, seed_of(test), map_frame.remark()),
-     .alternative =
-       fmt::format("Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
-                   title, seed_of(test), test.results.n_fragments.value.value_or(0.0),
-                   100.0 * test.results.largest_fragment_share.value.value_or(0.0)),
-     .width = width + 90,
-     .height = height,
-     .raster = true,
-     .vector = false,
-     .script =
-       fmt::format("$body << EOD\n{}EOD\n$loose << EOD\n{}EOD\n", body, loose) + map_set_up(frame, record) +
-       // viridis, whose brightness grows all the way
-       "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')\n"
-       "set logscale cb\nset cbtics (0.5,1,1.5,2,3,5,10,20,50,100,200)\nset cblabel 'equivalent diameter [mm]'\n" +
-       (is_broken ? fmt::format("set cbrange [{:.4g}:{:.4g}]\n", 0.95 * smallest / milli, 1.05 * largest / milli)
-                  : std::string()) +
-       fmt::format("plot $body using 1:2:3 with circles fill solid noborder lc rgb '{}' title 'largest piece'{}\n",
-                   light_grey,
-                   is_broken ? ", $loose using 1:2:3:4 with circles fill solid noborder lc palette notitle" : "")}};
+  return {{.name = test.name + "_fragments",
+           .caption = fmt::format("{}, {}: fragments at the end, coloured by their size{}", title, seed_of(test),
+                                  map_frame.remark()),
+           .alternative = fmt::format(
+             "Map of the fragments of {} ({}): {} of two grains or more; the largest has {:.0f} % of the volume.",
+             title, seed_of(test), test.results.n_fragments.value.value_or(0.0),
+             100.0 * test.results.largest_fragment_share.value.value_or(0.0)),
+           .width = width + 90,
+           .height = height,
+           .raster = true,
+           .vector = false,
+           .panels = {std::move(chart)}}};
 }
 
-std::vector<Picture> fragment_size_picture(const Series& series, const std::size_t which)
+Pictures fragment_size_picture(const SeriesAmong& of)
 {
-  std::string data;
-  std::string plots;
-  std::size_t n = 0;
+  const Series& series = of.series();
+  Chart chart{.x = {.label = "equivalent diameter [mm]",
+                    .logarithmic = true,
+                    .ticks = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}},
+              .y = {.label = "volume in smaller fragments [%]", .from = 0.0, .to = 100.0},
+              .key_columns = 2};
   for (const auto& group : shown(groups_of(series)))
     {
       // All fragments of the group's tests, by size, with their volumes.
@@ -106,29 +111,27 @@ std::vector<Picture> fragment_size_picture(const Series& series, const std::size
       if (fragments.empty())
         continue;
       std::sort(fragments.begin(), fragments.end());
-      std::string rows;
+      const std::size_t n = chart.series.size();
+      ChartSeries line{.label = group.title(),
+                       .colour = colour(series, of.n),
+                       .width = n < 5 ? 2.2 : 1.2,
+                       .dashes = 1 + int(n % 5)};
       double sum = 0.0;
       for (const auto& [diameter, of_fragment] : fragments)
         {
-          fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", diameter / milli, sum / all / percent);
+          line.points.push_back({diameter / milli, sum / all / percent});
           sum += of_fragment;
-          fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", diameter / milli, sum / all / percent);
+          line.points.push_back({diameter / milli, sum / all / percent});
         }
-      data += fmt::format("$sizes{} << EOD\n{}EOD\n", n, rows);
-      plots += fmt::format("{}$sizes{} using 1:2 with lines lw {} dt {} lc rgb '{}' {}", n ? ", " : "", n,
-                           n < 5 ? 2.2 : 1.2, 1 + n % 5, colour(series, which), title(group.title()));
-      ++n;
+      chart.series.push_back(std::move(line));
     }
-  if (n == 0)
+  if (chart.empty())
     return {};
-  return {
-    {.name = "fragment_sizes_" + file_name(series.label),
-     .caption = "Sizes of the fragments at the end: share of the volume in fragments up to a size",
-     .alternative = "Share of the volume in fragments up to a size, for each kind of test.",
-     .width = 640,
-     .height = 460,
-     .script = data + frame("equivalent diameter [mm]", "volume in smaller fragments [%]") +
-               "set logscale x\nset xtics (1,2,5,10,20,50,100,200,500)\nset yrange [0:100]\nset key maxcols 2\nplot " +
-               plots + "\n"}};
+  return {{.name = "fragment_sizes_" + file_name(series.label),
+           .caption = "Sizes of the fragments at the end: share of the volume in fragments up to a size",
+           .alternative = "Share of the volume in fragments up to a size, for each kind of test.",
+           .width = 640,
+           .height = 460,
+           .panels = {std::move(chart)}}};
 }
 } // namespace feldspar

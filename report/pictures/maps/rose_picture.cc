@@ -1,6 +1,5 @@
-#include "report/pictures/maps/rose_picture.h"
-
-#include "report/pictures/maps/map_frame.h"
+#include "report/pictures/figures.h"
+#include "report/pictures/maps/map.h"
 #include "report/pictures/plot_style.h"
 
 #include <fmt/format.h>
@@ -8,20 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
+#include <utility>
 
 namespace feldspar
 {
 using namespace plot;
 
-std::vector<Picture> rose_picture(const Series& series)
+Pictures rose_picture(const SeriesAmong& of)
 {
   constexpr double pi = std::numbers::pi;
   constexpr std::size_t n_bins = 18; // over half a turn: 10° each
-  std::string data;
-  std::string plots;
-  int n_panels = 0;
+  const Series& series = of.series();
+  std::vector<Chart> panels;
   for (const auto& group : shown(groups_of(series)))
     {
       std::array<std::array<double, n_bins>, 2> length{}; // tension, shear
@@ -45,38 +43,49 @@ std::vector<Picture> rose_picture(const Series& series)
       double largest = 0.0;
       for (std::size_t b = 0; b < n_bins; ++b)
         largest = std::max(largest, (length[0][b] + length[1][b]) / all);
-      const auto wedges = [&](const bool with_tension) {
-        std::string rows;
+      const auto arc = [&](ChartSeries& line, const double radius, const double begin, const double end, const int n) {
+        for (int k = 0; k <= n; ++k)
+          {
+            const double angle = begin + (end - begin) * k / n;
+            line.points.push_back({radius / percent * std::sin(angle), radius / percent * std::cos(angle)});
+          }
+      };
+      // Tension stands outside shear.
+      const auto wedges = [&](const bool with_tension, ChartSeries line) {
+        line.kind = ChartSeries::Kind::area;
         for (std::size_t b = 0; b < 2 * n_bins; ++b)
           {
-            const double radius = (with_tension ? length[0][b % n_bins] : 0.0) / all + length[1][b % n_bins] / all;
-            rows += "0 0\n";
-            for (int k = 0; k <= 6; ++k)
-              {
-                const double angle = (double(b) + k / 6.0) * pi / n_bins;
-                fmt::format_to(std::back_inserter(rows), "{:.5g} {:.5g}\n", radius / percent * std::sin(angle),
-                               radius / percent * std::cos(angle));
-              }
-            rows += "0 0\n\n";
+            line.points.push_back({0.0, 0.0});
+            arc(line, ((with_tension ? length[0][b % n_bins] : 0.0) + length[1][b % n_bins]) / all,
+                double(b) * pi / n_bins, (double(b) + 1.0) * pi / n_bins, 6);
+            line.points.push_back(gap);
           }
-        return rows;
+        return line;
       };
-      data += fmt::format("$all{0} << EOD\n{1}EOD\n$shear{0} << EOD\n{2}EOD\n", n_panels, wedges(true), wedges(false));
       const double reach = 1.12 * largest / percent;
-      const double ring = std::max(1.0, std::floor(0.6 * largest / percent));
-      plots += fmt::format(
-        "unset label\nset title {0} noenhanced\nset xrange [-{1}:{1}]; set yrange [-{1}:{1}]\n"
-        "set object 1 circle at 0,0 size {2} fs empty border lc rgb '#909090' lw 0.7 front\n"
-        "set label 1 'ring: {2} %' at graph 0.98,0.03 right tc rgb '#404040' front\n"
-        "plot $all{3} using 1:2 with filledcurves closed fs solid 0.8 noborder lc rgb '{4}' title 'tension', "
-        "$shear{3} using 1:2 with filledcurves closed fs solid 0.9 noborder lc rgb '{5}' title 'shear'\n",
-        gnuplot_text(group.title()), reach, ring, n_panels, tension_colour, shear_colour);
-      ++n_panels;
+      const double radius = std::max(1.0, std::floor(0.6 * largest / percent));
+      const ChartAxis axis{.from = -reach, .to = reach, .bare = true};
+      ChartSeries ring{.colour = "#909090", .width = 1.0};
+      arc(ring, radius * percent, 0.0, 2.0 * pi, 90);
+      panels.push_back({.look = Chart::Look::map,
+                        .title = group.title(),
+                        .x = axis,
+                        .y = axis,
+                        .equal_scales = true,
+                        .key_columns = 2,
+                        .series = {wedges(true, {.label = "tension", .colour = tension_colour, .opacity = 0.8}),
+                                   wedges(false, {.label = "shear", .colour = shear_colour, .opacity = 0.9}),
+                                   ring,
+                                   {.kind = ChartSeries::Kind::texts,
+                                    .colour = "#404040",
+                                    .size = 12.0,
+                                    .points = {{0.72 * reach, -0.94 * reach}},
+                                    .texts = {fmt::format("ring: {} %", radius)}}}});
     }
-  if (n_panels == 0)
+  if (panels.empty())
     return {};
-  const int columns = std::min(n_panels, 2);
-  const int lines = (n_panels + 1) / 2;
+  const int columns = std::min(int(panels.size()), 2);
+  const int lines = (int(panels.size()) + 1) / 2;
   return {{.name = "rose_" + file_name(series.label),
            .caption =
              "Directions of the crack normals, weighted by length (all tests of a kind, to their end). Up is the "
@@ -84,8 +93,7 @@ std::vector<Picture> rose_picture(const Series& series)
            .alternative = "Rose diagrams of the crack normals of " + series.label + ".",
            .width = 360 * columns,
            .height = 400 * lines,
-           .script = data + fmt::format("set multiplot layout {},{}\nset size square\nunset border; unset tics\n"
-                                        "set key below center horizontal samplen 1.5\n{}unset multiplot\n",
-                                        lines, columns, plots)}};
+           .panels = std::move(panels),
+           .columns = columns}};
 }
 } // namespace feldspar

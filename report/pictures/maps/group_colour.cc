@@ -1,4 +1,4 @@
-#include "report/live/group_colour.h"
+#include "report/pictures/maps/group_colour.h"
 
 #include <algorithm>
 #include <array>

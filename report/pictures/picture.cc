@@ -1,7 +1,9 @@
-#include "report/pictures/gnuplot.h"
+#include "report/pictures/picture.h"
 
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "report/chart/gnuplot_writer.h"
+#include "report/chart/page_writer.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -94,13 +96,14 @@ std::vector<std::pair<std::string, std::string>> outputs(const Picture& picture)
 /// The script as a file of its own that leaves its pictures in the folder it is run in.
 std::string whole_script(const Picture& picture)
 {
-  if (picture.drawn_by == DrawnBy::vtk)
+  if (!picture.scene.empty())
     return fmt::format("output = \"{}.png\"\nsize = ({}, {})\n{}", picture.name, picture.width, picture.height,
-                       picture.script);
+                       picture.scene);
+  const std::string commands = picture.script();
   std::string script = "set encoding utf8\n";
   for (const auto& [ending, terminal] : outputs(picture))
     script += fmt::format("set terminal {}\nset output {}\n{}unset output\nreset\n", terminal,
-                          gnuplot_text(picture.name + ending), picture.script);
+                          gnuplot_text(picture.name + ending), commands);
   return script;
 }
 
@@ -132,12 +135,12 @@ std::string draw_one(const Picture& picture, const std::filesystem::path& folder
   };
   if (!is_plain_name(picture.name))
     throw std::logic_error("a picture is named " + in_quotes(picture.name));
-  const bool by_vtk = picture.drawn_by == DrawnBy::vtk;
+  const bool by_vtk = !picture.scene.empty();
   const std::string script = picture.name + (by_vtk ? ".py" : ".gp");
   write_whole_file(folder / script, whole_script(picture));
   if (is_over())
     return called_off();
-  auto& has_hung = hung[std::size_t(picture.drawn_by)];
+  auto& has_hung = hung[by_vtk];
   if (has_hung)
     return fmt::format("{} was not drawn: {} did not end with another picture", picture.name,
                        by_vtk ? "VTK" : "gnuplot");
@@ -182,18 +185,10 @@ std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::f
   return problems;
 }
 
-std::string gnuplot_text(const std::string_view text)
+std::string Picture::script() const { return scene.empty() ? gnuplot_script(panels, columns, width) : scene; }
+
+std::string Picture::live() const
 {
-  // Between single quotes gnuplot reads only the quote itself as anything but text. Doubling it is not enough: of
-  // three in a row the second ends the string. So the typographic one stands for it.
-  std::string result = "'";
-  for (const char c : printable(text))
-    {
-      // Its SVG writes "]]>" as it is, which is no XML.
-      if (c == '>' && result.ends_with("]]"))
-        result += ' ';
-      result += c == '\'' ? std::string("’") : std::string(1, c);
-    }
-  return result + "'";
+  return !story.empty() || panels.size() != 1 ? story : live::chart_data(panels.front());
 }
 } // namespace feldspar

@@ -1,21 +1,16 @@
 #pragma once
 
+#include "report/chart/chart.h"
+
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace feldspar
 {
-enum class DrawnBy
-{
-  gnuplot,
-  vtk ///< bodies in space: a Python script, by report/pictures/space_scene.py; PNG only
-};
-
 /// A picture to be drawn.
 struct Picture
 {
@@ -26,13 +21,20 @@ struct Picture
   int height = 0;
   bool raster = false; ///< thousands of shapes: shown as PNG; else as SVG
   bool vector = true;  ///< drawn as SVG and PDF
-  DrawnBy drawn_by = DrawnBy::gnuplot;
-  std::string script;    ///< data and what draws it
-  std::string live = {}; ///< what the page's script shows in its place, JSON (report/live); empty: only the picture
+  std::vector<Chart> panels = {};
+  int columns = 1;               ///< of panels
+  std::string scene = {};        ///< in the place of panels a body in space: a script for Python with VTK; PNG only
+  std::string story = {};        ///< what the page's script shows in its place, JSON; empty: the chart, if it can
   std::string live_caption = {}; ///< of what is shown in its place; empty: the same caption
 
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
+
+  /// Data and what draws it.
+  std::string script() const;
+
+  /// What the page's script shows in its place, JSON; empty: only the picture.
+  std::string live() const;
 };
 
 /// Who waits for pictures.
@@ -51,9 +53,4 @@ struct DrawingWatch
 std::vector<std::string> draw(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
                               std::chrono::milliseconds longest = std::chrono::minutes(5),
                               const DrawingWatch& watch = {});
-
-/// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not
-/// written in our sources enters a script through this: gnuplot has no switch that forbids a script to start programs
-/// (`system`, backquotes, `!`, an output that begins with `|`), and its commands end with their line.
-std::string gnuplot_text(std::string_view text);
 } // namespace feldspar

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "report/chart/chart.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+/// The data that the script of the page (report/page/page.js) draws from, in JSON.
+namespace feldspar::live
+{
+/// The chart with its values under the pointer: five digits of each number, `null` in gaps. Empty for a chart of which the
+/// page shows the picture alone: with circles, segments, texts or values by colour.
+std::string chart_data(const Chart& chart);
+
+/// As text in which no tag can begin, so that it may stand in a page. What is not UTF-8 is replaced.
+std::string text(const nlohmann::ordered_json& data);
+
+/// Of a number so many digits; null if it is none.
+nlohmann::ordered_json number(double value, int digits = 5);
+} // namespace feldspar::live
