@@ -16,12 +16,14 @@ import sys
 
 sys.dont_write_bytecode = True
 
-from tables import grains, samples
+from tables import benchmarks, grains, samples
 from tables.values import ROOT
 
-TABLES = grains.TABLES | samples.TABLES
-PAGES = ("README.md", "docs/*.md", "examples/*/README.md")
-MARKED = re.compile(r"(<!-- table: (.+?) -->\n)(.*?)(<!-- /table -->)", re.DOTALL)
+TABLES = grains.TABLES | samples.TABLES | benchmarks.TABLES
+PAGES = ("docs/*.md", "examples/*/README.md", "benchmarks/README.md")
+MARKED = re.compile(r"<!-- table: (?P<name>.+?) -->\n(?P<rows>(?:\|.*\n)+)<!-- /table -->")
+BY_HEADING = re.compile(rf"^(?P<rows>(?P<name>{'|'.join(map(re.escape, benchmarks.TABLES))})(?:.*\n)(?:\|.*\n)+)",
+                        re.MULTILINE)
 
 
 def row(name, line):
@@ -33,11 +35,12 @@ def row(name, line):
 
 def written(page, used):
     def table(match):
-        used.append(match[2])
-        heading, rule, *lines = match[3].splitlines()
-        return "\n".join((match[1] + heading, rule, *(row(match[2], line) for line in lines), match[4]))
+        used.append(match["name"])
+        heading, rule, *lines = match["rows"].splitlines()
+        rows = "\n".join((heading, rule, *(row(match["name"], line) for line in lines))) + "\n"
+        return match[0].replace(match["rows"], rows)
 
-    return MARKED.sub(table, page)
+    return MARKED.sub(table, page) if "<!-- table: " in page else BY_HEADING.sub(table, page)
 
 
 def main():

@@ -34,8 +34,13 @@ def granite_envelopes(cells):
             number(-fit["tensile_cut_off_Pa"] / 1e6, 2)]
 
 
+def granite_rate(cells):
+    return [None, shown(values(of("beishan-granite/rate-study", PRESSED, f"= {cells[0]} 1/s")), 1)]
+
+
 def granite_platens(cells):
-    strengths = [shown(values(of("beishan-granite/platens", triaxial(p), f"= {cells[0]}")), 0) for p in (0, 5, 10, 20, 40, 60)]
+    strengths = [shown(values(of("beishan-granite/platens", triaxial(p), f"= {cells[0]}")), 0)
+                 for p in (0, 5, 10, 20, 40, 60)]
     fit = next(one["as_paper"]["with_tension_point"] for one in read("beishan-granite/platens")["fits_of_variants"]
                if one["variant_values"]["Tests/Platen friction"]["value"] == float(cells[0]))
     excess = fit["uniaxial_compressive_strength_Pa"] / fit["measured_uniaxial_compressive_strength_Pa"] - 1.0
@@ -73,7 +78,8 @@ LAC_DU_BONNET = "examples/calibrate-lac-du-bonnet/reference.json"
 def wanted(reference, label):
     """The mean of a rock's figure."""
     name = TARGETS[label.split()[0]].format(*re.findall(r"at (\d+) MPa", label))
-    return next(of_it["mean"] for key, of_it in read(reference)["experiment"].items() if re.fullmatch(name + "(_[MG]Pa)?", key))
+    return next(of_it["mean"] for key, of_it in read(reference)["experiment"].items()
+                if re.fullmatch(name + "(_[MG]Pa)?", key))
 
 
 def targets(answer, decimals_of_modulus=1):
@@ -94,7 +100,8 @@ def parameters(answer, more_decimals=0):
     def row(cells):
         key, scale, decimals = CALIBRATED[cells[0].split(" [")[0]]
         decimals += more_decimals if scale > 1.0 else 0
-        best, low, high = (number(read(answer)["parameters"][key][name] / scale, decimals) for name in ("best", "lower_90", "upper_90"))
+        best, low, high = (number(read(answer)["parameters"][key][name] / scale, decimals)
+                           for name in ("best", "lower_90", "upper_90"))
         return [None, best, f"{low} to {high}", read(answer)["parameters"][key]["verdict"]]
     return row
 
@@ -104,7 +111,8 @@ def held_back(answer, tests):
         reached = measured(tests, cells[0])
         target = wanted(LAC_DU_BONNET, cells[0])
         band = read(answer)["predictions"][TARGETS["at"].format(cells[0].split()[1])]
-        return [None, number(target, 0), shown(reached, 0, error), f"{100 * (statistics.mean(reached) / target - 1):+.0f} %",
+        return [None, number(target, 0), shown(reached, 0, error),
+                f"{100 * (statistics.mean(reached) / target - 1):+.0f} %",
                 f"{band['lower_90'] / 1e6:.0f} to {band['upper_90'] / 1e6:.0f}"]
     return row
 
@@ -137,7 +145,8 @@ def sizes_of_cylinder(cells):
 
 def cylinder_at_50_mm(cells):
     name, decimals = "calibrate-beishan-cylinder/", quantity(cells[0])[3]
-    target, large = wanted("examples/beishan-granite/reference.json", cells[0]), measured(f"{name}full-size+{name}full-size-seed-2", cells[0])
+    target, large = wanted("examples/beishan-granite/reference.json",
+                           cells[0]), measured(f"{name}full-size+{name}full-size-seed-2", cells[0])
     found = statistics.mean(large)
     return [None, number(target, decimals), listed(large, decimals), f"{100 * (found / target - 1):+.1f} %",
             number(found / statistics.mean(measured(name + "best", cells[0])), 3), sizes_of_cylinder(cells)[3]]
@@ -174,7 +183,9 @@ def contact_models(cells):
 
 
 def ways_to_break(cells):
-    name = "contact-models/parallel-bond" + {"only": "-" + {"shear": "shear", "open": "tension"}[cells[0].split()[1]] + "-only"}.get(cells[0].split()[-1], "")
+    name = "contact-models/parallel-bond"
+    if cells[0].endswith("only"):
+        name += "-shear-only" if "shear" in cells[0] else "-tension-only"
     strengths = [mean(of(name, triaxial(pressure))) for pressure in (0, 5, 20, 60)]
     rises = [(one - other) / width for one, other, width in zip(strengths[1:], strengths, (5, 15, 40))]
     fits = read(name)["fits"]
@@ -189,7 +200,8 @@ def clump_size(cells):
 
 def direct_shear(cells):
     group, stress = f"direct_shear_{cells[0]}_MPa", int(cells[0])
-    plane, dilating, bonded = (shown(values(of("direct-shear/smooth-plane", group, n=n)), 2 if n == 3 else 3) for n in (1, 2, 3))
+    plane, dilating, bonded = (shown(values(of("direct-shear/smooth-plane", group, n=n)), 2 if n == 3 else 3)
+                               for n in (1, 2, 3))
     return [None, number(0.6 * stress, 1), plane, dilating, number(2 + 0.6 * stress, 1), bonded,
             shown(values(of("direct-shear/intact", group)), 1)]
 
@@ -245,7 +257,8 @@ def two_flaws(cells):
     rows = [row for row in read("flawed-granite/two-flaws")["joining"] if row["test"] in {test["name"] for test in tests}]
     first, half = ([row[key] for row in rows if key in row] for key in ("segments_1", "segments_2"))
     stresses = [listed((one["stress_Pa"] / 1e6 for one in joined), 0) or "none" for joined in (first, half)]
-    return [None, *strengths(tests), *stresses, *(listed((one[key] for one in first), 0) for key in ("n_faces", "n_shear_cracks"))]
+    counts = (listed((one[key] for one in first), 0) for key in ("n_faces", "n_shear_cracks"))
+    return [None, *strengths(tests), *stresses, *counts]
 
 
 def hole(cells):
@@ -254,7 +267,8 @@ def hole(cells):
         return [None, *strengths(first_five(kind))]
     tests = of("flawed-granite/hole", kind, cells[0].split(", ")[1])
     rows = [row for row in read("flawed-granite/hole")["first_cracks"] if row["test"] in {test["name"] for test in tests}]
-    return [None, *strengths(tests), shown(values(rows, "first_stress_Pa"), 1), listed((row["n_of_first_ten"] for row in rows), 0)]
+    return [None, *strengths(tests), shown(values(rows, "first_stress_Pa"), 1),
+            listed((row["n_of_first_ten"] for row in rows), 0)]
 
 
 LENGTHS_MM = (0, 2, 4, 8.25, 12.5, 16.5, 24.5)  # half of that of the flaw
@@ -340,14 +354,16 @@ BOND, BOND_STIFFNESS = 22e6, 80e9 / (2.0 * 0.82e-3)  # between grains of the mea
 
 def softening(cells):
     pulled, pressed = (values(of("toughness/softening-strength", kind, f"= {cells[0]} um")) for kind in (PULLED, PRESSED))
-    return [None, number(0.5 * BOND * (float(cells[0]) / 1e6 + BOND / BOND_STIFFNESS), 0), shown(pulled, 1), shown(pressed, 1),
+    return [None, number(0.5 * BOND * (float(cells[0]) / 1e6 + BOND / BOND_STIFFNESS), 0), shown(pulled, 1),
+            shown(pressed, 1),
             *notched("softening", f"= {cells[0]} um", (BENT, HALF), TOUGHNESS, ENERGY)]
 
 
 def scaled_softening(cells):
     """Strengths and opening scaled by one factor to the tensile strength of the granite; a row is found by its opening."""
     for opening in (0, 1, 2, 5, 10):
-        pulled, pressed = (mean(of("toughness/softening-strength", kind, f"= {opening} um")) for kind in (PULLED, PRESSED))
+        pulled, pressed = (mean(of("toughness/softening-strength", kind, f"= {opening} um"))
+                           for kind in (PULLED, PRESSED))
         scale = 9.53 / pulled
         if abs(opening * scale - float(cells[0])) < 0.1:
             bent = [of("toughness/softening", kind, f"= {opening} um") for kind in (BENT, HALF)]
@@ -363,7 +379,7 @@ TABLES = {
     "granite under pressure": granite_confined,
     "granite envelopes": granite_envelopes,
     "granite resolution": means(BY_NUMBER, "beishan-granite/radius-as-diameter"),
-    "granite rate": lambda cells: [None, shown(values(of("beishan-granite/rate-study", PRESSED, f"= {cells[0]} 1/s")), 1)],
+    "granite rate": granite_rate,
     "granite platens": granite_platens,
     "granite neighbours": means(GRANITE, BY_NUMBER),
     "granite packings": granite_packings,

@@ -57,7 +57,8 @@ def over(one, other):
 @functools.lru_cache(None)
 def read(name):
     """Results by EXAMPLE/NAME, or a file of examples/ or benchmarks/ by its path."""
-    path = name if name.startswith(("examples/", "benchmarks/")) else "examples/{}/results/{}.json".format(*name.split("/"))
+    path = name if name.startswith(("examples/",
+                                    "benchmarks/")) else "examples/{}/results/{}.json".format(*name.split("/"))
     with open(os.path.join(ROOT, path), encoding="utf-8", newline="") as file:
         return json.load(file) if path.endswith("json") else list(csv.reader(file))
 
