@@ -3,11 +3,11 @@
 #
 #   examples/update-results.sh FELDSPAR [EXAMPLE/NAME ...]
 #
-# FELDSPAR is the built command; without names every study is run. Each EXAMPLE/results/NAME.json is the summary.json of
-# its run: figures, seeds, commit and machine. Where a folder has a study.py, that writes the results that are not listed
+# FELDSPAR is the built command; without names every study is run. Each EXAMPLE/results/NAME.json is what
+# scripts/keep-results.py keeps of the summary.json of its run: figures, seeds, version and machine. Where a folder has a study.py, that writes the results that are not listed
 # here. beishan-granite/results/ensemble-by-motion.json is ensemble.prm with Packing relaxation = dynamics. Inputs that say so
 # had their results made before grains came to rest by descent; whoever makes them anew takes the entry out and mends the README.
-# The READMEs take their figures from there, and a test checks that they agree. A build of a changed work tree is
+# scripts/write-tables.py then writes the tables of the READMEs from there, and a test compares. A build of a changed work tree is
 # refused: its results could not be made again.
 set -euo pipefail
 feldspar=$(realpath "$1")
@@ -40,11 +40,11 @@ for study in "${studies[@]}"; do
     here=$(dirname "$study")
     reference=$(sed -n 's/.*set Reference file *= *//p' "$study.prm")
     sed "s|Reference file = reference.json|Reference file = $reference|" "$run/best.prm" >"$here/best.prm"
-    cp "$run"/{calibration.json,design.csv} "$here/results/"
-    sed 's|"Reference file": "/[^"]*/examples/[^/]*/reference.json"|"Reference file": "'"$reference"'"|' \
-      "$run/summary.json" >"$here/results/best.json"
+    cp "$run/design.csv" "$here/results/"
+    ../scripts/keep-results.py "$run/calibration.json" --to "$here/results/calibration.json"
+    ../scripts/keep-results.py "$run/summary.json" --to "$here/results/best.json"
   else
-    cp "$run/summary.json" "$(dirname "$study")/results/$(basename "$study").json"
+    ../scripts/keep-results.py "$run/summary.json" --to "$(dirname "$study")/results/$(basename "$study").json"
   fi
   rm --recursive "$run"
 done

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Runs two-flaws.prm and hole.prm, reads their lists of cracks and writes their results; without names tables only.
+"""Runs two-flaws.prm and hole.prm, reads their lists of cracks and writes their results.
 
-    python3 examples/flawed-granite/study.py FELDSPAR [NAME ...]
+    python3 examples/flawed-granite/study.py FELDSPAR NAME ...
 
 NAME is two-flaws, hole or all. results/NAME.json is the summary of the run with one more list: joining (of two flaws) or
 first_cracks (of a hole). Of two flaws it also draws results/two-flaws.png (gnuplot), the first specimen of each bridge when
-the flaws are joined, and keeps the picture's checksum. Prints the tables of the README, those of the other inputs too, from
-the results that are there.
+the flaws are joined; scripts/record-picture.py then records it, and scripts/write-tables.py writes the tables of the README.
 
 Two flaws are joined as soon as a way leads from one to the other that crosses only cracked faces: with one segment broken, or
 half of them, or all. The joints of a specimen in the plane are the edges of a planar graph, with the grains as its corners;
@@ -15,12 +14,10 @@ its cells are the pores between grains, and a flaw is one of them. The way goes 
 
 import collections
 import csv
-import hashlib
 import json
 import math
 import os
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -28,7 +25,6 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 RESULTS = os.path.join(HERE, "results")
 PICTURE = os.path.join(RESULTS, "two-flaws.png")
-GRANITE = os.path.join(HERE, "../beishan-granite/results/ensemble-by-motion.json")
 SEGMENTS = 4  # of a face, as in the inputs
 RADIUS = 0.62e-3 * (1 + 1.66) / 2  # mean of the grains [m]
 BRIDGES = (45, 75, 105, 135)  # angles [deg], in the order of the variants behind the intact one
@@ -297,108 +293,10 @@ def keep(name, out):
         tests = [test for test in summary["tests"] if test["name"] in bodies]
         summary["joining"] = [joining(test, bodies[test["name"]], curve(test)) for test in tests]
         draw([(slots_of(test), bodies[test["name"]]) for test in tests if test["seed"] == 1])
-        with open(PICTURE, "rb") as file:
-            summary["picture_sha256"] = hashlib.sha256(file.read()).hexdigest()
-    with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps(summary, indent=2) + "\n")
-
-
-def results(path):
-    if not os.path.exists(path):
-        return None
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
-
-
-def shown(values, scale, decimals):
-    """Mean and standard deviation of those that are known, or how few they are."""
-    values = [value / scale for value in values if value is not None]
-    if len(values) < 2:
-        return f"{len(values)} known"
-    return f"{statistics.mean(values):.{decimals}f} ± {statistics.stdev(values):.{decimals}f}"
-
-
-def column(summary, group, key):
-    return [test[key] for test in summary["tests"] if test["group"] == group]
-
-
-def group_of(summary, kind, variant):
-    """The tests of a kind on the n-th variant, from 0, as the groups of a summary come one after the other."""
-    groups = list(dict.fromkeys(test["group"] for test in summary["tests"] if test["kind"] == kind))
-    return groups[variant]
-
-
-def strengths(summary, group):
-    """Strength and crack initiation, in MPa, over the seeds."""
-    return " | ".join(
-        shown(column(summary, group, key), 1e6, 1) for key in ("peak_stress_Pa", "crack_initiation_stress_Pa")
-    )
-
-
-def of_the_granite(n_seeds):
-    """The intact rock, the first seeds of it."""
-    granite = results(GRANITE)
-    return {"tests": [test for test in granite["tests"] if test["seed"] <= n_seeds]}
-
-
-def print_flaw(summary):
-    intact = of_the_granite(5)
-    strength = statistics.mean(column(intact, "uniaxial_compression", "peak_stress_Pa"))
-    closed = results(os.path.join(RESULTS, "closed-flaw.json"))
-    print(f"| intact | {strengths(intact, 'uniaxial_compression')} | | | |")
-    for k in range(7):
-        angle = math.radians(15 * k)
-        net = 1.0 - (16.0 * math.cos(angle) + 2.0 * math.sin(angle)) / 50.0
-        group = group_of(summary, "uniaxial_compression", k)
-        of_closed = strengths(closed, group_of(closed, "uniaxial_compression", k))
-        cells = [strengths(summary, group), f"{net * strength / 1e6:.1f}", of_closed]
-        print(f"| {15 * k}° | {' | '.join(cells)} |")
-    along_the_grains = strengths(summary, group_of(summary, "uniaxial_compression", 7))
-    print(f"| 45°, a closed flaw along the grains | {along_the_grains} | | | |")
-
-
-def print_two_flaws(summary):
-    print(f"| intact | {strengths(summary, group_of(summary, 'uniaxial_compression', 0))} | | | | |")
-    for k, bridge in enumerate(BRIDGES):
-        group = group_of(summary, "uniaxial_compression", k + 1)
-        rows = [row for row in summary["joining"] if row["test"].startswith(group + "_seed_")]
-        cells = []
-        for n in (1, 2):
-            joined = [row[f"segments_{n}"] for row in rows if row[f"segments_{n}"]]
-            cells.append(", ".join(f"{one['stress_Pa'] / 1e6:.0f}" for one in joined) or "none")
-            if n == 1:
-                of_first = joined
-        cells.append(", ".join(f"{one['n_faces']}" for one in of_first))
-        cells.append(", ".join(f"{one['n_shear_cracks']}" for one in of_first))
-        print(f"| {bridge}° | {strengths(summary, group)} | {' | '.join(cells)} |")
-
-
-def print_hole(summary):
-    for kind, name in (("direct_tension", "tension"), ("uniaxial_compression", "compression")):
-        print(f"| {name}, intact | {strengths(of_the_granite(5), kind)} | | |")
-        for k, radius in enumerate((5, 8)):
-            group = group_of(summary, kind, k)
-            rows = [row for row in summary["first_cracks"] if row["test"].startswith(group + "_seed_")]
-            first = shown([row["first_stress_Pa"] for row in rows], 1e6, 1)
-            there = ", ".join(str(row["n_of_first_ten"]) for row in rows)
-            print(f"| {name}, radius {radius} mm | {strengths(summary, group)} | {first} | {there} |")
-
-
-def print_flaw_length(summary):
-    width = 0.150
-    points = []
-    for k, length in enumerate((0.0, 4.0, 8.0, 16.5, 25.0, 33.0, 49.0)):
-        peaks = column(summary, group_of(summary, "direct_tension", k), "peak_stress_Pa")
-        a = length / 2e3
-        wide = math.sqrt(1.0 / math.cos(math.pi * a / width))
-        toughness = shown([peak * wide * math.sqrt(math.pi * a) for peak in peaks], 1e6, 2) if length else "–"
-        print(f"| {length / 2:g} | {a / RADIUS:.1f} | {shown(peaks, 1e6, 2)} | {wide:.3f} | {toughness} |")
-        points.append((a, (wide * statistics.mean(peaks)) ** -2))
-    for least in (4.0, 8.25):  # 1/σ² = π (a + c)/K², a straight line over a
-        a, inverse = zip(*(point for point in points if point[0] > 0.999e-3 * least))
-        line = statistics.linear_regression(a, inverse)
-        toughness = math.sqrt(math.pi / line.slope) / 1e6
-        print(f"| a from {least:g} mm | {toughness:.2f} | {1e3 * line.intercept / line.slope:.1f} |")
+    path = os.path.join(RESULTS, name + ".json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(summary, file)
+    subprocess.run([os.path.join(HERE, "../../scripts/keep-results.py"), path], check=True)
 
 
 def main():
@@ -409,16 +307,6 @@ def main():
         subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), sys.argv[1]], check=True)
     for name in names:
         run(os.path.realpath(sys.argv[1]), name)
-    for name, show in (
-        ("flaw", print_flaw),
-        ("two-flaws", print_two_flaws),
-        ("hole", print_hole),
-        ("flaw-length", print_flaw_length),
-    ):
-        summary = results(os.path.join(RESULTS, name + ".json"))
-        if summary:
-            print(f"\n{name}")
-            show(summary)
 
 
 if __name__ == "__main__":

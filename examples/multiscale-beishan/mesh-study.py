@@ -4,7 +4,7 @@
     python3 examples/multiscale-beishan/mesh-study.py FELDSPAR [GEOMETRY ...]
 
 GEOMETRY is plane or axisymmetric; without one both are run. Writes results/mesh-study.json and draws
-results/mesh-study.png (gnuplot), and prints the tables of the READMEs. The inputs are mesh-study.prm here and in
+results/mesh-study.png (gnuplot); scripts/write-tables.py writes the tables of the READMEs. The inputs are mesh-study.prm here and in
 ../multiscale-beishan-cylinder. On the coarsest mesh elements are as large as the representative volume, and both ways of
 softening are the same; it is run once.
 
@@ -80,28 +80,6 @@ def run(feldspar, geometry, mesh, softening):
     return of_run, {key: summary[key] for key in ("feldspar_version", "commit", "host")}
 
 
-FIGURES = (("peak_stress_Pa", 1e-6, 2), ("work_after_peak_J_per_m2", 1.0, 1), ("loss_after_peak_J_per_m2", 1.0, 1))
-
-
-def print_table(runs):
-    """Figures seed by seed, and how far those of the finer meshes are at most from those of the coarsest [%]."""
-    print("| elements | softening | peak [MPa] | work after it [J/m²] | loss after it [J/m²] |\n|---|---|---|---|---|")
-    for one in runs:
-        cells = [
-            ", ".join(f"{scale * test[key]:.{decimals}f}" for test in one["tests"]) for key, scale, decimals in FIGURES
-        ]
-        print(f"| {one['elements'][0]} x {one['elements'][1]} | {one['softening']} | {' | '.join(cells)} |")
-    for softening in ("scaled", "as it is"):
-        finer = [one for one in runs[1:] if one["softening"] == softening]
-        cells = []
-        for key, _, decimals in FIGURES:
-            of_seeds = []
-            for k, coarsest in enumerate(runs[0]["tests"]):
-                of_seeds.append(100 * max(abs(one["tests"][k][key] / coarsest[key] - 1) for one in finer))
-            cells.append(", ".join(f"{value:.{decimals - 1}f}" for value in of_seeds) + " %")
-        print(f"| from the coarsest, at most | {softening} | {' | '.join(cells)} |")
-
-
 def draw(runs):
     """The curves of the first seed: a panel a geometry and way of softening."""
     panels = [
@@ -169,8 +147,6 @@ def main():
     with open(results, "w", encoding="utf-8") as file:
         file.write(re.sub(r"\[\s+([-\d.e,\s]+?)\s+\]", lambda row: f"[{' '.join(row[1].split())}]", text) + "\n")
     draw(runs)
-    for geometry in INPUTS:
-        print_table([one for one in runs if one["geometry"] == geometry])
 
 
 if __name__ == "__main__":

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
-"""Runs the plate with a hole and counts its cracks by place; without names only the tables and the figure are made anew,
-with --tables the tables alone.
+"""Runs the plate with a hole and counts its cracks by place; without names only the figure is made anew.
 
     python3 examples/plate-with-hole/study.py FELDSPAR [NAME ...]
-    python3 examples/plate-with-hole/study.py --tables
 
 NAME is sample, sample-edges (edge cells at free sides) or grains, or all. results/NAME.json is the summary of the run with
 `crack_density`: for each stage of stages.csv the length of cracks over area [m/m²] by ring about the hole and by sector
 from the direction across the load, all four quadrants together, and `map`, the same at the last stage by place: at the
-points of the mesh, or in squares of 10 mm. Prints the tables of the README and draws
-../../docs/figures/plate-with-hole.png (gnuplot).
+points of the mesh, or in squares of 10 mm. Draws ../../docs/figures/plate-with-hole.png (gnuplot);
+scripts/write-tables.py writes the tables of the README.
 """
 
 import csv
@@ -143,18 +141,15 @@ def run(feldspar, name):
 def keep(name, out):
     with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
         summary = json.load(file)
-    for key in ("ensemble", "fits", "verdict"):
-        summary.pop(key, None)
     patches = Patches(of_points=name != "grains")
     by_stage = dict(cracks_by_stage(out))
     summary["crack_density"] = {stage: patches.by_ring_and_sector(cracks) for stage, cracks in by_stage.items()}
     summary["map"] = patches.map(list(by_stage.values())[-1])
     os.makedirs(RESULTS, exist_ok=True)
-    with open(os.path.join(RESULTS, name + ".json"), "w", encoding="utf-8") as file:
-        places = summary.pop("map")
-        text = json.dumps(summary, indent=2)
-        rows = ",\n".join("    " + json.dumps(row) for row in places)
-        file.write(text[: text.rindex("\n}")] + f',\n  "map": [\n{rows}\n  ]\n}}\n')
+    path = os.path.join(RESULTS, name + ".json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(summary, file)
+    subprocess.run([os.path.join(HERE, "../../scripts/keep-results.py"), path], check=True)
 
 
 def results(name):
@@ -163,42 +158,6 @@ def results(name):
         return None
     with open(path, encoding="utf-8") as file:
         return json.load(file)
-
-
-def whole_length(density):
-    """Of the cracks up to RINGS_MM[-1] [m]."""
-    return sum(area * sum(row) / len(row) for area, row in zip(ring_areas(), density))
-
-
-def mean_place(density):
-    """Of the length of cracks: distance from the middle of the hole [mm], angle from the direction across the load [deg]."""
-    distance = angle = total = 0.0
-    for (near, far), area, row in zip(zip(RINGS_MM, RINGS_MM[1:]), ring_areas(), density):
-        for low, high, value in zip(SECTORS_DEG, SECTORS_DEG[1:], row):
-            share = value * area / len(row)
-            distance += share * 0.5 * (near + far)
-            angle += share * 0.5 * (low + high)
-            total += share
-    return distance / total, angle / total
-
-
-def print_tables():
-    names = [name for name in RUNS if results(name)]
-    print("| σ_1 [MPa] | body | cracks within 200 mm [m] | mean distance [mm] | mean angle [deg] |")
-    print("|---|---|---|---|---|")
-    for stage in stages():
-        for name in names:
-            density = results(name)["crack_density"][f"{stage / 1e6:g} MPa"]
-            distance, angle = mean_place(density) if whole_length(density) > 0.0 else (math.nan, math.nan)
-            print(f"| {stage / 1e6:g} | {name} | {whole_length(density):.3f} | {distance:.0f} | {angle:.0f} |")
-    print()
-    for name in names:
-        last = f"{stages()[-1] / 1e6:g} MPa"
-        print(f"| {name}, {last} | " + " | ".join(f"{a:g}–{b:g}°" for a, b in zip(SECTORS_DEG, SECTORS_DEG[1:])) + " |")
-        print("|---|---|---|---|---|")
-        for near, far, row in zip(RINGS_MM, RINGS_MM[1:], results(name)["crack_density"][last]):
-            print(f"| {near:g}–{far:g} mm | " + " | ".join(f"{value:.0f}" for value in row) + " |")
-        print()
 
 
 def draw():
@@ -230,9 +189,6 @@ def draw():
 
 
 def main():
-    if sys.argv[1:] == ["--tables"]:
-        print_tables()
-        return
     feldspar = os.path.realpath(sys.argv[1])
     names = sys.argv[2:]
     if names == ["all"]:
@@ -241,7 +197,6 @@ def main():
         subprocess.run([os.path.join(HERE, "../../scripts/provenance.sh"), feldspar], check=True)
     for name in names:
         run(feldspar, name)
-    print_tables()
     draw()
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The effect of free sides on the compressive strength: cells, and boxes of the same size with free sides between smooth
 # platens, compressed by explicit dynamics, in the plane and in space. Writes results/free-sides-DIMENSIONd-EDGE-mm-cell.json
-# and …-box.json, the summary of each run.
+# and …-box.json from the summary of each run.
 #
 #   examples/rve-beishan/free-sides-study.sh FELDSPAR
 set -euo pipefail
@@ -64,8 +64,9 @@ END
   local name=results/free-sides-${dimension}d-$edge-mm
   "$feldspar" rve "$work/cell.prm" --output "$work/cell" --force --quiet >"$work/log" || cat "$work/log"
   "$feldspar" lab "$work/box.prm" --output "$work/box" --force --quiet >"$work/log" || cat "$work/log"
-  cp "$work/cell/summary.json" "$name-cell.json"
-  cp "$work/box/summary.json" "$name-box.json"
+  for body in cell box; do
+    ../../scripts/keep-results.py "$work/$body/summary.json" --to "$name-$body.json"
+  done
 }
 
 study 2 16 1..5 0.0065

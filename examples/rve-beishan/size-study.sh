@@ -30,8 +30,8 @@ for edge in 12 16 23 32.5 46; do
   for test in tension compression; do
     "$feldspar" rve "$work/$test.prm" --output "$work/$test-$edge" --quiet >"$work/log" || cat "$work/log"
   done
-  cp "$work/tension-$edge/summary.json" "results/size-$edge-mm.json"
-  cp "$work/compression-$edge/summary.json" "results/size-$edge-mm-compression.json"
+  ../../scripts/keep-results.py "$work/tension-$edge/summary.json" --to "results/size-$edge-mm.json"
+  ../../scripts/keep-results.py "$work/compression-$edge/summary.json" --to "results/size-$edge-mm-compression.json"
   printf "\n%s,%s" "$edge" "$(grep -m1 '"n_grains"' "$work/tension-$edge/summary.json" | tr -dc 0-9)" >>results/sizes.csv
   # Fracture energy: work after the peak, per area of the one crack across the cell.
   for curve in "$work/tension-$edge"/curves/*.csv; do

@@ -74,11 +74,23 @@ struct Change
 struct Piece
 {
   std::string name;
-  std::string command;              ///< of feldspar
-  std::string input;                ///< of the study, below examples/
-  std::vector<std::string> results; ///< that hold what comes out, below examples/
+  std::string input;                ///< of the study, below examples/, without its ending
+  std::vector<std::string> results; ///< that hold what comes out, in the same example or by EXAMPLE/NAME
   std::vector<Change> changes;
   Extent extent = Extent::whole;
+
+  /// Below examples/.
+  std::vector<std::string> files() const
+  {
+    std::vector<std::string> files;
+    for (const std::string& name_of : results)
+      {
+        const std::size_t slash = name_of.find('/');
+        files.push_back((slash == std::string::npos ? input.substr(0, input.find('/')) : name_of.substr(0, slash)) +
+                        "/results/" + name_of.substr(slash + 1) + ".json"); // npos + 1 = 0
+      }
+    return files;
+  }
 };
 
 void PrintTo(const Piece& piece, std::ostream* out) { *out << piece.name; }
@@ -86,335 +98,243 @@ void PrintTo(const Piece& piece, std::ostream* out) { *out << piece.name; }
 const Change first_seed{"Seeds", "Seeds", "1"};
 const Change no_reference{"Report", "Reference file", "none"};
 const Change hardly_strained{"Strain path", "Size", "1e-5"};
+const Change second_seed{"Seeds", "Seeds", "2"};
+const Change third_seed{"Seeds", "Seeds", "3"};
+const Change in_tension{"Tests", "List", "direct_tension"};
+const Change in_compression{"Tests", "List", "uniaxial_compression"};
+const Change hardly_loaded{"Tests", "Stop strain", "1e-5"};
+const Change explicitly{"Strain path", "Solver", "explicit"};
+
+Change with_values(const std::string& of_variants) { return {"Variants", "Values", of_variants}; }
 
 const std::vector<Piece> pieces{
-  {"GraniteInTension",
-   "lab",
-   "beishan-granite/ensemble.prm",
-   {"beishan-granite/results/ensemble.json", "beishan-granite/results/beishan.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
+  {"GraniteInTension", "beishan-granite/ensemble", {"ensemble", "beishan"}, {in_tension, first_seed, no_reference}},
   {"GranitePackedByMotionInTension",
-   "lab",
-   "beishan-granite/ensemble.prm",
-   {"beishan-granite/results/ensemble-by-motion.json"},
+   "beishan-granite/ensemble",
+   {"ensemble-by-motion"},
    {{"Specimen", "Packing relaxation", "dynamics"},
     {"Flat joint", "Coordination number", "4.2"},
-    {"Tests", "List", "direct_tension"},
+    in_tension,
     first_seed,
     no_reference}},
   {"GraniteJoinedByTheNumberOfNeighboursInTension",
-   "lab",
-   "beishan-granite/ensemble.prm",
-   {"beishan-granite/results/ensemble-by-coordination.json"},
-   {{"Flat joint", "Coordination number", "4.2"}, {"Tests", "List", "direct_tension"}, first_seed, no_reference}},
+   "beishan-granite/ensemble",
+   {"ensemble-by-coordination"},
+   {{"Flat joint", "Coordination number", "4.2"}, in_tension, first_seed, no_reference}},
   {"GraniteInCompressionAtTheFullRate",
-   "lab",
-   "beishan-granite/rate-study.prm",
-   {"beishan-granite/results/rate-study.json"},
-   {{"Seeds", "Seeds", "3"}, {"Variants", "Values", "1 1/s"}, no_reference}},
+   "beishan-granite/rate-study",
+   {"rate-study"},
+   {third_seed, with_values("1 1/s"), no_reference}},
   {"GraniteWithAnInclinedSlot",
-   "lab",
-   "flawed-granite/flaw.prm",
-   {"flawed-granite/results/flaw.json"},
-   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "slot centre 25, 50 mm length 16 mm angle 15 deg width 2 mm"}}},
+   "flawed-granite/flaw",
+   {"flaw"},
+   {second_seed, with_values("slot centre 25, 50 mm length 16 mm angle 15 deg width 2 mm")}},
   {"GraniteWithASmoothFlaw",
-   "lab",
-   "flawed-granite/closed-flaw.prm",
-   {"flawed-granite/results/closed-flaw.json"},
-   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "closed flaw centre 25, 50 mm length 16 mm angle 30 deg smooth"}}},
+   "flawed-granite/closed-flaw",
+   {"closed-flaw"},
+   {second_seed, with_values("closed flaw centre 25, 50 mm length 16 mm angle 30 deg smooth")}},
   {"GraniteWithTwoFlaws",
-   "lab",
-   "flawed-granite/two-flaws.prm",
-   {"flawed-granite/results/two-flaws.json"},
-   {{"Seeds", "Seeds", "3"},
-    {"Variants", "Values",
-     "slot from 18.926, 41.856 mm to 27.412, 50.341 mm width 2 mm | slot from 32.588, 69.659 mm to 41.074, 78.144 mm width 2 mm"}}},
+   "flawed-granite/two-flaws",
+   {"two-flaws"},
+   {third_seed,
+    with_values(
+      "slot from 18.926, 41.856 mm to 27.412, 50.341 mm width 2 mm | slot from 32.588, 69.659 mm to 41.074, 78.144 mm width 2 mm")}},
   {"GraniteWithAHoleInTension",
-   "lab",
-   "flawed-granite/hole.prm",
-   {"flawed-granite/results/hole.json"},
-   {first_seed, {"Tests", "List", "direct_tension"}, {"Variants", "Values", "hole centre 25, 50 mm radius 8 mm"}}},
+   "flawed-granite/hole",
+   {"hole"},
+   {first_seed, in_tension, with_values("hole centre 25, 50 mm radius 8 mm")}},
   {"GraniteWithTheLongestFlawInTension",
-   "lab",
-   "flawed-granite/flaw-length.prm",
-   {"flawed-granite/results/flaw-length.json"},
-   {first_seed, {"Variants", "Values", "closed flaw centre 75, 75 mm length 49 mm angle 0 deg"}}},
-  {"GrainBasedModelInTension",
-   "lab",
-   "contact-models/grain-based.prm",
-   {"contact-models/results/grain-based.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
-  {"ClumpsInTension",
-   "lab",
-   "contact-models/clumped.prm",
-   {"contact-models/results/clumped.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
+   "flawed-granite/flaw-length",
+   {"flaw-length"},
+   {first_seed, with_values("closed flaw centre 75, 75 mm length 49 mm angle 0 deg")}},
+  {"GrainBasedModelInTension", "contact-models/grain-based", {"grain-based"}, {in_tension, first_seed, no_reference}},
+  {"ClumpsInTension", "contact-models/clumped", {"clumped"}, {in_tension, first_seed, no_reference}},
   {"ClumpsOfTheLargestSizeInTension",
-   "lab",
-   "contact-models/clump-size.prm",
-   {"contact-models/results/clump-size.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, {"Variants", "Values", "8 mm"}, no_reference}},
+   "contact-models/clump-size",
+   {"clump-size"},
+   {in_tension, first_seed, with_values("8 mm"), no_reference}},
   {"FlatJointBesideOtherModelsInTension",
-   "lab",
-   "contact-models/flat-joint.prm",
-   {"contact-models/results/flat-joint.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
-  {"ToughnessOfTheCoarsestGrains",
-   "lab",
-   "toughness/toughness.prm",
-   {"toughness/results/toughness.json"},
-   {first_seed, {"Variants", "Values", "1.24 mm"}}},
+   "contact-models/flat-joint",
+   {"flat-joint"},
+   {in_tension, first_seed, no_reference}},
+  {"ToughnessOfTheCoarsestGrains", "toughness/toughness", {"toughness"}, {first_seed, with_values("1.24 mm")}},
   {"ToughnessOfALargePlateOfTheCoarsestGrains",
-   "lab",
-   "toughness/large-plate.prm",
-   {"toughness/results/large-plate.json"},
-   {first_seed, {"Tests", "List", "centre_cracked_plate"}, {"Variants", "Values", "1.24 mm"}}},
-  {"ToughnessAtTheGapOfSpheres",
-   "lab",
-   "toughness/in-plane.prm",
-   {"toughness/results/in-plane.json"},
-   {first_seed, {"Variants", "Values", "1.24 mm"}}},
+   "toughness/large-plate",
+   {"large-plate"},
+   {first_seed, {"Tests", "List", "centre_cracked_plate"}, with_values("1.24 mm")}},
+  {"ToughnessAtTheGapOfSpheres", "toughness/in-plane", {"in-plane"}, {first_seed, with_values("1.24 mm")}},
   {"ToughnessOfCoarseSpheres",
-   "lab",
-   "toughness/in-space.prm",
-   {"toughness/results/in-space.json"},
-   {first_seed, {"Tests", "List", "semicircular_bending"}, {"Variants", "Values", "1.24 mm"}}},
+   "toughness/in-space",
+   {"in-space"},
+   {first_seed, {"Tests", "List", "semicircular_bending"}, with_values("1.24 mm")}},
   {"ToughnessOfBondsThatSoften",
-   "lab",
-   "toughness/softening.prm",
-   {"toughness/results/softening.json"},
-   {first_seed, {"Tests", "List", "semicircular_bending"}, {"Variants", "Values", "1 um"}}},
+   "toughness/softening",
+   {"softening"},
+   {first_seed, {"Tests", "List", "semicircular_bending"}, with_values("1 um")}},
   {"StrengthOfBondsThatSoften",
-   "lab",
-   "toughness/softening-strength.prm",
-   {"toughness/results/softening-strength.json"},
-   {first_seed, {"Tests", "List", "direct_tension"}, {"Variants", "Values", "5 um"}}},
+   "toughness/softening-strength",
+   {"softening-strength"},
+   {first_seed, in_tension, with_values("5 um")}},
   {"SmoothPlaneInTheShearBox",
-   "lab",
-   "direct-shear/smooth-plane.prm",
-   {"direct-shear/results/smooth-plane.json"},
+   "direct-shear/smooth-plane",
+   {"smooth-plane"},
    {first_seed,
     {"Tests", "Confinements", "5 MPa"},
-    {"Variants", "Values", "closed flaw from 0, 10 mm to 40, 10 mm smooth friction 0.6 dilation 8 deg"}}},
+    with_values("closed flaw from 0, 10 mm to 40, 10 mm smooth friction 0.6 dilation 8 deg")}},
   {"SmoothPlaneInStiffRock",
-   "lab",
-   "direct-shear/stiff-rock.prm",
-   {"direct-shear/results/stiff-rock.json"},
-   {first_seed, {"Tests", "Confinements", "5 MPa"}, {"Variants", "Values", "0.8 GPa/mm"}}},
-  {"IntactGraniteInTheShearBox",
-   "lab",
-   "direct-shear/intact.prm",
-   {"direct-shear/results/intact.json"},
-   {first_seed, {"Tests", "Confinements", "5 MPa"}}},
+   "direct-shear/stiff-rock",
+   {"stiff-rock"},
+   {first_seed, {"Tests", "Confinements", "5 MPa"}, with_values("0.8 GPa/mm")}},
+  {"IntactGraniteInTheShearBox", "direct-shear/intact", {"intact"}, {first_seed, {"Tests", "Confinements", "5 MPa"}}},
 
   {"CalibratedGraniteInTension",
-   "lab",
-   "calibrate-beishan/best.prm",
-   {"calibrate-beishan/results/best.json"},
-   {{"Tests", "List", "direct_tension"}, {"Seeds", "Seeds", "171"}, no_reference}},
+   "calibrate-beishan/best",
+   {"best"},
+   {in_tension, {"Seeds", "Seeds", "171"}, no_reference}},
   {"CalibratedCylinderInTension",
-   "lab",
-   "calibrate-beishan-cylinder/best.prm",
-   {"calibrate-beishan-cylinder/results/best.json"},
-   {{"Tests", "List", "direct_tension"}, {"Seeds", "Seeds", "131"}, no_reference}},
+   "calibrate-beishan-cylinder/best",
+   {"best"},
+   {in_tension, {"Seeds", "Seeds", "131"}, no_reference}},
   {"CalibratedGraniteOfLacDuBonnetCrushed",
-   "lab",
-   "calibrate-lac-du-bonnet/best.prm",
-   {"calibrate-lac-du-bonnet/results/best.json"},
-   {{"Tests", "List", "uniaxial_compression"}, {"Seeds", "Seeds", "207"}, no_reference}},
+   "calibrate-lac-du-bonnet/best",
+   {"best"},
+   {in_compression, {"Seeds", "Seeds", "207"}, no_reference}},
   {"CalibratedCylinderOfLacDuBonnetSplit",
-   "lab",
-   "calibrate-lac-du-bonnet-cylinder/best.prm",
-   {"calibrate-lac-du-bonnet-cylinder/results/best.json"},
+   "calibrate-lac-du-bonnet-cylinder/best",
+   {"best"},
    {{"Tests", "List", "brazilian"}, {"Seeds", "Seeds", "307"}, no_reference}},
   {"CalibratedSandstoneCrushed",
-   "lab",
-   "calibrate-sandstone/best.prm",
-   {"calibrate-sandstone/results/best.json"},
-   {{"Tests", "List", "uniaxial_compression"}, {"Seeds", "Seeds", "503"}, no_reference}},
+   "calibrate-sandstone/best",
+   {"best"},
+   {in_compression, {"Seeds", "Seeds", "503"}, no_reference}},
   {"BondsOfClumpsWithoutClumps",
-   "lab",
-   "contact-models/clump-size.prm",
-   {"contact-models/results/clumped-without-clumps.json"},
+   "contact-models/clump-size",
+   {"clumped-without-clumps"},
    {{"Variants", "Entry", "none"},
-    {"Variants", "Values", "none"},
-    {"Tests", "List", "uniaxial_compression"},
+    with_values("none"),
+    in_compression,
     {"Tests", "Stop stress over peak", "0.9"},
     first_seed,
     no_reference}},
   {"ParallelBondsThatOnlyShear",
-   "lab",
-   "contact-models/parallel-bond.prm",
-   {"contact-models/results/parallel-bond-shear-only.json"},
+   "contact-models/parallel-bond",
+   {"parallel-bond-shear-only"},
    {{"Parallel bond", "Tensile strength", "1320 MPa"},
-    {"Tests", "List", "uniaxial_compression"},
+    in_compression,
     {"Tests", "Stop stress over peak", "0.9"},
     first_seed,
     no_reference}},
   {"ParallelBondsThatOnlyOpen",
-   "lab",
-   "contact-models/parallel-bond.prm",
-   {"contact-models/results/parallel-bond-tension-only.json"},
+   "contact-models/parallel-bond",
+   {"parallel-bond-tension-only"},
    {{"Parallel bond", "Cohesion", "1100 MPa"},
-    {"Tests", "List", "uniaxial_compression"},
+    in_compression,
     {"Tests", "Stop stress over peak", "0.9"},
     first_seed,
     no_reference}},
-  {"ParallelBondsInTension",
-   "lab",
-   "contact-models/parallel-bond.prm",
-   {"contact-models/results/parallel-bond.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed, no_reference}},
-  {"RveInTension",
-   "rve",
-   "rve-beishan/tension.prm",
-   {"rve-beishan/results/tension.json", "rve-beishan/results/size-32.5-mm.json"},
-   {first_seed}},
-  {"RveByBothBreakRules", "rve", "rve-beishan/break-rules.prm", {"rve-beishan/results/break-rules.json"}, {first_seed}},
+  {"ParallelBondsInTension", "contact-models/parallel-bond", {"parallel-bond"}, {in_tension, first_seed, no_reference}},
+  {"RveInTension", "rve-beishan/tension", {"tension", "size-32.5-mm"}, {first_seed}},
+  {"RveByBothBreakRules", "rve-beishan/break-rules", {"break-rules"}, {first_seed}},
   {"RveByExplicitDynamics",
-   "rve",
-   "rve-beishan/explicit-tension.prm",
-   {"rve-beishan/results/explicit-tension.json"},
-   {first_seed, {"Variants", "Values", "1000; 10000"}}},
-  {"RveUnderPressureExplicit",
-   "rve",
-   "rve-beishan/triaxial-20.prm",
-   {"rve-beishan/results/triaxial-20.json"},
-   {{"Seeds", "Seeds", "2"}, {"Variants", "Values", "explicit"}}},
+   "rve-beishan/explicit-tension",
+   {"explicit-tension"},
+   {first_seed, with_values("1000; 10000")}},
+  {"RveUnderPressureExplicit", "rve-beishan/triaxial-20", {"triaxial-20"}, {second_seed, with_values("explicit")}},
   {"RveUnderHighPressureBegun",
-   "rve",
-   "rve-beishan/triaxial-60.prm",
-   {"rve-beishan/results/triaxial-60.json"},
-   {{"Seeds", "Seeds", "2"}, hardly_strained},
+   "rve-beishan/triaxial-60",
+   {"triaxial-60"},
+   {second_seed, hardly_strained},
    Extent::begun},
   {"RvePressedBegun",
-   "rve",
-   "rve-beishan/uniaxial.prm",
-   {"rve-beishan/results/uniaxial.json", "rve-beishan/results/size-32.5-mm-compression.json"},
-   {{"Seeds", "Seeds", "2"}, hardly_strained},
+   "rve-beishan/uniaxial",
+   {"uniaxial", "size-32.5-mm-compression"},
+   {second_seed, hardly_strained},
    Extent::begun},
   {"SmallestRvesInTension",
-   "rve",
-   "rve-beishan/tension.prm",
-   {"rve-beishan/results/size-12-mm.json"},
+   "rve-beishan/tension",
+   {"size-12-mm"},
    {{"Specimen", "Width", "12 mm"}, {"Specimen", "Height", "12 mm"}}},
   {"SmallestRvesPressed",
-   "rve",
-   "rve-beishan/uniaxial.prm",
-   {"rve-beishan/results/size-12-mm-compression.json"},
-   {{"Specimen", "Width", "12 mm"}, {"Specimen", "Height", "12 mm"}, {"Strain path", "Solver", "explicit"}}},
+   "rve-beishan/uniaxial",
+   {"size-12-mm-compression"},
+   {{"Specimen", "Width", "12 mm"}, {"Specimen", "Height", "12 mm"}, explicitly}},
   {"SmallRveInTension",
-   "rve",
-   "rve-beishan/tension.prm",
-   {"rve-beishan/results/size-16-mm.json"},
+   "rve-beishan/tension",
+   {"size-16-mm"},
    {first_seed, {"Specimen", "Width", "16 mm"}, {"Specimen", "Height", "16 mm"}}},
   {"SmallRvePressed",
-   "rve",
-   "rve-beishan/uniaxial.prm",
-   {"rve-beishan/results/size-16-mm-compression.json"},
-   {first_seed,
-    {"Specimen", "Width", "16 mm"},
-    {"Specimen", "Height", "16 mm"},
-    {"Strain path", "Solver", "explicit"}}},
+   "rve-beishan/uniaxial",
+   {"size-16-mm-compression"},
+   {first_seed, {"Specimen", "Width", "16 mm"}, {"Specimen", "Height", "16 mm"}, explicitly}},
   {"MediumRveInTension",
-   "rve",
-   "rve-beishan/tension.prm",
-   {"rve-beishan/results/size-23-mm.json"},
+   "rve-beishan/tension",
+   {"size-23-mm"},
    {first_seed, {"Specimen", "Width", "23 mm"}, {"Specimen", "Height", "23 mm"}}},
   {"MediumRvePressed",
-   "rve",
-   "rve-beishan/uniaxial.prm",
-   {"rve-beishan/results/size-23-mm-compression.json"},
-   {first_seed,
-    {"Specimen", "Width", "23 mm"},
-    {"Specimen", "Height", "23 mm"},
-    {"Strain path", "Solver", "explicit"}}},
+   "rve-beishan/uniaxial",
+   {"size-23-mm-compression"},
+   {first_seed, {"Specimen", "Width", "23 mm"}, {"Specimen", "Height", "23 mm"}, explicitly}},
   {"LargestRveBegun",
-   "rve",
-   "rve-beishan/tension.prm",
-   {"rve-beishan/results/size-46-mm.json", "rve-beishan/results/size-46-mm-compression.json"},
-   {{"Seeds", "Seeds", "2"}, {"Specimen", "Width", "46 mm"}, {"Specimen", "Height", "46 mm"}, hardly_strained},
+   "rve-beishan/tension",
+   {"size-46-mm", "size-46-mm-compression"},
+   {second_seed, {"Specimen", "Width", "46 mm"}, {"Specimen", "Height", "46 mm"}, hardly_strained},
    Extent::begun},
   {"RveInSpaceBegun",
-   "rve",
-   "rve-beishan/tension-3d.prm",
-   {"rve-beishan/results/tension-3d.json", "rve-beishan/results/uniaxial-3d.json",
-    "rve-beishan/results/triaxial-20-3d.json", "rve-beishan/results/triaxial-60-3d.json"},
+   "rve-beishan/tension-3d",
+   {"tension-3d", "uniaxial-3d", "triaxial-20-3d", "triaxial-60-3d"},
    {hardly_strained},
    Extent::begun},
 
-  {"BodyOfOneCellInTension",
-   "lab",
-   "multiscale-and-grains/one-box.prm",
-   {"multiscale-and-grains/results/one-box.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed}},
+  {"BodyOfOneCellInTension", "multiscale-and-grains/one-box", {"one-box"}, {in_tension, first_seed}},
   {"MinimalKinematicCellBegun",
-   "rve",
-   "multiscale-and-grains/one-cell.prm",
-   {"multiscale-and-grains/results/one-cell-compression.json", "multiscale-and-grains/results/one-cell-tension.json"},
+   "multiscale-and-grains/one-cell",
+   {"one-cell-compression", "one-cell-tension"},
    {first_seed, hardly_strained},
    Extent::begun},
 
-  {"SampleInTension",
-   "multiscale",
-   "multiscale-beishan/demo.prm",
-   {"multiscale-beishan/results/demo.json"},
-   {{"Tests", "List", "direct_tension"}, no_reference}},
+  {"SampleInTension", "multiscale-beishan/demo", {"demo"}, {in_tension, no_reference}},
   {"SampleBegun",
-   "multiscale",
-   "multiscale-beishan/beishan.prm",
-   {"multiscale-beishan/results/beishan.json"},
-   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "1e-5"}, first_seed, no_reference},
+   "multiscale-beishan/beishan",
+   {"beishan"},
+   {in_tension, hardly_loaded, first_seed, no_reference},
    Extent::begun},
   {"SampleOfCellsWithANumberOfJointsBegun",
-   "multiscale",
-   "multiscale-beishan/beishan.prm",
-   {"multiscale-beishan/results/beishan-by-coordination.json", "multiscale-beishan/results/beishan-finite.json"},
+   "multiscale-beishan/beishan",
+   {"beishan-by-coordination", "beishan-finite"},
    {{"Specimen", "Packing relaxation", "dynamics"},
     {"Flat joint", "Coordination number", "4.2"},
-    {"Tests", "List", "direct_tension"},
-    {"Tests", "Stop strain", "1e-5"},
+    in_tension,
+    hardly_loaded,
     first_seed,
     no_reference},
    Extent::begun},
   {"SampleAtTheGapOfTheGrainsBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample.json", "multiscale-and-grains/results/sample-unturned.json"},
-   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "1e-5"}, first_seed},
+   "multiscale-and-grains/sample",
+   {"sample", "sample-unturned"},
+   {in_tension, hardly_loaded, first_seed},
    Extent::begun},
   {"SampleDealtToElementsBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-elements.json"},
-   {{"Sample", "Dealing", "to elements"},
-    {"Tests", "List", "direct_tension"},
-    {"Tests", "Stop strain", "1e-5"},
-    first_seed},
+   "multiscale-and-grains/sample",
+   {"sample-elements"},
+   {{"Sample", "Dealing", "to elements"}, in_tension, hardly_loaded, first_seed},
    Extent::begun},
   {"SampleOfEdgeCellsBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-edges.json"},
-   {{"Representative volume", "Boundary", "edge"},
-    {"Tests", "List", "direct_tension"},
-    {"Tests", "Stop strain", "1e-5"},
-    first_seed},
+   "multiscale-and-grains/sample",
+   {"sample-edges"},
+   {{"Representative volume", "Boundary", "edge"}, in_tension, hardly_loaded, first_seed},
    Extent::begun},
   {"SmallCylinderCutFreeInTension",
-   "lab",
-   "multiscale-and-grains/cylinder.prm",
-   {"multiscale-and-grains/results/cored-cylinder-13.2-mm.json"},
+   "multiscale-and-grains/cylinder",
+   {"cored-cylinder-13.2-mm"},
    {{"Specimen", "Width", "13.2 mm"},
     {"Specimen", "Height", "26.4 mm"},
     {"Tests", "Compression strain rate", "3.788 1/s"},
     {"Tests", "Tension strain rate", "0.6212 1/s"},
-    {"Tests", "List", "direct_tension"},
+    in_tension,
     first_seed}},
   {"SmallCylinderCutFreeUnderPressureBegun",
-   "lab",
-   "multiscale-and-grains/cylinder.prm",
-   {"multiscale-and-grains/results/cored-cylinder-13.2-mm-confined.json"},
+   "multiscale-and-grains/cylinder",
+   {"cored-cylinder-13.2-mm-confined"},
    {{"Specimen", "Width", "13.2 mm"},
     {"Specimen", "Height", "26.4 mm"},
     {"Tests", "Compression strain rate", "3.788 1/s"},
@@ -425,172 +345,136 @@ const std::vector<Piece> pieces{
     first_seed},
    Extent::begun},
   {"SmallCylinderBetweenWallsInTension",
-   "lab",
-   "multiscale-and-grains/cylinder.prm",
-   {"multiscale-and-grains/results/walled-cylinder-13.2-mm.json"},
+   "multiscale-and-grains/cylinder",
+   {"walled-cylinder-13.2-mm"},
    {{"Specimen", "Coring", "none"},
     {"Specimen", "Porosity", "0.39"},
     {"Specimen", "Width", "13.2 mm"},
     {"Specimen", "Height", "26.4 mm"},
     {"Tests", "Compression strain rate", "3.788 1/s"},
     {"Tests", "Tension strain rate", "0.6212 1/s"},
-    {"Tests", "List", "direct_tension"},
+    in_tension,
     first_seed}},
   {"SmallGraniteInTension",
-   "lab",
-   "multiscale-and-grains/laboratory.prm",
-   {"multiscale-and-grains/results/laboratory-25-mm.json"},
+   "multiscale-and-grains/laboratory",
+   {"laboratory-25-mm"},
    {{"Variants", "Entry", "none"},
-    {"Variants", "Values", "none"},
+    with_values("none"),
     {"Specimen", "Width", "25 mm"},
     {"Specimen", "Height", "50 mm"},
     {"Tests", "Compression strain rate", "2 1/s"},
     {"Tests", "Tension strain rate", "0.328 1/s"},
-    {"Tests", "List", "direct_tension"},
+    in_tension,
     first_seed}},
   {"SampleOfOwnCellsBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-own.json", "multiscale-and-grains/results/sample-own-unturned.json"},
-   {{"Sample", "Realisations", "32"},
-    {"Sample", "Draw", "in turn"},
-    {"Tests", "List", "direct_tension"},
-    {"Tests", "Stop strain", "1e-5"},
-    first_seed},
+   "multiscale-and-grains/sample",
+   {"sample-own", "sample-own-unturned"},
+   {{"Sample", "Realisations", "32"}, {"Sample", "Draw", "in turn"}, in_tension, hardly_loaded, first_seed},
    Extent::begun},
   {"PlateWithAHoleBegun",
-   "multiscale",
-   "plate-with-hole/sample.prm",
-   {"plate-with-hole/results/sample.json"},
+   "plate-with-hole/sample",
+   {"sample"},
    {{"Sample", "Mesh file", (root / "examples/plate-with-hole/plate.msh").string()},
     {"Tests", "Loading table", (root / "examples/plate-with-hole/stages.csv").string()},
     {"Tests", "Stop strain", "1e-6"}},
    Extent::begun},
   {"GrainsAtTheGapOfTheSample",
-   "lab",
-   "multiscale-and-grains/laboratory.prm",
-   {"multiscale-and-grains/results/laboratory.json"},
-   {{"Tests", "List", "direct_tension"}, {"Variants", "Values", "0.0237"}, first_seed}},
+   "multiscale-and-grains/laboratory",
+   {"laboratory"},
+   {in_tension, with_values("0.0237"), first_seed}},
   {"GrainsUnderPressure",
-   "lab",
-   "multiscale-and-grains/confined.prm",
-   {"multiscale-and-grains/results/confined.json"},
+   "multiscale-and-grains/confined",
+   {"confined"},
    {{"Tests", "Confinements", "5 MPa"}, first_seed}},
   {"GrainsUnderPressureAtAQuarterOfTheRateBegun",
-   "lab",
-   "multiscale-and-grains/confined.prm",
-   {"multiscale-and-grains/results/confined-slow.json"},
+   "multiscale-and-grains/confined",
+   {"confined-slow"},
    {first_seed,
     {"Tests", "Confinements", "5 MPa"},
     {"Tests", "Compression strain rate", "0.25 1/s"},
     {"Tests", "Stop strain", "1e-4"}},
    Extent::begun},
   {"SampleUnderPressureBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-confined.json", "multiscale-and-grains/results/sample-finite.json",
-    "multiscale-and-grains/results/sample-finite-5-mpa.json"},
+   "multiscale-and-grains/sample",
+   {"sample-confined", "sample-finite", "sample-finite-5-mpa"},
    {{"Tests", "List", "triaxial_compression"},
     {"Tests", "Confinements", "5 MPa"},
     {"Tests", "Stop strain", "1e-4"},
     first_seed},
    Extent::begun},
   {"SampleOfSofteningBondsInTension",
-   "multiscale",
-   "multiscale-and-grains/softening.prm",
-   {"multiscale-and-grains/results/softening-1-um.json"},
+   "multiscale-and-grains/softening",
+   {"softening-1-um"},
    {{"Softening flat joint", "Softening opening", "1 um"}, first_seed}},
   {"SampleOfSofteningBondsBegun",
-   "multiscale",
-   "multiscale-and-grains/softening.prm",
-   {"multiscale-and-grains/results/softening-0-um.json", "multiscale-and-grains/results/softening-2-um.json",
-    "multiscale-and-grains/results/softening-5-um.json"},
-   {{"Tests", "Stop strain", "1e-5"}, first_seed},
+   "multiscale-and-grains/softening",
+   {"softening-0-um", "softening-2-um", "softening-5-um"},
+   {hardly_loaded, first_seed},
    Extent::begun},
   {"SampleOnAFinerMeshBegun",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/sample-3-by-6.json", "multiscale-and-grains/results/sample-4-by-8.json"},
-   {{"Tests", "List", "uniaxial_compression"},
+   "multiscale-and-grains/sample",
+   {"sample-3-by-6", "sample-4-by-8"},
+   {in_compression,
     {"Tests", "Stop strain", "1e-4"},
     {"Sample", "Elements across", "3"},
     {"Sample", "Elements along", "6"},
     first_seed},
    Extent::begun},
   {"FirstCracksOfGrains",
-   "lab",
-   "multiscale-and-grains/rate.prm",
-   {"multiscale-and-grains/results/first-cracks-grains.json"},
-   {{"Variants", "Values", "0.25 1/s"}, {"Tests", "Stop strain", "1e-4"}, first_seed},
+   "multiscale-and-grains/rate",
+   {"first-cracks-grains"},
+   {with_values("0.25 1/s"), {"Tests", "Stop strain", "1e-4"}, first_seed},
    Extent::begun},
   {"FirstCracksOfTheSample",
-   "multiscale",
-   "multiscale-and-grains/sample.prm",
-   {"multiscale-and-grains/results/first-cracks-sample.json"},
-   {{"Tests", "List", "uniaxial_compression"}, {"Tests", "Stop strain", "9e-4"}, first_seed}},
-  {"GrainsWithoutWalls",
-   "lab",
-   "multiscale-and-grains/same-cells-grains.prm",
-   {"multiscale-and-grains/results/same-cells-grains.json"},
-   {{"Tests", "List", "direct_tension"}, first_seed}},
+   "multiscale-and-grains/sample",
+   {"first-cracks-sample"},
+   {in_compression, {"Tests", "Stop strain", "9e-4"}, first_seed}},
+  {"GrainsWithoutWalls", "multiscale-and-grains/same-cells-grains", {"same-cells-grains"}, {in_tension, first_seed}},
   {"TurnedRvesInTension",
-   "rve",
-   "multiscale-and-grains/angles-tension.prm",
-   {"multiscale-and-grains/results/angles-tension.json"},
-   {{"Variants", "Values", "30 deg"}, first_seed}},
+   "multiscale-and-grains/angles-tension",
+   {"angles-tension"},
+   {with_values("30 deg"), first_seed}},
   {"SmallestCellsByTheirBoundariesPulled",
-   "rve",
-   "multiscale-and-grains/boundaries-tension.prm",
-   {"multiscale-and-grains/results/boundaries-tension-12.5-mm.json"},
+   "multiscale-and-grains/boundaries-tension",
+   {"boundaries-tension-12.5-mm"},
    {{"Specimen", "Width", "12.5 mm"}, {"Specimen", "Height", "12.5 mm"}, first_seed}},
   {"SmallCellsByTheirBoundariesPulled",
-   "rve",
-   "multiscale-and-grains/boundaries-tension.prm",
-   {"multiscale-and-grains/results/boundaries-tension-18-mm.json"},
+   "multiscale-and-grains/boundaries-tension",
+   {"boundaries-tension-18-mm"},
    {{"Specimen", "Width", "18 mm"}, {"Specimen", "Height", "18 mm"}, first_seed}},
   {"MinimalKinematicCellPulled",
-   "rve",
-   "multiscale-and-grains/boundaries-tension.prm",
-   {"multiscale-and-grains/results/boundaries-tension-25-mm.json"},
-   {{"Variants", "Values", "minimal kinematic"}, first_seed}},
+   "multiscale-and-grains/boundaries-tension",
+   {"boundaries-tension-25-mm"},
+   {with_values("minimal kinematic"), first_seed}},
   {"LargeCellWithFreeSidesPulled",
-   "rve",
-   "multiscale-and-grains/boundaries-tension.prm",
-   {"multiscale-and-grains/results/boundaries-tension-36-mm.json"},
-   {{"Specimen", "Width", "36 mm"}, {"Specimen", "Height", "36 mm"}, {"Variants", "Values", "edge"}, first_seed}},
+   "multiscale-and-grains/boundaries-tension",
+   {"boundaries-tension-36-mm"},
+   {{"Specimen", "Width", "36 mm"}, {"Specimen", "Height", "36 mm"}, with_values("edge"), first_seed}},
   {"SmallestCellsByTheirBoundariesPressed",
-   "rve",
-   "multiscale-and-grains/boundaries-compression.prm",
-   {"multiscale-and-grains/results/boundaries-compression-12.5-mm.json"},
+   "multiscale-and-grains/boundaries-compression",
+   {"boundaries-compression-12.5-mm"},
    {{"Specimen", "Width", "12.5 mm"}, {"Specimen", "Height", "12.5 mm"}, first_seed}},
   {"SmallCellWithFreeSidesPressed",
-   "rve",
-   "multiscale-and-grains/boundaries-compression.prm",
-   {"multiscale-and-grains/results/boundaries-compression-18-mm.json"},
-   {{"Specimen", "Width", "18 mm"}, {"Specimen", "Height", "18 mm"}, {"Variants", "Values", "edge"}, first_seed}},
+   "multiscale-and-grains/boundaries-compression",
+   {"boundaries-compression-18-mm"},
+   {{"Specimen", "Width", "18 mm"}, {"Specimen", "Height", "18 mm"}, with_values("edge"), first_seed}},
   {"AffineCellPressed",
-   "rve",
-   "multiscale-and-grains/boundaries-compression.prm",
-   {"multiscale-and-grains/results/boundaries-compression-25-mm.json"},
-   {{"Variants", "Values", "affine"}, first_seed}},
+   "multiscale-and-grains/boundaries-compression",
+   {"boundaries-compression-25-mm"},
+   {with_values("affine"), first_seed}},
   {"CoredGraniteInTension",
-   "lab",
-   "multiscale-and-grains/cored.prm",
-   {"multiscale-and-grains/results/cored.json"},
-   {{"Tests", "List", "direct_tension"}, {"Variants", "Values", "sides only"}, first_seed}},
+   "multiscale-and-grains/cored",
+   {"cored"},
+   {in_tension, with_values("sides only"), first_seed}},
   {"SampleOfTheSameCellsBegun",
-   "multiscale",
-   "multiscale-and-grains/same-cells-sample.prm",
-   {"multiscale-and-grains/results/same-cells-sample.json", "multiscale-and-grains/results/same-cells-sample-edge.json",
-    "multiscale-and-grains/results/same-cells-sample-turned.json",
-    "multiscale-and-grains/results/same-cells-sample-minimal-kinematic.json",
-    "multiscale-and-grains/results/same-cells-sample-weakly-periodic.json"},
-   {{"Tests", "List", "direct_tension"}, {"Tests", "Stop strain", "1e-5"}, first_seed},
+   "multiscale-and-grains/same-cells-sample",
+   {"same-cells-sample", "same-cells-sample-edge", "same-cells-sample-turned", "same-cells-sample-minimal-kinematic",
+    "same-cells-sample-weakly-periodic"},
+   {in_tension, hardly_loaded, first_seed},
    Extent::begun},
   {"CellBesideFreeSidesBegun",
-   "rve",
-   "rve-beishan/uniaxial.prm",
-   {"rve-beishan/results/free-sides-2d-16-mm-cell.json"},
+   "rve-beishan/uniaxial",
+   {"free-sides-2d-16-mm-cell"},
    {{"Specimen", "Width", "16 mm"},
     {"Specimen", "Height", "16 mm"},
     {"Flat joint", "Installation gap ratio", "0.0457"},
@@ -598,99 +482,62 @@ const std::vector<Piece> pieces{
     hardly_strained},
    Extent::begun},
   {"SmallBoxWithFreeSides",
-   "lab",
-   "beishan-granite/ensemble.prm",
-   {"rve-beishan/results/free-sides-2d-16-mm-box.json"},
+   "beishan-granite/ensemble",
+   {"rve-beishan/free-sides-2d-16-mm-box"},
    {{"Specimen", "Packing relaxation", "dynamics"},
     {"Specimen", "Width", "16 mm"},
     {"Specimen", "Height", "16 mm"},
     {"Flat joint", "Installation gap ratio", "0.0457"},
-    {"Tests", "List", "uniaxial_compression"},
+    in_compression,
     {"Tests", "Compression strain rate", "6.25 1/s"},
     {"Tests", "Stop strain over peak strain", "1.2"},
     first_seed,
     no_reference}},
-  {"SectionBegun",
-   "multiscale",
-   "multiscale-beishan-cylinder/tension.prm",
-   {"multiscale-beishan-cylinder/results/tension.json"},
-   {{"Tests", "Stop strain", "1e-5"}},
-   Extent::begun},
-  {"WholeCylinderBegun",
-   "multiscale",
-   "multiscale-beishan-cylinder/cylinder.prm",
-   {"multiscale-beishan-cylinder/results/cylinder.json"},
-   {{"Tests", "Stop strain", "1e-5"}},
-   Extent::begun},
+  {"SectionBegun", "multiscale-beishan-cylinder/tension", {"tension"}, {hardly_loaded}, Extent::begun},
+  {"WholeCylinderBegun", "multiscale-beishan-cylinder/cylinder", {"cylinder"}, {hardly_loaded}, Extent::begun},
   {"WholeCylinderPressedBegun",
-   "multiscale",
-   "multiscale-beishan-cylinder/cylinder.prm",
-   {"multiscale-beishan-cylinder/results/compression-whole.json"},
-   {{"Tests", "List", "uniaxial_compression"},
-    {"Sample", "Compression step", "1e-4"},
-    {"Tests", "Stop strain", "1e-4"}},
+   "multiscale-beishan-cylinder/cylinder",
+   {"compression-whole"},
+   {in_compression, {"Sample", "Compression step", "1e-4"}, {"Tests", "Stop strain", "1e-4"}},
    Extent::begun},
   {"SectionPressedBegun",
-   "multiscale",
-   "multiscale-beishan-cylinder/compression.prm",
-   {"multiscale-beishan-cylinder/results/compression.json",
-    "multiscale-beishan-cylinder/results/compression-edges.json"},
-   {{"Tests", "List", "uniaxial_compression"}, {"Tests", "Stop strain", "2e-4"}},
+   "multiscale-beishan-cylinder/compression",
+   {"compression", "compression-edges"},
+   {in_compression, {"Tests", "Stop strain", "2e-4"}},
    Extent::begun},
 };
 
+std::set<std::string> words(const std::string& text)
+{
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
 // Figures of a body before it is loaded.
-const std::set<std::string> of_the_body{"n_grains",
-                                        "n_joints",
-                                        "coordination_number",
-                                        "coordination_number_core",
-                                        "installation_gap_ratio",
-                                        "porosity",
-                                        "mean_overlap_ratio",
-                                        "resolution",
-                                        "radius_multiplier",
-                                        "size_m",
-                                        "cell_m",
-                                        "fabric",
-                                        "stiffness_Pa",
-                                        "youngs_modulus_Pa",
-                                        "poissons_ratio",
-                                        "bulk_modulus_Pa",
-                                        "shear_modulus_Pa",
-                                        "anisotropy"};
+const std::set<std::string> of_the_body =
+  words("n_grains n_joints coordination_number coordination_number_core installation_gap_ratio porosity "
+        "resolution size_m youngs_modulus_Pa poissons_ratio bulk_modulus_Pa shear_modulus_Pa anisotropy ");
 
 // Figures of its way to the end of the test. How exactly a run was computed (energies, servo, balance) is not among them:
 // such a measure may come to be defined more sharply, and the rock stays the same.
-const std::set<std::string> of_the_path{"peak_stress_Pa",
-                                        "strain_at_peak",
-                                        "youngs_modulus_initial_Pa",
-                                        "youngs_modulus_tangent_Pa",
-                                        "youngs_modulus_secant_Pa",
-                                        "poissons_ratio_initial",
-                                        "poissons_ratio_secant",
-                                        "crack_initiation_stress_Pa",
-                                        "crack_damage_stress_Pa",
-                                        "post_peak_drop",
-                                        "fracture_toughness_Pa_sqrt_m",
-                                        "fracture_energy_J_per_m2",
-                                        "normal_stress_at_peak_Pa",
-                                        "dilation_angle_rad",
-                                        "residual_deviator_ratio",
-                                        "n_tension_cracks",
-                                        "n_shear_cracks",
-                                        "n_tension_cracks_at_peak",
-                                        "n_shear_cracks_at_peak",
-                                        "n_fragments",
-                                        "largest_fragment_share",
-                                        "steps",
-                                        "highest_stress",
-                                        "lowest_stress",
-                                        "at_end"};
+const std::set<std::string> of_the_path =
+  words("peak_stress_Pa strain_at_peak youngs_modulus_initial_Pa youngs_modulus_tangent_Pa "
+        "poissons_ratio_initial poissons_ratio_secant crack_initiation_stress_Pa crack_damage_stress_Pa "
+        "post_peak_drop fracture_toughness_Pa_sqrt_m fracture_energy_J_per_m2 normal_stress_at_peak_Pa "
+        "dilation_angle_rad residual_deviator_ratio n_tension_cracks n_shear_cracks steps highest_stress "
+        "lowest_stress at_end ");
 
 /// Where records of one run lie, and what tells one from the others whatever else was run.
 const nlohmann::json& records(const nlohmann::json& summary)
 {
-  return summary.contains("tests") ? summary["tests"] : rves_in(summary);
+  return summary[summary.contains("tests") ? "tests" : "rves"];
+}
+
+/// Of feldspar.
+std::string command_of(const Piece& piece)
+{
+  const auto summary = nlohmann::json::parse(text_of(root / "examples" / piece.files().front()));
+  return summary.contains("rves") ? "rve" : summary["tests"][0].contains("body") ? "multiscale" : "lab";
 }
 
 std::string identity(const nlohmann::json& record)
@@ -746,19 +593,20 @@ class ReducedStudy : public testing::TestWithParam<Piece>
 TEST_P(ReducedStudy, GivesTheCommittedFigures)
 {
   const Piece& piece = GetParam();
-  std::string input = text_of(root / "examples" / piece.input);
+  std::string input = text_of(root / "examples" / (piece.input + ".prm"));
   for (const auto& [section, entry, value] : piece.changes)
     input = with_entry(input, section, entry, value);
   const TemporaryFolder folder;
   folder.write("piece.prm", input);
-  const auto run = run_feldspar(folder.path(), piece.command + " piece.prm --output out --quiet --threads 1");
+  const auto run = run_feldspar(folder.path(), command_of(piece) + " piece.prm --output out --quiet --threads 1");
   ASSERT_EQ(run.exit_code, 0) << run.error << input;
   const auto again = nlohmann::json::parse(text_of(folder.path() / "out/summary.json"));
-  for (const auto& file : piece.results)
+  for (const auto& file : piece.files())
     {
       const auto committed = nlohmann::json::parse(text_of(root / "examples" / file));
       // The arithmetic is the same on every processor, but functions of the C library are not, and explicit dynamics
-      // amplify their last bit. Another processor only has to make the same body.
+      // amplify their last bit. Another processor has to make the same body, with a tensile strength within 1 %: up to its
+      // brittle peak a tension test is hardly a matter of chance.
       const bool same_processor = again["host"]["processor"] == committed["host"]["processor"];
       std::size_t n_figures = 0;
       for (auto record : records(again)) // a key it does not have is null
@@ -766,13 +614,18 @@ TEST_P(ReducedStudy, GivesTheCommittedFigures)
           if (piece.extent == Extent::begun ? record["seed"] == expected["seed"]
                                             : identity(record) == identity(expected))
             for (const auto& [key, value] : expected.items())
-              if (of_the_body.contains(key) ||
-                  (of_the_path.contains(key) && piece.extent == Extent::whole && same_processor))
-                {
+              {
+                const bool is_path = of_the_path.contains(key) && piece.extent == Extent::whole;
+                const bool is_compared = of_the_body.contains(key) || (is_path && same_processor);
+                if (is_compared)
                   expect_near(record[key], value, file + ": " + identity(expected) + key);
-                  ++n_figures;
-                }
-      EXPECT_GT(n_figures, 8u) << file << " has no record of this piece";
+                else if (is_path && key == "peak_stress_Pa" && expected["kind"] == "direct_tension")
+                  {
+                    EXPECT_NEAR(record[key].get<double>(), value.get<double>(), 0.01 * value.get<double>()) << file;
+                  }
+                n_figures += is_compared;
+              }
+      EXPECT_GE(n_figures, 2u) << file << " has no record of this piece";
     }
 }
 
@@ -832,12 +685,11 @@ TEST_P(Peers, StandInTheReadmeWithTheCommittedFigures)
     }
 }
 
-/// How many rows of tables the study of an example prints, each of which must stand in its README.
-std::size_t rows_in_readme(const std::string& example, const std::string& arguments,
-                           const std::string& script = "study.py")
+TEST(HiddenRocks, StandInTheReadmeWithTheCommittedFigures)
 {
-  std::istringstream tables(output_of_python("examples/" + example + "/" + script, arguments));
-  const std::string readme = text_of(root / "examples" / example / "README.md");
+  // Its script prints the tables from the committed results: seven parameters, ten rocks, two headings.
+  std::istringstream tables(output_of_python("examples/calibrate-hidden-rocks/study.py", ""));
+  const std::string readme = text_of(root / "examples/calibrate-hidden-rocks/README.md");
   std::size_t n_rows = 0;
   for (std::string row; std::getline(tables, row);)
     if (row.starts_with("| "))
@@ -845,27 +697,7 @@ std::size_t rows_in_readme(const std::string& example, const std::string& argume
         EXPECT_NE(readme.find("\n" + row + "\n"), std::string::npos) << "missing: " << row;
         ++n_rows;
       }
-  return n_rows;
-}
-
-// Its script prints the tables from the committed results; it runs nothing without names.
-TEST(FlawedGranite, StandsInTheReadmeWithTheCommittedFigures)
-{
-  EXPECT_EQ(rows_in_readme("flawed-granite", ""), 29u);
-  const auto two_flaws = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/two-flaws.json"));
-  const auto picture = root / "examples/flawed-granite/results/two-flaws.png";
-  const std::string checksum = two_flaws["picture_sha256"];
-  EXPECT_TRUE(output_of("sha256sum '" + picture.string() + "'").starts_with(checksum + " "));
-}
-
-TEST(HiddenRocks, StandInTheReadmeWithTheCommittedFigures)
-{
-  EXPECT_EQ(rows_in_readme("calibrate-hidden-rocks", ""), 19u); // seven parameters, ten rocks, two headings
-}
-
-TEST(PlateWithHole, StandsInTheReadmeWithTheCommittedFigures)
-{
-  EXPECT_EQ(rows_in_readme("plate-with-hole", "--tables"), 25u);
+  EXPECT_EQ(n_rows, 19u);
 }
 
 // In both bodies the wall cracks at its sides, across the load, and hardly behind them.
@@ -889,12 +721,11 @@ TEST(PlateWithHole, CracksWhereFiniteElementsPredictIt)
 TEST(FlawedGranite, HasOneToughnessFromALengthOfTenRadiiOn)
 {
   // σ √(π a sec(π a/W)) of the four longest flaws within 10 % of its mean.
-  const auto study = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/flaw-length.json"));
   std::vector<double> toughnesses;
-  for (const auto& [variant, a] : {std::pair(4, 8.25e-3), {5, 12.5e-3}, {6, 16.5e-3}, {7, 24.5e-3}})
+  for (const double a : {8.25e-3, 12.5e-3, 16.5e-3, 24.5e-3})
     {
-      const auto& group = study["ensemble"][group_of(study, "direct_tension", variant)];
-      const double strength = group["peak_stress_Pa"]["mean"];
+      const auto variant = fmt::format("length {:g} mm angle 0 deg", 2e3 * a);
+      const double strength = mean(values_of(tests_of("flawed-granite/flaw-length", "", variant)));
       toughnesses.push_back(strength * std::sqrt(M_PI * a / std::cos(M_PI * a / 0.150)));
     }
   for (const double toughness : toughnesses)
@@ -903,10 +734,11 @@ TEST(FlawedGranite, HasOneToughnessFromALengthOfTenRadiiOn)
 
 TEST(FlawedGranite, IsWeakestWithASmoothFlawAt30To60DegreesFromTheLoad)
 {
-  const auto study = nlohmann::json::parse(text_of(root / "examples/flawed-granite/results/closed-flaw.json"));
   std::map<double, int> angles; // from the load, by strength
-  for (int k = 0; k < 7; ++k)
-    angles[mean_of(study, group_of(study, "uniaxial_compression", k + 1))] = 90 - 15 * k;
+  for (int angle = 0; angle <= 90; angle += 15)
+    angles[mean(values_of(tests_of("flawed-granite/closed-flaw", "", fmt::format("angle {} deg smooth", angle))))] =
+      90 - angle;
+  ASSERT_EQ(angles.size(), 7u);
   EXPECT_GE(angles.begin()->second, 30);
   EXPECT_LE(angles.begin()->second, 60);
 }
@@ -971,73 +803,51 @@ int exit_code_of_git(const std::string& arguments)
   return std::system(("git -C '" + root.string() + "' " + arguments + " >/dev/null 2>&1").c_str());
 }
 
-// Without a piece that could be run here, and why.
+// How the names of results begin that are without a piece that could be run here, and why.
 const std::map<std::string, std::string> without_piece{
-  {"radius-as-diameter.json", "a test of its 7 700 grains takes more than a minute"},
-  {"beishan-cylinder.json", "its packing takes more than a minute"},
-  {"published-size.json", "core-hours"},
-  {"mesh-study.json", "minutes for each of its curves; it keeps figures over the meshes only"},
-  {"calibration.json", "Calibrate.* of this program run a calibration; the tests of its answer have a piece"},
-  {"smooth-platens-calibration.json", "as calibration.json"},
-  {"friction-0.1-calibration.json", "as calibration.json"},
-  {"friction-0.1-best.json", "the same rock between platens of friction 0.2 has a piece"},
-  {"smooth-platens-nearest.json", "the same rock between platens that hold its ends has a piece"},
-  {"smooth-platens-best.json", "the same rock between platens that hold its ends has a piece"},
-  {"triaxial.json", "the same specimens as discs have a piece; a test of spheres under pressure takes a minute"},
-  {"platens.json",
-   "the same specimens between smooth platens have pieces; those between others take a quarter of an hour"},
-  {"platen-friction.json", "the same specimens between platens of friction 0.2 have a piece"},
-  {"smooth-platens-full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"smooth-platens-full-size-triaxial.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"hidden-rocks.json", "Calibrate.* of this program run a calibration; the laboratory of a rock takes a minute"},
-  {"rate.json", "the same specimens in tension have a piece; those at its highest rate are compared with them"},
-  {"angles-compression.json", "the same cells in tension have a piece; the path of a pressed one takes minutes"},
-  {"kinematics.json", "each path takes half a minute; the same cells under 60 MPa have a piece"},
-  {"kinematics-free-sides.json", "a quarter of a minute for each cell; cells of 16 mm with free sides have a piece"},
-  {"free-sides-2d-32.5-mm-box.json", "the box of 16 mm has a piece"},
-  {"free-sides-2d-32.5-mm-cell.json", "the cell of 16 mm has a piece"},
-  {"free-sides-3d-13.3-mm-box.json", "packings of spheres take minutes"},
-  {"free-sides-3d-13.3-mm-cell.json", "packings of spheres take minutes"},
-  {"free-sides-3d-20-mm-box.json", "packings of spheres take minutes"},
-  {"free-sides-3d-20-mm-cell.json", "packings of spheres take minutes"},
-  {"compression-finite.json", "the section in small strains has a piece, and both are the same until something breaks"},
-  {"compression-whole-confined.json", "the whole cylinder without pressure has a piece; half an hour each"},
-  {"compression-fine.json", "the section of larger cells has a piece; minutes"},
-  {"published-compression.json", "8 192 cells; minutes"},
-  {"cored-cylinder-20-mm-confined.json", "the cylinder of 13.2 mm has a piece"},
-  {"cored-cylinder-50-mm-confined.json", "the cylinder of 13.2 mm has a piece"},
-  {"cored-cylinder-20-mm.json", "the cylinder of 13.2 mm has a piece"},
-  {"cored-cylinder-33-mm.json", "the cylinder of 13.2 mm has a piece"},
-  {"cored-cylinder-50-mm.json", "the cylinder of 13.2 mm has a piece"},
-  {"walled-cylinder-20-mm.json", "the cylinder of 13.2 mm has a piece"},
-  {"walled-cylinder-33-mm.json", "the cylinder of 13.2 mm has a piece"},
-  {"sample-5-mpa.json", "the samples of other seeds under this pressure have a piece"},
-  {"sample-finite-uniaxial.json", "the same sample under pressure has a piece"},
-  {"sample-finite-later-seeds.json", "the samples of other seeds under these pressures have a piece"},
-  {"full-size.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"full-size-seed-2.json", "the packing of 49 756 spheres and a test of it take minutes"},
-  {"full-size-tests.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"full-size-triaxial-10.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"full-size-triaxial-40.json", "the packing of 49 464 spheres and a test of it take minutes"},
-  {"grains.json", "the packing of 93 161 discs and a test of it take minutes"},
+  {"radius-as-diameter", "a test of its 7 700 grains takes more than a minute"},
+  {"beishan-cylinder", "its packing takes more than a minute"},
+  {"published-", "8 192 cells; minutes to core-hours"},
+  {"mesh-study", "minutes for each of its curves; it keeps figures over the meshes only"},
+  {"calibration", "Calibrate.* of this program run a calibration; the tests of its answer have a piece"},
+  {"smooth-platens-", "the same rock between platens that hold its ends has a piece"},
+  {"friction-0.1-", "the same rock between platens of friction 0.2 has a piece"},
+  {"triaxial.", "the same specimens as discs have a piece; a test of spheres under pressure takes a minute"},
+  {"platen", "the same specimens between smooth platens have pieces; those between others take a quarter of an hour"},
+  {"hidden-rocks", "Calibrate.* of this program run a calibration; the laboratory of a rock takes a minute"},
+  {"rate.", "the same specimens in tension have a piece; those at its highest rate are compared with them"},
+  {"angles-compression", "the same cells in tension have a piece; the path of a pressed one takes minutes"},
+  {"kinematics", "each path takes half a minute; the same cells under 60 MPa have a piece"},
+  {"free-sides-2d-32.5-mm-", "the box and the cell of 16 mm have pieces"},
+  {"free-sides-3d-", "packings of spheres take minutes"},
+  {"compression-fin", "the section of larger cells in small strains has a piece; minutes"},
+  {"compression-whole-confined", "the whole cylinder without pressure has a piece; half an hour each"},
+  {"cored-cylinder-", "the cylinder of 13.2 mm has a piece"},
+  {"walled-cylinder-", "the cylinder of 13.2 mm has a piece"},
+  {"sample-5-mpa", "the samples of other seeds under this pressure have a piece"},
+  {"sample-finite-", "the same sample under other pressures, or of other seeds, has a piece"},
+  {"full-size", "the packing of 49 464 spheres and a test of it take minutes"},
+  {"grains", "the packing of 93 161 discs and a test of it take minutes"},
 };
 
 TEST(CommittedResults, OfExamplesHaveAPieceOrAReason)
 {
   std::set<std::string> with_piece;
   for (const Piece& piece : pieces)
-    with_piece.insert(piece.results.begin(), piece.results.end());
-  std::size_t n_reasons = 0;
+    for (const std::string& file : piece.files())
+      with_piece.insert(file);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "examples"))
     if (entry.path().extension() == ".json" && entry.path().parent_path().filename() == "results")
       {
         const std::string file = std::filesystem::relative(entry.path(), root / "examples").string();
-        const std::string name = entry.path().filename().string();
-        const bool has_reason = without_piece.contains(name);
-        EXPECT_NE(with_piece.contains(file), has_reason) << file;
-        n_reasons += has_reason;
+        EXPECT_TRUE(with_piece.erase(file) == 1 ||
+                    std::ranges::any_of(without_piece,
+                                        [name = entry.path().filename().string()](const auto& reason) {
+                                          return name.starts_with(reason.first);
+                                        }))
+          << file;
       }
-  EXPECT_GE(n_reasons, without_piece.size());
+  EXPECT_TRUE(with_piece.empty()) << *with_piece.begin() << " is not there";
 }
 
 /// Below examples and benchmarks.
