@@ -68,10 +68,26 @@ std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen)
   return numbers_by_size(connected_grains(specimen, Faces::bonded), specimen.grains.size());
 }
 
+template <int dim>
+std::vector<bool> loose_grains(const Specimen<dim>& specimen)
+{
+  constexpr std::uint32_t most_grains = 10; // of a fragment that is loose
+  const auto fragment = fragments(specimen);
+  std::vector<std::uint32_t> size(fragment.size(), 0);
+  for (const std::uint32_t number : fragment)
+    ++size[number];
+  std::vector<bool> is_loose(fragment.size());
+  for (std::size_t i = 0; i < fragment.size(); ++i)
+    is_loose[i] = fragment[i] > 0 && size[fragment[i]] <= most_grains;
+  return is_loose;
+}
+
 template DisjointSets connected_grains(const Specimen<2>&, Faces);
 template DisjointSets connected_grains(const Specimen<3>&, Faces);
 template std::vector<std::uint32_t> fragments<2>(const Specimen<2>&);
 template std::vector<std::uint32_t> fragments<3>(const Specimen<3>&);
+template std::vector<bool> loose_grains<2>(const Specimen<2>&);
+template std::vector<bool> loose_grains<3>(const Specimen<3>&);
 template std::vector<std::uint32_t> fragments<2>(const Joints<2>&, std::size_t);
 template std::vector<std::uint32_t> fragments<3>(const Joints<3>&, std::size_t);
 } // namespace feldspar

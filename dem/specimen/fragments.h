@@ -26,4 +26,8 @@ std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_gr
 /// The fragments of a specimen, whose smooth joints hold as well.
 template <int dim>
 std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen);
+
+/// Whether each grain belongs to none of the larger fragments; [n_grains].
+template <int dim>
+std::vector<bool> loose_grains(const Specimen<dim>& specimen);
 } // namespace feldspar

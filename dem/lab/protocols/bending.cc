@@ -17,21 +17,6 @@ namespace feldspar
 {
 namespace
 {
-/// Whether each grain belongs to none of the larger pieces of the body; [n_grains].
-template <int dim>
-std::vector<bool> loose_grains(const Specimen<dim>& body)
-{
-  constexpr std::uint32_t most_grains = 10; // of what is loose
-  const auto fragment = fragments(body);
-  std::vector<std::uint32_t> size(fragment.size(), 0);
-  for (const std::uint32_t number : fragment)
-    ++size[number];
-  std::vector<bool> is_loose(fragment.size());
-  for (std::size_t i = 0; i < fragment.size(); ++i)
-    is_loose[i] = fragment[i] > 0 && size[fragment[i]] <= most_grains;
-  return is_loose;
-}
-
 /// A smooth plate about a place along the first axis, where grains of the body lie against it, bedded, so that the body does
 /// not tilt on the grain that protrudes furthest until others bear. It pivots, so that its force acts at this place. In the
 /// plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the thickness. Loose

@@ -5,6 +5,7 @@
 #include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <fmt/format.h>
@@ -75,19 +76,20 @@ Specimen<dim> placed(const Specimen<dim>& specimen)
 }
 
 /// The grains by which one end is held, one grain deep within the angle that is loaded: from the rim, or from the outermost
-/// grain where none comes so near to the rim. `outwards`: 1 of the upper end, -1 of the lower.
+/// grain where none comes so near to the rim. Loose grains, which would be driven through the disc, are no part of it. `outwards`: 1 of the upper end, -1 of the lower.
 template <int dim>
 std::vector<std::uint32_t> pad(const Specimen<dim>& disc, const double mean_radius, const double outwards)
 {
   constexpr int axis = dim - 1;
   const double radius = 0.5 * disc.size[0];
+  const std::vector<bool> is_loose = loose_grains(disc);
   std::vector<std::pair<double, std::uint32_t>> within; // heights above the middle
   double outermost = 0.0;
   for (std::uint32_t i = 0; i < disc.grains.size(); ++i)
     {
       const Vector<dim> from_middle = at<dim>(disc.grains.position, i) - 0.5 * disc.size;
       const double height = outwards * from_middle[axis];
-      if (std::abs(from_middle[0]) >= radius * std::sin(loaded_half_angle) || height <= 0.0)
+      if (is_loose[i] || std::abs(from_middle[0]) >= radius * std::sin(loaded_half_angle) || height <= 0.0)
         continue;
       within.emplace_back(height, i);
       outermost = std::max(outermost, height);
