@@ -111,7 +111,7 @@ Pictures pair_picture(const CalibrationRecord& record)
             chart.series = {histogram(columns[c].values)};
             continue;
           }
-        ChartSeries points{.kind = ChartSeries::Kind::marks, .colour = blue, .size = 0.25};
+        ChartSeries points{.kind = ChartSeries::Kind::marks, .colour = blue, .width = 1.0, .size = 0.25};
         const std::size_t n_samples = columns[c].values.size();
         for (std::size_t i = 0; i < n_samples; i += std::max<std::size_t>(1, n_samples / most_points))
           points.points.push_back({columns[c].values[i], columns[row].values[i]});

@@ -321,6 +321,7 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
   const bool is_grid = cells.size() == values[0].size() * values[1].size();
   ChartSeries fields{.kind = is_grid ? ChartSeries::Kind::area : ChartSeries::Kind::marks,
                      .colours = ChartSeries::Colours::by_value,
+                     .width = 1.0,
                      .size = 2.4};
   ChartSeries numbers{.kind = ChartSeries::Kind::texts, .colour = black, .size = 11.0};
   // Numbers stand on fields, but above points.
