@@ -195,6 +195,9 @@ TEST(Documentation, ParametersAreThoseOfTheCommand)
   EXPECT_EQ(content(std::string(FELDSPAR_SOURCE_DIR) + "/docs/parameters.md"),
             run_feldspar(folder.path(), "parameters --markdown").output)
     << "write it anew: feldspar parameters --markdown > docs/parameters.md";
+  EXPECT_EQ(content(std::string(FELDSPAR_SOURCE_DIR) + "/docs/results.md"),
+            run_feldspar(folder.path(), "parameters --results").output)
+    << "write it anew: feldspar parameters --results > docs/results.md";
 }
 
 /// A figure of a calibration: its heading in the README, its name in calibration.json, and how it is shown.
