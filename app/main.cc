@@ -170,7 +170,8 @@ private:
   void add_parameters()
   {
     CLI::App& command = *app.add_subcommand("parameters", "every parameter: unit, default, range, meaning");
-    command.add_option("SECTION", parameters.section, "only this one, or the entries that have this word");
+    CLI::Option* const section =
+      command.add_option("SECTION", parameters.section, "only this one, or the entries that have this word");
     CLI::Option* const check = command.add_option("--check", parameters.check, "only check this input file");
     check->type_name("INPUT");
     command.add_option("--for", parameters.check_for, "whether this command takes it (default: say which do)")
@@ -178,6 +179,11 @@ private:
       ->check(CLI::IsMember(names_of_commands_with_input()).description(""))
       ->needs(check);
     add_settings(command, parameters.settings)->needs(check);
+    command
+      .add_flag("--results", parameters.results,
+                "the quantities of results and the columns of curves instead, as docs/results.md")
+      ->excludes(section)
+      ->excludes(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
   }

@@ -17,7 +17,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-std::string si_unit(const Response& response) { return response.unit.empty() ? "1" : "Pa"; }
+std::string si_unit(const Response& response) { return response.shown.unit.empty() ? "1" : "Pa"; }
 
 std::string si_unit(const ParameterAnswer& answer)
 {
@@ -81,7 +81,7 @@ std::string design_table(const ResponseModel& model, const std::vector<TestedPoi
   std::string text = "stage,point,seed,modulus_Pa,bond_tensile_strength_Pa,bond_cohesion_Pa,stiffness_ratio,"
                      "bond_friction_angle_rad,friction,installation_gap_ratio";
   for (std::size_t j = 0; j < model.n_responses(); ++j)
-    text += fmt::format(",{}{}", model.response(j).name, model.response(j).unit.empty() ? "" : "_Pa");
+    text += fmt::format(",{}{}", model.response(j).name, model.response(j).shown.unit.empty() ? "" : "_Pa");
   text += '\n';
   for (const TestedPoint& one : tested)
     {
@@ -187,15 +187,14 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
     {
       const Response& response = model.response(target.target.response);
       const auto shown = [&](const double value) {
-        return fmt::format("{:.{}f}", value / response.unit_size, response.decimals);
+        return fmt::format("{:.{}f}", value / response.shown.scale, response.shown.decimals);
       };
       std::string reached = shown(target.value());
       if (target.reached && target.reached->standard_error)
         reached += fmt::format(" +- {}", shown(*target.reached->standard_error));
-      text += fmt::format(
-        "{:44} {:>10} {:>19} {:>9.1f}%  {}\n",
-        response.unit.empty() ? response.title : fmt::format("{} [{}]", response.title, response.unit),
-        shown(target.target.value), reached, 100.0 * target.deviation(), words(verdict_on(target, outcome.tolerance)));
+      text += fmt::format("{:44} {:>10} {:>19} {:>9.1f}%  {}\n", with_unit(response.title, response.shown.unit),
+                          shown(target.target.value), reached, 100.0 * target.deviation(),
+                          words(verdict_on(target, outcome.tolerance)));
     }
   if (outcome.posterior.parameters.empty())
     return text + fmt::format("\nThe parameters that come nearest stand in {}.\n\n{}\n", calibration_file::nearest,
@@ -204,11 +203,9 @@ std::string as_text(const CalibrationOutcome& outcome, const ResponseModel& mode
   for (const ParameterAnswer& answer : outcome.posterior.parameters)
     {
       const auto shown = [&](const double value) { return fmt::format("{:.3g}", value / answer.unit_size); };
-      text +=
-        fmt::format("{:44} {:>10} {:>10} {:>19}  {}\n",
-                    answer.unit.empty() ? answer.title : fmt::format("{} [{}]", answer.title, answer.unit),
-                    shown(answer.best), shown(answer.median),
-                    fmt::format("{} to {}", shown(answer.lower_90), shown(answer.upper_90)), words(answer.verdict));
+      text += fmt::format("{:44} {:>10} {:>10} {:>19}  {}\n", with_unit(answer.title, answer.unit), shown(answer.best),
+                          shown(answer.median), fmt::format("{} to {}", shown(answer.lower_90), shown(answer.upper_90)),
+                          words(answer.verdict));
     }
   text += '\n';
   for (const ParameterAnswer& answer : outcome.posterior.parameters)

@@ -2,8 +2,10 @@
 
 #include "base/prefixes.h"
 
+#include "base/append.h"
 #include "base/input_error.h"
 #include "results/fits/hoek_brown.h"
+#include "results/quantities.h"
 
 #include <fmt/format.h>
 
@@ -14,18 +16,10 @@ namespace feldspar::calibration
 {
 namespace
 {
-
-Figure TestResults::*figure_of(const ElasticFigure which, Figure TestResults::*tangent, Figure TestResults::*initial,
-                               Figure TestResults::*secant)
+/// In the table of properties.
+std::string_view name(const ElasticFigure which)
 {
-  return which == ElasticFigure::tangent ? tangent : which == ElasticFigure::initial ? initial : secant;
-}
-
-std::string words(const ElasticFigure which)
-{
-  return which == ElasticFigure::tangent   ? "tangent 40-60 % of peak"
-         : which == ElasticFigure::initial ? "initial"
-                                           : "secant at 50 % of peak";
+  return which == ElasticFigure::tangent ? "tangent" : which == ElasticFigure::initial ? "initial" : "secant";
 }
 
 /// Of the test of one case.
@@ -102,51 +96,43 @@ double Response::in_si(const double model_value) const
 
 std::vector<Response> responses(const std::vector<TestCase>& programme, const CalibrationParameters& wanted)
 {
-  std::vector<Response> all;
-  const auto strength = [&](const TestCase& test, const std::string& name, const std::string& title,
-                            Figure TestResults::*which, const int decimals) {
-    all.push_back({name, title, "MPa", mega, decimals, name.ends_with("_MPa") ? name : name + "_MPa", mega,
-                   ResponseScale::strength, figure(test, which)});
-  };
   // In the plane an elastic body could have up to one; specimens that do not crack have a third at most.
   constexpr double largest_elastic_ratio = 0.5;
-  const bool is_initial = wanted.poissons_ratio == ElasticFigure::initial;
+  const auto is_chosen = [&](const RockProperty& property) {
+    return property.choice.name.empty() ||
+           property.choice.name ==
+             name(property.scale == ResponseScale::modulus ? wanted.youngs_modulus : wanted.poissons_ratio);
+  };
+  std::vector<Response> all;
   for (const TestCase& test : programme)
-    switch (test.kind.envelope_role)
-      {
-      case EnvelopeRole::tension:
-        strength(test, "tensile_strength", "tensile strength", &TestResults::peak_stress, 2);
-        break;
-      case EnvelopeRole::indirect_tension:
-        strength(test, "brazilian_strength", "Brazilian strength", &TestResults::peak_stress, 2);
-        break;
-      case EnvelopeRole::compression:
-        if (test.kind.takes_confining_pressure)
+    {
+      std::vector<Response> of_test;
+      for (const RockProperty& property : rock_properties)
+        if (property.scale && gives(property.source, test.kind) && is_chosen(property))
           {
-            const std::string pressure = fmt::format("{:g}", std::round(test.confining_pressure) / mega);
-            strength(test, "strength_at_" + pressure + "_MPa", "strength at " + pressure + " MPa confinement",
-                     &TestResults::peak_stress, 1);
-            break;
+            of_test.push_back({std::string(property.target()), std::string(property.title), property.shown,
+                               std::string(property.key), *property.scale, figure(test, property.figure)});
+            if (property.figure == &TestResults::poissons_ratio_initial)
+              of_test.back().largest_in_design = largest_elastic_ratio;
           }
-        all.push_back(
-          {"youngs_modulus", "Young's modulus, " + words(wanted.youngs_modulus), "GPa", giga, 1, "youngs_modulus_GPa",
-           giga, ResponseScale::modulus,
-           figure(test, figure_of(wanted.youngs_modulus, &TestResults::youngs_modulus_tangent,
-                                  &TestResults::youngs_modulus_initial, &TestResults::youngs_modulus_secant))});
-        all.push_back(
-          {"poissons_ratio", "Poisson's ratio, " + words(wanted.poissons_ratio), "", 1.0, 3, "poissons_ratio", 1.0,
-           ResponseScale::none,
-           figure(test, is_initial ? &TestResults::poissons_ratio_initial : &TestResults::poissons_ratio_secant),
-           is_initial ? std::optional(largest_elastic_ratio) : std::nullopt});
-        strength(test, "uniaxial_compressive_strength", "uniaxial compressive strength", &TestResults::peak_stress, 1);
-        strength(test, "crack_initiation_stress", "crack initiation stress", &TestResults::crack_initiation_stress, 1);
-        strength(test, "crack_damage_stress", "crack damage stress", &TestResults::crack_damage_stress, 1);
-        break;
-      case EnvelopeRole::none:
-        break;
-      }
+      if (test.kind.envelope_role == EnvelopeRole::compression && test.kind.takes_confining_pressure)
+        {
+          const std::string pressure = fmt::format("{:g}", std::round(test.confining_pressure) / mega);
+          const std::string key = "strength_at_" + pressure + "_MPa";
+          of_test.push_back({key, "strength at " + pressure + " MPa confinement", display::megapascals(), key,
+                             ResponseScale::strength, figure(test, &TestResults::peak_stress)});
+        }
+      // Elastic constants before strengths.
+      std::stable_partition(of_test.begin(), of_test.end(),
+                            [](const Response& one) { return one.scale != ResponseScale::strength; });
+      append(all, std::move(of_test));
+    }
   if (gives_rock_constant(programme))
-    all.push_back({"m_i", "m_i of Hoek and Brown", "", 1.0, 1, "m_i", 1.0, ResponseScale::ratio, rock_constant_of});
+    {
+      constexpr RockProperty property = rock_property("m_i");
+      all.push_back({std::string(property.target()), std::string(property.title), property.shown,
+                     std::string(property.key), *property.scale, rock_constant_of});
+    }
   return all;
 }
 
@@ -168,7 +154,7 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
                             const CalibrationParameters& wanted)
 {
   const auto given = [&](const Response& response) {
-    return reference.experiment.find(response.reference_key, 1.0 / response.reference_unit);
+    return reference.experiment.find(response.reference_key, 1.0 / response.shown.scale);
   };
   for (const std::string& name : wanted.targets)
     {
@@ -197,7 +183,7 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
           throw InputError(
             fmt::format("{} of the reference file: is {:g}; a target must be above 0, because deviations "
                         "are shares of it",
-                        responses[j].reference_key, target.value / responses[j].reference_unit));
+                        responses[j].reference_key, target.value / responses[j].shown.scale));
         set_deviation(target, *value, wanted.tolerance);
         all.push_back(target);
       }

@@ -14,25 +14,13 @@
 /// The figures that tests of a specimen give, and those of them that a laboratory measured.
 namespace feldspar::calibration
 {
-/// With which scale of the micro-parameters a figure goes, all their ratios kept.
-enum class ResponseScale
-{
-  modulus,  ///< of the joints
-  strength, ///< of the bonds in tension
-  ratio,    ///< of strengths: with neither
-  none      ///< Poisson's ratio
-};
-
 /// A figure of a specimen.
 struct Response
 {
   std::string name;  ///< in files: uniaxial_compressive_strength
   std::string title; ///< in tables
-  std::string unit;  ///< in tables
-  double unit_size;  ///< in SI
-  int decimals;      ///< in that unit
+  ShownIn shown;     ///< in tables, and the unit of the reference
   std::string reference_key;
-  double reference_unit; ///< in SI
   ResponseScale scale;
   /// SI, by the tests of one specimen; none where they do not give it.
   std::function<std::optional<double>(const std::vector<FinishedTest>&)> value;

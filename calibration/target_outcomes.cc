@@ -12,8 +12,9 @@ namespace
 std::string in_words(const TargetOutcome& outcome, const ResponseModel& model)
 {
   const Response& response = model.response(outcome.target.response);
-  return fmt::format("{} {:.{}f}{} ({:+.1f} %)", response.title, outcome.value() / response.unit_size,
-                     response.decimals, response.unit.empty() ? "" : " " + response.unit, 100.0 * outcome.deviation());
+  const auto& [unit, scale, decimals] = response.shown;
+  return fmt::format("{} {:.{}f}{}{} ({:+.1f} %)", response.title, outcome.value() / scale, decimals,
+                     unit.empty() ? "" : " ", unit, 100.0 * outcome.deviation());
 }
 
 /// Shares of the target.

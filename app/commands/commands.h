@@ -43,6 +43,7 @@ struct ParametersOptions
   std::optional<std::filesystem::path> check;
   std::string check_for;             ///< the command that the input is checked for; empty: all
   std::vector<std::string> settings; ///< of the input to be checked, as CommonOptions has them
+  bool results = false;              ///< the quantities of results instead of the entries of the input
   bool markdown = false;
 };
 

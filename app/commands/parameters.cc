@@ -1,5 +1,6 @@
 #include "app/commands/check_input.h"
 #include "app/commands/commands.h"
+#include "app/commands/results_reference.h"
 #include "app/input/nearest_name.h"
 #include "app/input/parameter_table.h"
 #include "app/screen/print_result.h"
@@ -83,6 +84,11 @@ int run_parameters(const ParametersOptions& options)
   if (options.check)
     {
       check_input(*options.check, options.settings, options.check_for);
+      return 0;
+    }
+  if (options.results)
+    {
+      print_results_reference();
       return 0;
     }
   if (!options.section.empty() && entry_names(options.section).empty())

@@ -5,6 +5,7 @@
 #include "app/input/quantity.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "results/quantities.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -377,6 +378,15 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
 {
   using P = CalibrationParameters;
   constexpr double most = 1e6;
+  static const std::string meaning_of_targets = [] {
+    std::vector<std::string_view> names;
+    for (const RockProperty& property : rock_properties)
+      if (property.scale && (names.empty() || names.back() != property.target())) // a choice of several figures
+        names.push_back(property.target());
+    return fmt::format("figures of the experiment in the reference file that `feldspar calibrate` is to reach: {}, "
+                       "strength_at_P_MPa; all: those that the tests give",
+                       fmt::join(names, ", "));
+  }();
   return {{"Targets",
            Entry<P>::Text{"", "all, or names of figures",
                           [](P& wanted, const std::string_view text) { wanted.targets = read_targets(text); },
@@ -384,9 +394,7 @@ std::vector<Entry<CalibrationParameters>> calibration_list_entries()
                             return wanted.targets.empty() ? std::string(all_targets)
                                                           : fmt::format("{}", fmt::join(wanted.targets, ", "));
                           }},
-           "figures of the experiment in the reference file that `feldspar calibrate` is to reach: youngs_modulus, "
-           "poissons_ratio, tensile_strength, brazilian_strength, uniaxial_compressive_strength, strength_at_P_MPa, "
-           "m_i, crack_initiation_stress, crack_damage_stress; all: those that the tests give",
+           meaning_of_targets,
            {.basic = true}},
           bounds_entry("Stiffness ratio", &P::stiffness_ratio, {'(', 0.0, most, ')'}, nullptr, "of the joints"),
           bounds_entry("Cohesion ratio", &P::cohesion_ratio, {'(', 0.0, most, ')'}, nullptr,

@@ -210,14 +210,11 @@ Series read_laboratory_curve(const std::filesystem::path& file)
   const std::string on_strains = count_strains_from_first_load(test.record, *peak, printable(file.string()));
 
   test.results = evaluate(test.record);
-  const Figure not_counted{std::nullopt, "a measured curve counts no cracks"};
-  test.results.crack_initiation_stress = test.results.shear_share_at_peak = not_counted;
-  test.results.n_smooth_tension_cracks_at_peak = test.results.n_smooth_shear_cracks_at_peak =
-    test.results.smooth_tension_share_at_peak = not_counted;
-  test.results.n_tension_cracks_at_peak = test.results.n_shear_cracks_at_peak = not_counted;
-  const Figure not_known{std::nullopt, "not known of a measured curve"};
-  test.results.kinetic_to_strain_energy = test.results.unbalanced_force_ratio = not_known;
-  test.results.end_stress_difference = test.results.p_wave_transits_to_peak = not_known;
+  for (const TestQuantity& quantity : test_quantities)
+    if (quantity.figure() && quantity.needs != NeedsBesidesCurve::nothing)
+      test.results.*quantity.figure() = {std::nullopt, quantity.needs == NeedsBesidesCurve::cracks
+                                                         ? "a measured curve counts no cracks"
+                                                         : "not known of a measured curve"};
   Series series{file.filename().string(), SeriesKind::laboratory_curve, {}, {test}, {}};
   if (!on_strains.empty())
     series.problems.push_back(on_strains);

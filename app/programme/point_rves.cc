@@ -14,14 +14,14 @@ namespace feldspar
 {
 namespace
 {
-struct Choice
+struct ChosenPoint
 {
   std::string which;
   std::uint64_t number; ///< of the point
 };
 
 /// From the cracks, which the first rank has.
-std::vector<Choice> chosen(const TestRecord& record, const std::uint64_t n_points)
+std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_points)
 {
   std::map<std::uint64_t, std::size_t> n_broken;
   for (const Crack& crack : record.cracks)
@@ -33,9 +33,9 @@ std::vector<Choice> chosen(const TestRecord& record, const std::uint64_t n_point
     return one.first != other.first ? one.first < other.first : one.second > other.second;
   });
 
-  std::vector<Choice> choices;
+  std::vector<ChosenPoint> choices;
   const auto add = [&](const std::string& which, const std::uint64_t number) {
-    if (std::none_of(choices.begin(), choices.end(), [=](const Choice& one) { return one.number == number; }))
+    if (std::none_of(choices.begin(), choices.end(), [=](const ChosenPoint& one) { return one.number == number; }))
       choices.push_back({which, number});
   };
   if (!damaged.empty())
@@ -99,10 +99,10 @@ std::vector<PointRve> rves(const Packings<dim>& packings, const SampleTest& test
 {
   if (packings.realisations.empty())
     return {};
-  std::vector<Choice> choices;
+  std::vector<ChosenPoint> choices;
   std::vector<std::uint64_t> numbers;
   if (ranks::is_first())
-    for (const Choice& choice : choices = chosen(record, test.standing().n_points))
+    for (const ChosenPoint& choice : choices = chosen(record, test.standing().n_points))
       numbers.push_back(choice.number);
   numbers = values_of<std::uint64_t>(ranks::of_first(bytes_of(numbers)));
 

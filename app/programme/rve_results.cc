@@ -36,20 +36,19 @@ std::string components(const char* prefix, const char* suffix)
 template <int dim>
 void write_curve(const FinishedRve<dim>& rve, const std::filesystem::path& file)
 {
-  std::string text = components<dim>("strain_", "") + "," + components<dim>("stress_", "_Pa") +
-                     ",n_tension_cracks,n_shear_cracks,boundary_work_J,strain_energy_J,slip_energy_J,released_energy_J,"
-                     "settling_energy_J,energy_imbalance,unbalanced_force_ratio,hill_mandel_residual,"
-                     "boundary_stress_error,crack_density_per_m\n";
+  std::string text = components<dim>("strain_", "") + "," + components<dim>("stress_", "_Pa");
+  for (const auto& column : path_columns<dim>)
+    fmt::format_to(std::back_inserter(text), ",{}", column.name);
+  text += '\n';
   for (const auto& row : rve.record.samples)
     {
       for (int k = 0; k < n_voigt<dim>; ++k)
-        fmt::format_to(std::back_inserter(text), "{},", outside(row, k) + 0.0); // adding zero turns -0 into 0
+        fmt::format_to(std::back_inserter(text), "{}{}", k > 0 ? "," : "", outside(row, k) + 0.0); // no -0
       for (const double component : row.stress)
-        fmt::format_to(std::back_inserter(text), "{},", component + 0.0);
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", row.n_tension_cracks,
-                     row.n_shear_cracks, row.work.boundary, row.stored_energy, row.work.slip, row.work.released,
-                     row.work.settled, row.energy_imbalance(), row.unbalanced_ratio, row.hill_mandel_residual,
-                     row.boundary_stress_error, row.crack_density);
+        fmt::format_to(std::back_inserter(text), ",{}", component + 0.0);
+      for (const auto& column : path_columns<dim>)
+        fmt::format_to(std::back_inserter(text), ",{}", column.value(row));
+      text += '\n';
     }
   write_whole_file(file, text);
 }
@@ -172,13 +171,11 @@ Json as_json(const FinishedRve<dim>& rve)
       end["strain_" + voigt_name<dim>(k)] = outside(last, k) + 0.0;
       end["stress_" + voigt_name<dim>(k) + "_Pa"] = last.stress[k] + 0.0;
     }
-  end["n_tension_cracks"] = last.n_tension_cracks;
-  end["n_shear_cracks"] = last.n_shear_cracks;
-  end["boundary_work_J"] = last.work.boundary;
-  end["strain_energy_J"] = last.stored_energy;
-  end["slip_energy_J"] = last.work.slip;
-  end["released_energy_J"] = last.work.released;
-  end["settling_energy_J"] = last.work.settled;
+  for (const auto& column : path_columns<dim>)
+    if (column.in_summary == InSummary::count_at_end)
+      end[std::string(column.name)] = std::uint64_t(column.value(last));
+    else if (column.in_summary == InSummary::at_end)
+      end[std::string(column.name)] = column.value(last);
   const auto cracks = crack_measures(network, rve.state);
   end["crack_density_per_m"] = cracks.density;
   end["crack_area_share"] = cracks.area_share;
@@ -186,10 +183,9 @@ Json as_json(const FinishedRve<dim>& rve)
   end["n_fragments"] = n_fragments(network, rve.state);
 
   json["increments"] = record.samples.size() - 1;
-  json["energy_imbalance"] = largest(record, [](const auto& sample) { return sample.energy_imbalance(); });
-  json["unbalanced_force_ratio"] = largest(record, [](const auto& sample) { return sample.unbalanced_ratio; });
-  json["hill_mandel_residual"] = largest(record, [](const auto& sample) { return sample.hill_mandel_residual; });
-  json["boundary_stress_error"] = largest(record, [](const auto& sample) { return sample.boundary_stress_error; });
+  for (const auto& column : path_columns<dim>)
+    if (column.in_summary == InSummary::largest)
+      json[std::string(column.name)] = largest(record, column.value);
   json["wall_time_s"] = rve.wall_time;
   if (!record.failure.empty())
     json["ended_early"] = record.failure;

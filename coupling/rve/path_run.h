@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/rve/homogenisation.h"
+#include "coupling/rve/path_sample.h"
 #include "coupling/rve/representative_volume.h"
 
 #include <filesystem>
@@ -47,29 +47,6 @@ struct PathParameters
   double largest_step = 1e-5; ///< of any component of the strain, per increment
   unsigned int most_cuts = 8; ///< halvings of an increment that finds no equilibrium
   EquilibriumParameters equilibrium{};
-};
-
-/// The end of an increment. Tension positive, Voigt components with engineering shear.
-template <int dim>
-struct PathSample
-{
-  std::array<double, n_voigt<dim>> strain{};
-  std::array<double, n_voigt<dim>> stress{}; ///< [Pa]
-  std::uint64_t n_tension_cracks = 0;
-  std::uint64_t n_shear_cracks = 0;
-  NetworkWork work;
-  double stored_energy = 0.0;         ///< [J]
-  double unbalanced_ratio = 0.0;      ///< largest unbalanced over mean contact force
-  double hill_mandel_residual = 0.0;  ///< of the increment
-  double boundary_stress_error = 0.0; ///< |boundary stress - stress| over |stress|
-  double crack_density = 0.0;         ///< [1/m]
-
-  /// Boundary work less all it went into [J].
-  double unaccounted() const { return work.boundary - stored_energy - work.slip - work.released - work.settled; }
-  /// The sum of the sizes of these terms [J].
-  double turnover() const;
-  /// |unaccounted| over the turnover.
-  double energy_imbalance() const;
 };
 
 /// A broken segment.

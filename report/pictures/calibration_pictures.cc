@@ -21,16 +21,16 @@ namespace
 constexpr std::size_t most_columns = 7;
 constexpr std::size_t most_points = 600; // of a pair; more only blacken the paper
 
-struct Column
+struct SampledColumn
 {
   std::string label;
   std::vector<double> values; ///< in the unit of the label
 };
 
 /// `bond_cohesion_Pa` as `bond cohesion [MPa]`.
-Column column_of(const std::string& name, const std::vector<double>& si_values)
+SampledColumn column_of(const std::string& name, const std::vector<double>& si_values)
 {
-  Column column;
+  SampledColumn column;
   std::string words = name;
   std::string si_unit = "1";
   for (const std::string_view unit : {"Pa", "rad"})
@@ -86,7 +86,7 @@ ShownUnit shown_unit(const std::string& si_unit, const double size)
 
 Pictures pair_picture(const CalibrationRecord& record)
 {
-  std::vector<Column> columns;
+  std::vector<SampledColumn> columns;
   for (std::size_t c = 0; c < record.sampled.size() && columns.size() < most_columns; ++c)
     if (const auto& values = record.samples[c]; !values.empty() && *std::max_element(values.begin(), values.end()) >
                                                                      *std::min_element(values.begin(), values.end()))

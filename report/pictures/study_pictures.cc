@@ -35,20 +35,6 @@ struct Property
   Figure TestResults::*figure;
 };
 
-constexpr std::array properties{
-  Property{"strength", "strength", "MPa", mega, &TestResults::peak_stress},
-  Property{"youngs_modulus", "Young's modulus, initial", "GPa", giga, &TestResults::youngs_modulus_initial},
-  Property{"poissons_ratio", "Poisson's ratio, initial", "", 1.0, &TestResults::poissons_ratio_initial},
-  Property{"poissons_ratio_secant", "Poisson's ratio, secant at 50 % of the peak", "", 1.0,
-           &TestResults::poissons_ratio_secant},
-  Property{"strain_at_peak", "strain at the peak", "10⁻³", milli, &TestResults::strain_at_peak},
-  Property{"crack_initiation", "crack initiation stress", "MPa", mega, &TestResults::crack_initiation_stress},
-  Property{"crack_damage", "crack damage stress", "MPa", mega, &TestResults::crack_damage_stress},
-  Property{"shear_share", "share of shear cracks at the peak", "", 1.0, &TestResults::shear_share_at_peak},
-  Property{"post_peak_drop", "drop of the stress after the peak, over the peak", "", 1.0, &TestResults::post_peak_drop},
-  Property{"toughness", "fracture toughness", "MPa √m", mega, &TestResults::fracture_toughness},
-  Property{"work_of_fracture", "work of fracture", "J/m²", 1.0, &TestResults::fracture_energy}};
-
 constexpr std::size_t most_lines = 6;
 
 /// The numbers that an entry takes, in one unit.
@@ -231,10 +217,6 @@ std::vector<Selection> selections(const std::vector<Series>& all, const Abscissa
   return result;
 }
 
-std::string with_unit(const std::string_view name, const std::string_view unit)
-{
-  return unit.empty() ? std::string(name) : fmt::format("{} [{}]", name, unit);
-}
 Picture picture_of(const Selection& shown, const Abscissa& over, const Property& property)
 {
   constexpr int width = 660; // [px]
@@ -372,10 +354,13 @@ std::optional<Picture> map_of(const std::vector<Series>& all, const std::vector<
                 .series = {std::move(fields), std::move(numbers)}}}};
 }
 
-/// Named for what they are: of a body with flaws the highest stress is a nominal one.
+/// The quantities that studies show. Named for what they are: of a body with flaws the highest stress is a nominal one.
 std::vector<Property> properties_of(const std::vector<Series>& all)
 {
-  std::vector<Property> named(properties.begin(), properties.end());
+  std::vector<Property> named;
+  for (const auto& one : test_quantities)
+    if (!one.studies.picture.empty())
+      named.push_back({one.studies.picture, one.title, one.shown.unit, one.shown.scale, one.figure()});
   if (any_has_flaws(all))
     named.front().title = "highest nominal stress";
   return named;

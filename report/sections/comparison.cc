@@ -12,36 +12,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace feldspar
 {
 namespace
 {
-bool gives_tensile_strength(const TestRecord& record) { return record.envelope_role() == EnvelopeRole::tension; }
+using BySeed = std::map<std::uint64_t, double>;
 
-bool is_uniaxial_compression(const TestRecord& record)
+/// One value a seed, from a figure of the valid tests that a source has.
+BySeed by_seed(const std::vector<FinishedTest>& tests, const PropertySource source, Figure TestResults::*figure)
 {
-  return record.envelope_role() == EnvelopeRole::compression && !record.kind.takes_confining_pressure;
-}
-
-/// One value a seed, from a figure of the tests that `is_wanted` picks.
-std::map<std::uint64_t, double> by_seed(const std::vector<FinishedTest>& tests, bool (&is_wanted)(const TestRecord&),
-                                        Figure TestResults::*figure)
-{
-  std::map<std::uint64_t, double> values;
+  BySeed values;
   for (const auto& test : tests)
-    if (test.results.is_valid() && is_wanted(test.record) && (test.results.*figure).value)
+    if (test.results.is_valid() && gives(source, test.record.kind) && (test.results.*figure).value)
       values[test.record.seed] = *(test.results.*figure).value;
   return values;
 }
 
 /// One value a seed, of the body that it was tested on.
-std::map<std::uint64_t, double> of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
+BySeed of_bodies(const std::vector<FinishedTest>& tests, double SpecimenReport::*figure)
 {
-  std::map<std::uint64_t, double> values;
+  BySeed values;
   for (const auto& [seed, body] : whole_bodies(tests))
     if (body.n_grains > 0 && std::isfinite(body.*figure))
       values[seed] = body.*figure;
@@ -69,9 +64,9 @@ std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<Finished
 }
 
 /// m_i of each seed that was also tested without confinement.
-std::map<std::uint64_t, double> rock_constants_by_seed(const std::vector<FinishedTest>& tests)
+BySeed rock_constants_by_seed(const std::vector<FinishedTest>& tests)
 {
-  std::map<std::uint64_t, double> constants;
+  BySeed constants;
   for (const auto& [seed, points] : points_by_seed(tests))
     if (const auto constant = rock_constant(points))
       constants[seed] = *constant;
@@ -105,60 +100,83 @@ std::string strength_key(const TestGroup& group)
   return fmt::format("{}_strength_MPa", group.name());
 }
 
-/// Of the tests with a notch, kind by kind: each has its own geometry.
-template <typename Add>
-void add_toughness(const std::vector<FinishedTest>& tests, Add&& add)
+/// Which figure of a key the reference has; empty of other keys.
+std::string chosen(const ElasticFigures& elastic, const std::string_view key)
+{
+  return key == "youngs_modulus_GPa" ? elastic.youngs_modulus : key == "poissons_ratio" ? elastic.poissons_ratio : "";
+}
+
+/// Values of a property of bodies with a notch, and why there are none; each kind of test has its own geometry.
+std::pair<BySeed, std::string> of_notched(const std::vector<FinishedTest>& tests, const TestKind& kind,
+                                          Figure TestResults::*figure)
+{
+  std::pair<BySeed, std::string> found;
+  auto& [values, why_missing] = found;
+  for (const auto& test : tests)
+    if (test.record.kind == kind)
+      {
+        const Figure& of_test = test.results.*figure;
+        if (of_test.value)
+          values[test.record.seed] = *of_test.value;
+        else if (why_missing.empty())
+          why_missing = test.record.failure.empty() ? of_test.reason : test.record.failure;
+      }
+  return found;
+}
+
+/// Kinds of test with a notch.
+std::vector<TestKind> notched_kinds(const std::vector<FinishedTest>& tests)
 {
   std::vector<TestKind> kinds;
   for (const auto& test : tests)
     if (test.record.kind.has_notch && std::find(kinds.begin(), kinds.end(), test.record.kind) == kinds.end())
       kinds.push_back(test.record.kind);
-  for (const TestKind& kind : kinds)
-    {
-      std::map<std::uint64_t, double> toughness;
-      std::map<std::uint64_t, double> energy;
-      std::string why_no_toughness;
-      std::string why_no_energy;
-      for (const auto& test : tests)
-        if (test.record.kind == kind)
-          {
-            const auto take = [&](const Figure& figure, auto& values, std::string& why_missing) {
-              if (figure.value)
-                values[test.record.seed] = *figure.value;
-              else if (why_missing.empty())
-                why_missing = test.record.failure.empty() ? figure.reason : test.record.failure;
-            };
-            take(test.results.fracture_toughness, toughness, why_no_toughness);
-            take(test.results.fracture_energy, energy, why_no_energy);
-          }
-      std::string by(kind.name);
-      std::replace(by.begin(), by.end(), '_', ' ');
-      add(fmt::format("fracture toughness, {}", by), "MPa √m", 3, 1e6, toughness, "fracture_toughness_MPa_sqrt_m", 1.0,
-          why_no_toughness);
-      add(fmt::format("work of fracture, {}", by), "J/m²", 1, 1.0, energy, "fracture_energy_J_per_m2", 1.0,
-          why_no_energy);
-    }
+  return kinds;
 }
 
-template <typename Add>
-void add_shear_line(const std::vector<FinishedTest>& tests, Add&& add)
+/// Of each seed with shear tests that have one.
+std::map<std::uint64_t, ShearLine> shear_lines(const std::vector<FinishedTest>& tests)
 {
   std::map<std::uint64_t, std::vector<const FinishedTest*>> of_seed;
   for (const auto& test : tests)
     if (test.record.kind.pressure_acts_across)
       of_seed[test.record.seed].push_back(&test);
-  std::map<std::uint64_t, double> cohesion;
-  std::map<std::uint64_t, double> angle;
+  std::map<std::uint64_t, ShearLine> lines;
   for (const auto& [seed, sheared] : of_seed)
     if (const auto line = fit_shear_line(sheared).line)
+      lines[seed] = *line;
+  return lines;
+}
+
+/// A figure of each of them.
+template <typename Fits, typename Of>
+BySeed each(const Fits& fits, const Of& of)
+{
+  BySeed values;
+  for (const auto& [seed, fit] : fits)
+    values[seed] = of(fit);
+  return values;
+}
+
+/// Strengths that are no property of the table, each under each of its pressures.
+std::vector<std::pair<TestGroup, BySeed>> other_strengths(const std::vector<FinishedTest>& tests)
+{
+  std::vector<std::pair<TestGroup, BySeed>> others;
+  for (const auto& test : tests)
+    if (!gives(PropertySource::tension, test.record.kind) && !gives(PropertySource::compression, test.record.kind) &&
+        test.results.peak_stress.value && test.results.is_valid())
       {
-        cohesion[seed] = line->cohesion;
-        angle[seed] = line->friction_angle;
+        TestGroup group = group_of(test.record);
+        group.confining_pressure = std::round(group.confining_pressure); // as references name it
+        auto found = std::find_if(others.begin(), others.end(),
+                                  [&](const auto& other) { return same_conditions(other.first, group); });
+        if (found == others.end())
+          found = others.insert(others.end(), {group, {}});
+        found->second[test.record.seed] = *test.results.peak_stress.value;
       }
-  if (cohesion.empty())
-    return;
-  add("friction angle, direct shear", "deg", 1, std::numbers::pi / 180.0, angle, "direct_shear_friction_angle_deg");
-  add("cohesion, direct shear", "MPa", 2, 1e6, cohesion, "direct_shear_cohesion_MPa");
+  std::stable_sort(others.begin(), others.end(),
+                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  return others;
 }
 } // namespace
 
@@ -187,109 +205,86 @@ std::optional<bool> ComparisonRow::surely_in_range() const
 std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const std::optional<Reference>& reference,
                                    const ElasticFigures& elastic, const bool beside_flaws)
 {
-  const auto& pulled = gives_tensile_strength;
-  const auto& crushed = is_uniaxial_compression;
   std::vector<ComparisonRow> rows;
-  const auto add = [&](const std::string& property, const char* unit, const int decimals, const double scale,
-                       const std::map<std::uint64_t, double>& values, const std::string& key,
-                       const double reference_scale = 1.0, const std::string& why_missing = "") {
+  const auto add = [&](const std::string& title, const ShownIn& shown, const BySeed& values, const std::string& key,
+                       const double unit_of_key, const std::string& why_missing = "") {
     std::vector<double> scaled;
     for (const auto& [seed, value] : values)
-      scaled.push_back(value / scale);
-    ComparisonRow row{property, unit, decimals, statistics(scaled), std::nullopt, std::nullopt, key};
+      scaled.push_back(value / shown.scale);
+    ComparisonRow row{title, std::string(shown.unit), shown.decimals, statistics(scaled), std::nullopt, std::nullopt,
+                      key};
     if (reference)
       {
-        row.model = reference->model.find(key, reference_scale);
-        row.experiment = reference->experiment.find(key, reference_scale);
+        row.model = reference->model.find(key, shown.scale / unit_of_key);
+        row.experiment = reference->experiment.find(key, shown.scale / unit_of_key);
       }
     if (!row.ours)
       row.why_missing = why_missing;
     rows.push_back(row);
   };
+  const auto add_property = [&](const RockProperty& property, const BySeed& values, const std::string& title = "",
+                                const std::string& why_missing = "") {
+    add(title.empty() ? std::string(property.title) : title, property.shown, values, std::string(property.key),
+        property.key_in.unit, why_missing);
+  };
 
   const bool flawed = beside_flaws || any_has_flaws(tests);
-  const auto strength = by_seed(tests, crushed, &TestResults::peak_stress);
-  const auto tensile = by_seed(tests, pulled, &TestResults::peak_stress);
-  std::map<std::uint64_t, double> ratio;
-  for (const auto& [seed, value] : tensile)
-    if (strength.contains(seed))
-      ratio[seed] = value / strength.at(seed);
-
-  const auto name_of_strength = [&](bool (&is_wanted)(const TestRecord&), const char* otherwise) {
-    const auto test =
-      std::find_if(tests.begin(), tests.end(), [&](const FinishedTest& one) { return is_wanted(one.record); });
-    return test == tests.end() ? std::string(otherwise) : strength_name(test->record.kind, flawed);
+  const auto title_of = [&](const RockProperty& property) {
+    const auto test = std::find_if(tests.begin(), tests.end(), [&](const FinishedTest& one) {
+      return property.figure == &TestResults::peak_stress && gives(property.source, one.record.kind);
+    });
+    return test == tests.end() ? std::string(property.title) : strength_name(test->record.kind, flawed);
   };
-  add(name_of_strength(pulled, "tensile strength"), "MPa", 2, 1e6, tensile, "tensile_strength_MPa");
-  add("strain at tensile peak", "1e-4", 2, 1e-4, by_seed(tests, pulled, &TestResults::strain_at_peak),
-      "strain_at_tensile_peak", 1e-4);
-  add(name_of_strength(crushed, "uniaxial compressive strength"), "MPa", 1, 1e6, strength,
-      "uniaxial_compressive_strength_MPa");
-  add(flawed ? "highest nominal stresses, tension over compression" : "tensile over compressive strength", "", 3, 1.0,
-      ratio, "tension_to_compression");
-  add("strain at peak, compression", "1e-3", 2, 1e-3, by_seed(tests, crushed, &TestResults::strain_at_peak),
-      "strain_at_compressive_peak", 1e-3);
-  const auto add_modulus = [&](const char* property, const char* which, Figure TestResults::*figure) {
-    add(property, "GPa", 1, 1e9, by_seed(tests, crushed, figure),
-        elastic.youngs_modulus == which ? "youngs_modulus_GPa" : "");
-  };
-  const auto add_ratio = [&](const char* property, const char* which, Figure TestResults::*figure) {
-    add(property, "", 3, 1.0, by_seed(tests, crushed, figure), elastic.poissons_ratio == which ? "poissons_ratio" : "");
-  };
-  add_modulus("Young's modulus, tangent 40-60 % of peak", "tangent", &TestResults::youngs_modulus_tangent);
-  add_modulus("Young's modulus, initial", "initial", &TestResults::youngs_modulus_initial);
-  if (elastic.youngs_modulus == "secant")
-    add_modulus("Young's modulus, secant at 50 % of peak", "secant", &TestResults::youngs_modulus_secant);
-  add_ratio("Poisson's ratio, secant at 50 % of peak", "secant", &TestResults::poissons_ratio_secant);
-  add_ratio("Poisson's ratio, initial", "initial", &TestResults::poissons_ratio_initial);
-  add("crack initiation stress, compression", "MPa", 1, 1e6,
-      by_seed(tests, crushed, &TestResults::crack_initiation_stress), "crack_initiation_stress_MPa");
-  add("crack initiation stress, lateral strain", "MPa", 1, 1e6,
-      by_seed(tests, crushed, &TestResults::crack_initiation_stress_lateral), "crack_initiation_stress_lateral_MPa");
-  add("crack damage stress, compression", "MPa", 1, 1e6, by_seed(tests, crushed, &TestResults::crack_damage_stress),
-      "crack_damage_stress_MPa");
+  for (const RockProperty& property : rock_properties)
+    if (property.source == PropertySource::tension || property.source == PropertySource::compression)
+      {
+        const bool is_chosen = property.choice.name == chosen(elastic, property.key);
+        if (is_chosen || !property.choice.hidden_otherwise)
+          add(title_of(property), property.shown, by_seed(tests, property.source, property.figure),
+              is_chosen ? std::string(property.key) : "", property.key_in.unit);
+      }
+    else if (property.key == "tension_to_compression")
+      {
+        BySeed ratio = by_seed(tests, PropertySource::tension, &TestResults::peak_stress);
+        const BySeed strength = by_seed(tests, PropertySource::compression, &TestResults::peak_stress);
+        std::erase_if(ratio, [&](const auto& one) { return !strength.contains(one.first); });
+        for (auto& [seed, value] : ratio)
+          value /= strength.at(seed);
+        add_property(property, ratio, flawed ? "highest nominal stresses, tension over compression" : "");
+      }
 
   const auto envelopes = lines_by_seed(tests);
-  const auto of_lines = [&](Estimate MohrCoulombFit::*estimate) {
-    std::map<std::uint64_t, double> values;
-    for (const auto& [seed, line] : envelopes)
-      values[seed] = (line.*estimate).value;
-    return values;
-  };
   if (!envelopes.empty() || (reference && reference->experiment.line()))
     {
-      add("friction angle, Mohr-Coulomb", "deg", 1, std::numbers::pi / 180.0, of_lines(&MohrCoulombFit::friction_angle),
-          "friction_angle_deg");
-      add("cohesion, Mohr-Coulomb", "MPa", 1, 1e6, of_lines(&MohrCoulombFit::cohesion), "cohesion_MPa");
+      add_property(rock_property("friction_angle_deg"),
+                   each(envelopes, [](const auto& fit) { return fit.friction_angle.value; }));
+      add_property(rock_property("cohesion_MPa"), each(envelopes, [](const auto& fit) { return fit.cohesion.value; }));
     }
   if (reference && (reference->experiment.find("m_i") || reference->model.find("m_i")))
-    add("m_i of Hoek and Brown, compression", "", 1, 1.0, rock_constants_by_seed(tests), "m_i");
-
-  // Then the strengths by the other tests, each under each of its pressures.
-  std::vector<std::pair<TestGroup, std::map<std::uint64_t, double>>> others;
-  for (const auto& test : tests)
-    if (!gives_tensile_strength(test.record) && !is_uniaxial_compression(test.record) &&
-        test.results.peak_stress.value && test.results.is_valid())
-      {
-        TestGroup group = group_of(test.record);
-        group.confining_pressure = std::round(group.confining_pressure); // as references name it
-        auto found = std::find_if(others.begin(), others.end(),
-                                  [&](const auto& other) { return same_conditions(other.first, group); });
-        if (found == others.end())
-          found = others.insert(others.end(), {group, {}});
-        found->second[test.record.seed] = *test.results.peak_stress.value;
-      }
-  std::stable_sort(others.begin(), others.end(),
-                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
-  for (const auto& [group, strengths] : others)
-    add(strength_row(group, flawed), "MPa", group.kind.strength_decimals, 1e6, strengths, strength_key(group));
-  add_toughness(tests, add);
-  add_shear_line(tests, add);
-
+    add_property(rock_property("m_i"), rock_constants_by_seed(tests));
+  for (const auto& [group, strengths] : other_strengths(tests))
+    add(strength_row(group, flawed), display::megapascals(group.kind.strength_decimals), strengths, strength_key(group),
+        mega);
+  for (const TestKind& kind : notched_kinds(tests))
+    for (const RockProperty& property : rock_properties)
+      if (property.source == PropertySource::notch)
+        {
+          std::string by(kind.name);
+          std::replace(by.begin(), by.end(), '_', ' ');
+          const auto [values, why_missing] = of_notched(tests, kind, property.figure);
+          add_property(property, values, fmt::format("{}, {}", property.title, by), why_missing);
+        }
+  if (const auto lines = shear_lines(tests); !lines.empty())
+    {
+      add_property(rock_property("direct_shear_friction_angle_deg"),
+                   each(lines, [](const auto& line) { return line.friction_angle; }));
+      add_property(rock_property("direct_shear_cohesion_MPa"),
+                   each(lines, [](const auto& line) { return line.cohesion; }));
+    }
   // Which body it is: two with different gaps are different rocks.
-  add("installation gap over mean radius", "", 4, 1.0, of_bodies(tests, &SpecimenReport::installation_gap_ratio), "");
-  add("coordination number in the bulk", "", 2, 1.0, of_bodies(tests, &SpecimenReport::coordination_number_core), "");
-  add("porosity", "", 3, 1.0, of_bodies(tests, &SpecimenReport::porosity), "");
+  for (double SpecimenReport::*const member :
+       {&SpecimenReport::installation_gap_ratio, &SpecimenReport::coordination_number_core, &SpecimenReport::porosity})
+    add(std::string(quantity_of(member).title), quantity_of(member).shown, of_bodies(tests, member), "", 1.0);
   return rows;
 }
 
@@ -316,6 +311,12 @@ namespace
 {
 constexpr std::size_t page = 80; // characters of a line
 
+/// Whether it is given to a model instead of asked of it.
+bool is_given(const std::string_view key)
+{
+  return std::any_of(std::begin(rock_properties), std::end(rock_properties),
+                     [&](const RockProperty& one) { return one.source == PropertySource::given && one.key == key; });
+}
 } // namespace
 
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
@@ -324,8 +325,7 @@ std::vector<std::string> properties_without_a_test(const std::vector<ComparisonR
   std::vector<std::string> keys;
   if (reference)
     for (const auto& [key, value] : reference->experiment.values)
-      if (key != "density_kg_per_m3" &&
-          std::none_of(rows.begin(), rows.end(), [&, wanted = key](const ComparisonRow& row) {
+      if (!is_given(key) && std::none_of(rows.begin(), rows.end(), [&, wanted = key](const ComparisonRow& row) {
             return row.key == wanted && (row.ours || !row.why_missing.empty());
           }))
         keys.push_back(key);
@@ -374,8 +374,8 @@ std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<
       if (row.ours && row.ours->standard_deviation)
         ours += fmt::format(" ± {}", value(*row.ours->standard_deviation));
       if (row.ours || row.model || row.experiment)
-        cells.push_back({row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit), ours,
-                         as_text(row, row.model), as_text(row, row.experiment)});
+        cells.push_back(
+          {with_unit(row.property, row.unit), ours, as_text(row, row.model), as_text(row, row.experiment)});
     }
 
   // A column that says nothing is left out; headings give way, so that a line fits on a terminal.

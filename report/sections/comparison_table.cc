@@ -71,11 +71,6 @@ std::vector<ComparisonRow>::const_iterator row_of(const std::vector<ComparisonRo
                       [&](const ComparisonRow& candidate) { return candidate.property == property; });
 }
 
-std::string with_unit(const ComparisonRow& row)
-{
-  return row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit);
-}
-
 /// Ours: mean, standard deviation and the number of specimens.
 std::string as_text(const ComparisonRow& row)
 {
@@ -129,7 +124,7 @@ Table comparison_of_many(const Findings& findings)
               append(table.rows[k], {none, none});
               continue;
             }
-          heading = with_unit(*row);
+          heading = with_unit(row->property, row->unit);
           append(table.rows[k], {as_text(*row), against_experiment(*row)});
           if (row->experiment)
             of_reference[0] = as_text(*row, row->experiment);
@@ -191,7 +186,7 @@ Table comparison_table(const Findings& findings)
               append(ours, {none, none, none});
               continue;
             }
-          heading = with_unit(*row);
+          heading = with_unit(row->property, row->unit);
           append(ours, {as_text(*row), against_experiment(*row),
                         row->ours ? interval(*row->ours, 1.0, row->decimals) : none});
           if (row->experiment)
@@ -244,34 +239,19 @@ Table measured_table(const Findings& findings, const std::size_t n)
                                      ? series.label
                                      : series.label + ", " + group.title());
           }
-  struct Property
-  {
-    const char* name;
-    Figure TestResults::*figure;
-    double unit;
-    int decimals;
-  };
-  static constexpr std::array properties{
-    Property{"peak stress [MPa]", &TestResults::peak_stress, mega, 1},
-    Property{"strain at peak [1e-3]", &TestResults::strain_at_peak, 1e-3, 2},
-    Property{"Young's modulus, tangent 40-60 % of peak [GPa]", &TestResults::youngs_modulus_tangent, 1e9, 1},
-    Property{"Young's modulus, initial [GPa]", &TestResults::youngs_modulus_initial, 1e9, 1},
-    Property{"Poisson's ratio, secant at 50 % of peak", &TestResults::poissons_ratio_secant, 1.0, 3},
-    Property{"Poisson's ratio, initial", &TestResults::poissons_ratio_initial, 1.0, 3},
-    Property{"crack initiation stress, lateral strain [MPa]", &TestResults::crack_initiation_stress_lateral, mega, 1},
-    Property{"crack initiation stress, count of cracks [MPa]", &TestResults::crack_initiation_stress, mega, 1},
-    Property{"crack damage stress [MPa]", &TestResults::crack_damage_stress, mega, 1}};
-  for (const auto& property : properties)
-    {
-      std::vector<std::string> row{
-        property.name, number(curve.tests.front()->results.*property.figure, property.unit, property.decimals)};
-      for (const auto& group : beside)
-        {
-          const auto over_seeds = statistics(values(group, property.figure));
-          row.push_back(over_seeds ? mean_and_deviation(*over_seeds, property.unit, property.decimals) : none);
-        }
-      table.rows.push_back(row);
-    }
+  for (const RockProperty& property : rock_properties)
+    if (property.source == PropertySource::compression && !property.choice.hidden_otherwise)
+      {
+        const auto& [unit, scale, decimals] = quantity_of(property.figure).shown;
+        std::vector<std::string> row{with_unit(quantity_of(property.figure).title, unit),
+                                     number(curve.tests.front()->results.*property.figure, scale, decimals)};
+        for (const auto& group : beside)
+          {
+            const auto over_seeds = statistics(values(group, property.figure));
+            row.push_back(over_seeds ? mean_and_deviation(*over_seeds, scale, decimals) : none);
+          }
+        table.rows.push_back(row);
+      }
   if (beside.empty())
     table.caption += "; the model was not tested so";
   return table;

@@ -16,7 +16,7 @@ namespace feldspar
 namespace
 {
 /// A result of every variant, in the order of the variants; "-" where a variant has none.
-struct Column
+struct StudyColumn
 {
   std::string heading;
   std::vector<std::string> cells;
@@ -33,15 +33,16 @@ std::string heading(const ComparisonRow& row)
   return row.unit.empty() ? row.property : fmt::format("{} [{}]", row.property, row.unit);
 }
 
-std::vector<Column> columns(const std::vector<std::vector<ComparisonRow>>& of_variants)
+std::vector<StudyColumn> columns(const std::vector<std::vector<ComparisonRow>>& of_variants)
 {
-  std::vector<Column> all;
+  std::vector<StudyColumn> all;
   for (std::size_t v = 0; v < of_variants.size(); ++v)
     for (const ComparisonRow& row : of_variants[v])
       if (row.ours)
         {
           const std::string name = heading(row);
-          auto column = std::find_if(all.begin(), all.end(), [&](const Column& one) { return one.heading == name; });
+          auto column =
+            std::find_if(all.begin(), all.end(), [&](const StudyColumn& one) { return one.heading == name; });
           if (column == all.end())
             column = all.insert(all.end(), {name, std::vector<std::string>(of_variants.size(), "-"),
                                             row.experiment ? as_text(row, row.experiment) : ""});
@@ -82,9 +83,9 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
       of_variants.push_back(compare(of_rock, reference, {}, any_has_flaws(tests)));
       names.push_back(values_of(of_rock.front()));
     }
-  std::vector<Column> varied;
-  std::vector<Column> constant;
-  for (Column& column : columns(of_variants))
+  std::vector<StudyColumn> varied;
+  std::vector<StudyColumn> constant;
+  for (StudyColumn& column : columns(of_variants))
     (column.is_the_same_in_all() ? constant : varied).push_back(std::move(column));
 
   std::string text = fmt::format("{} variants, means over the seeds\n", names.size());
@@ -116,7 +117,7 @@ std::string study_as_text(const std::vector<FinishedTest>& tests, const std::opt
     }
   if (!constant.empty())
     text += "\nthe same in all variants\n";
-  for (const Column& column : constant)
+  for (const StudyColumn& column : constant)
     text += fmt::format("  {}   {}\n", column.heading, column.cells.front());
   std::vector<ComparisonRow> rows;
   for (const auto& of_variant : of_variants)

@@ -3,7 +3,7 @@
 #include "base/append.h"
 #include "report/sections/text.h"
 #include "results/runs/bodies.h"
-#include "results/runs/result_table.h"
+#include "results/runs/quantity_values.h"
 #include "results/runs/test_groups.h"
 
 #include <fmt/format.h>
@@ -21,11 +21,14 @@ using namespace text;
 
 namespace
 {
-bool has_toughness(const Findings& findings)
+/// Whether a quantity has a column where it is shown at all.
+bool has_column(const TestQuantity& quantity, const Findings& findings)
 {
-  return std::any_of(findings.all.begin(), findings.all.end(), [](const Series& series) {
+  if (quantity.column != PageColumn::where_given)
+    return quantity.column == PageColumn::always;
+  return std::any_of(findings.all.begin(), findings.all.end(), [&](const Series& series) {
     return std::any_of(series.tests.begin(), series.tests.end(),
-                       [](const FinishedTest& test) { return test.results.fracture_toughness.value.has_value(); });
+                       [&](const FinishedTest& test) { return value_of(quantity, test).value.has_value(); });
   });
 }
 } // namespace
@@ -36,60 +39,49 @@ Table strength_table(const Findings& findings)
               any_has_flaws(findings.all)
                 ? "Strengths of every kind of test, of bodies with flaws highest nominal stresses [MPa]"
                 : "Strengths of every kind of test [MPa]",
-              {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean",
-               "shear share of cracks at the peak [%]", "deviator at the end over peak"},
+              {"test", "series", "n", "mean ± s.d.", "95 % interval of the mean"},
               {}};
-  const bool with_toughness = has_toughness(findings);
-  if (with_toughness)
-    append(table.header, {"fracture toughness [MPa √m]", "work of fracture [J/m²]"});
+  std::vector<const TestQuantity*> further{&quantity_of(&TestResults::shear_share_at_peak),
+                                           &quantity_of(&TestResults::residual_deviator_ratio)};
+  if (has_column(quantity_of(&TestResults::fracture_toughness), findings))
+    append(further, {&quantity_of(&TestResults::fracture_toughness), &quantity_of(&TestResults::fracture_energy)});
+  for (const TestQuantity* const quantity : further)
+    table.header.push_back(with_unit(quantity->title, quantity->shown.unit));
   for (const auto& series : findings.all)
     for (const auto& group : groups_of(series))
       {
-        const auto over_seeds = [&](Figure TestResults::*figure, const double unit, const int decimals) {
+        const auto over_seeds = [&](Figure TestResults::*figure, const ShownIn& shown) {
           const auto found = statistics(values(group, figure));
-          return found ? mean_and_deviation(*found, unit, decimals) : none;
+          return found ? mean_and_deviation(*found, shown.scale, shown.decimals) : none;
         };
         const auto strength = statistics(values(group, &TestResults::peak_stress));
-        const int decimals = group.kind.strength_decimals;
+        const ShownIn shown = display::megapascals(group.kind.strength_decimals);
         table.rows.push_back({group.title() + (any_has_flaws(series.tests) ? ", body with flaws" : ""), series.label,
                               fmt::format("{}", strength ? strength->n : 0),
-                              over_seeds(&TestResults::peak_stress, mega, decimals),
-                              strength ? interval(*strength, mega, decimals) : none,
-                              over_seeds(&TestResults::shear_share_at_peak, 1e-2, 1),
-                              over_seeds(&TestResults::residual_deviator_ratio, 1.0, 2)});
-        if (with_toughness)
-          append(table.rows.back(), {over_seeds(&TestResults::fracture_toughness, mega, 3),
-                                     over_seeds(&TestResults::fracture_energy, 1.0, 1)});
+                              over_seeds(&TestResults::peak_stress, shown),
+                              strength ? interval(*strength, shown.scale, shown.decimals) : none});
+        for (const TestQuantity* const quantity : further)
+          table.rows.back().push_back(over_seeds(quantity->figure(), quantity->shown));
       }
   return table;
 }
 
 Table test_table(const Findings& findings)
 {
-  std::set<std::string_view> wanted{"peak_stress_Pa",
-                                    "strain_at_peak",
-                                    "youngs_modulus_tangent_Pa",
-                                    "youngs_modulus_initial_Pa",
-                                    "poissons_ratio_initial",
-                                    "crack_initiation_stress_Pa",
-                                    "crack_damage_stress_Pa",
-                                    "n_tension_cracks",
-                                    "n_shear_cracks",
-                                    "energy_imbalance_over_work",
-                                    "wall_time_s"};
-  if (has_toughness(findings))
-    wanted.insert("fracture_toughness_Pa_sqrt_m");
   Table table{"tests",
               "Every test, SI; the file has every figure of summary.json",
               {"test", "series", "seed"},
               {},
               DataFrame{{"test", "series", "seed"}, {}}};
-  for (const auto& entry : result_table())
+  std::vector<const TestQuantity*> wanted;
+  for (const TestQuantity& quantity : test_quantities)
     {
-      table.file->header.emplace_back(entry.name);
-      if (wanted.contains(entry.name))
-        table.header.emplace_back(entry.name);
+      table.file->header.emplace_back(quantity.name);
+      if (has_column(quantity, findings))
+        wanted.push_back(&quantity);
     }
+  for (const TestQuantity* const quantity : wanted)
+    table.header.emplace_back(quantity->name);
   for (const auto& series : findings.all)
     for (const auto& test : series.tests)
       {
@@ -97,12 +89,18 @@ Table test_table(const Findings& findings)
         const std::string seed = is_measured ? "" : fmt::format("{}", test.record.seed);
         std::vector<std::string> row{test.name, series.label, is_measured ? none : seed};
         std::vector<std::string> all{test.name, series.label, seed};
-        for (const auto& entry : result_table())
+        const auto figure_of = [&](const TestQuantity& quantity) {
+          return is_measured && quantity.is_of_model() ? Figure() : value_of(quantity, test);
+        };
+        for (const TestQuantity& quantity : test_quantities)
           {
-            const Figure figure = is_measured && entry.of_model ? Figure() : entry.value(test);
+            const Figure figure = figure_of(quantity);
             all.push_back(figure.value && std::isfinite(*figure.value) ? fmt::format("{:.10g}", *figure.value) : "");
-            if (wanted.contains(entry.name))
-              row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
+          }
+        for (const TestQuantity* const quantity : wanted)
+          {
+            const Figure figure = figure_of(*quantity);
+            row.push_back(figure.value ? fmt::format("{:.4g}", *figure.value) : none);
           }
         table.rows.push_back(std::move(row));
         table.file->rows.push_back(std::move(all));

@@ -8,186 +8,80 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 
 namespace feldspar
 {
 namespace
 {
-/// A column by its name, with where its number is in a row. `laboratory`: changes sign to be positive in the sense of
-/// the test; `added`: tables of before it was added do without, and it is 0; `of_samples`: only curves of samples of finite
-/// elements have it; `may_be_nan`: a body may not have it, as a gauge with too few grains.
-template <typename Row>
-struct Column
+std::vector<Column<CurveSample>> columns_of_curves(const TestBody body)
 {
-  std::string_view name;
-  std::function<double(const Row&)> get;
-  std::function<void(Row&, double)> set;
-  bool laboratory = false;
-  bool added = false;
-  bool of_samples = false;
-  bool may_be_nan = false;
-  double most = 0.0; ///< of a count or a number of something, the largest that is one; 0 of what need not be whole
-};
-
-/// `part` gives the number's place in a row.
-template <typename Row, typename Part>
-Column<Row> column(const std::string_view name, const Part& part, const bool laboratory = false)
-{
-  using Number = std::remove_cvref_t<decltype(part(std::declval<Row&>()))>;
-  return {name,
-          [=](const Row& row) { return double(part(row)); },
-          [=](Row& row, const double value) {
-            auto& place = part(row);
-            place = Number(value);
-          },
-          laboratory,
-          false,
-          false,
-          false,
-          std::is_integral_v<Number> ? std::min(0x1p53, double(std::numeric_limits<Number>::max())) : 0.0};
-}
-
-template <typename Row, typename T>
-Column<Row> column(const std::string_view name, T Row::*member, const bool laboratory = false)
-{
-  return column<Row>(
-    name, [member](auto& row) -> auto& { return row.*member; }, laboratory);
-}
-
-Column<CurveSample> perhaps_nan(Column<CurveSample> column)
-{
-  column.may_be_nan = true;
-  return column;
-}
-
-Column<CurveSample> energy(const std::string_view name, double Energies::*member)
-{
-  return perhaps_nan(column<CurveSample>(
-    name, [member](auto& row) -> auto& { return row.energies.*member; }));
-}
-
-template <typename Row, std::size_t n>
-Column<Row> coordinate(const std::string_view name, std::array<double, n> Row::*member, const std::size_t c)
-{
-  return column<Row>(
-    name, [=](auto& row) -> auto& { return (row.*member)[c]; });
-}
-
-template <typename Row>
-Column<Row> added(Column<Row> column)
-{
-  column.added = true;
-  return column;
-}
-
-Column<CurveSample> of_samples(Column<CurveSample> column)
-{
-  column.of_samples = true;
-  return added(column);
-}
-
-const std::vector<Column<CurveSample>>& curve_columns()
-{
-  static const std::vector<Column<CurveSample>> columns{
-    column<CurveSample>("step", &CurveSample::step), column<CurveSample>("time_s", &CurveSample::time),
-    column<CurveSample>("axial_strain", &CurveSample::axial_strain, true),
-    column<CurveSample>("axial_stress_Pa", &CurveSample::axial_stress, true),
-    column<CurveSample>("end_stress_difference_Pa", &CurveSample::end_stress_difference, true),
-    column<CurveSample>("lateral_stress_Pa", &CurveSample::lateral_stress, true),
-    column<CurveSample>("mid_stress_Pa", &CurveSample::mid_stress, true),
-    perhaps_nan(column<CurveSample>("gauge_axial_strain", &CurveSample::gauge_axial_strain, true)),
-    perhaps_nan(column<CurveSample>("gauge_lateral_strain", &CurveSample::gauge_lateral_strain, true)),
-    perhaps_nan(column<CurveSample>("gauge_volumetric_strain", &CurveSample::gauge_volumetric_strain, true)),
-    column<CurveSample>("n_tension_cracks", &CurveSample::n_tension_cracks),
-    column<CurveSample>("n_shear_cracks", &CurveSample::n_shear_cracks),
-    column<CurveSample>("unbalanced_force_ratio", &CurveSample::unbalanced_force_ratio),
-    energy("boundary_work_J", &Energies::boundary_work), energy("kinetic_energy_J", &Energies::kinetic),
-    energy("strain_energy_J", &Energies::strain), energy("slip_energy_J", &Energies::slip),
-    energy("released_energy_J", &Energies::released), energy("damping_energy_J", &Energies::damping),
-    added(energy("kinetic_energy_at_start_J", &Energies::kinetic_at_start)),
-    // The boundary work by the name of what does it on a sample: reactions of the platens, pressures on the sides.
-    of_samples(energy("platen_work_J", &Energies::boundary_work)),
-    of_samples(energy("redistribution_energy_J", &Energies::redistribution))};
-  return columns;
-}
-
-std::vector<Column<CurveSample>> curve_columns(const TestBody body)
-{
-  std::vector<Column<CurveSample>> columns = curve_columns();
-  if (body != TestBody::finite_elements)
-    std::erase_if(columns, [](const auto& column) { return column.of_samples; });
+  std::vector<Column<CurveSample>> columns;
+  for (const auto& one : curve_columns)
+    if (!one.is(only_of_samples) || body == TestBody::finite_elements)
+      columns.push_back(one);
   return columns;
 }
 
 /// All but the name of the test and the kind.
-const std::vector<Column<Crack>>& crack_columns()
-{
-  static const std::vector<Column<Crack>> columns{column<Crack>("joint", &Crack::joint),
-                                                  column<Crack>("segment", &Crack::segment),
-                                                  column<Crack>("step", &Crack::step),
-                                                  column<Crack>("axial_strain", &Crack::axial_strain, true),
-                                                  coordinate("x_m", &Crack::centroid, 0),
-                                                  coordinate("y_m", &Crack::centroid, 1),
-                                                  coordinate("z_m", &Crack::centroid, 2),
-                                                  coordinate("normal_x", &Crack::normal, 0),
-                                                  coordinate("normal_y", &Crack::normal, 1),
-                                                  coordinate("normal_z", &Crack::normal, 2),
-                                                  column<Crack>("size_m", &Crack::size),
-                                                  column<Crack>("released_energy_J", &Crack::released_energy),
-                                                  added(column<Crack>("on_smooth_joint", &Crack::on_smooth_joint))};
-  return columns;
-}
+constexpr Column<Crack> crack_columns[] = {column<Crack, &Crack::joint>("joint"),
+                                           column<Crack, &Crack::segment>("segment"),
+                                           column<Crack, &Crack::step>("step"),
+                                           column<Crack, &Crack::axial_strain>("axial_strain", "", positive_in_test),
+                                           column<Crack, &Crack::centroid, 0>("x_m"),
+                                           column<Crack, &Crack::centroid, 1>("y_m"),
+                                           column<Crack, &Crack::centroid, 2>("z_m"),
+                                           column<Crack, &Crack::normal, 0>("normal_x"),
+                                           column<Crack, &Crack::normal, 1>("normal_y"),
+                                           column<Crack, &Crack::normal, 2>("normal_z"),
+                                           column<Crack, &Crack::size>("size_m"),
+                                           column<Crack, &Crack::released_energy>("released_energy_J"),
+                                           column<Crack, &Crack::on_smooth_joint>("on_smooth_joint", "", added_later)};
 
 /// `group`: the name of the column of the groups, which outlives the columns.
-std::vector<Column<GrainPicture>> grain_columns(const std::string_view group)
+std::array<Column<GrainPicture>, 9> grain_columns(const std::string_view group)
 {
-  return {coordinate("start_x_m", &GrainPicture::start, 0),
-          coordinate("start_y_m", &GrainPicture::start, 1),
-          coordinate("start_z_m", &GrainPicture::start, 2),
-          coordinate("x_m", &GrainPicture::position, 0),
-          coordinate("y_m", &GrainPicture::position, 1),
-          coordinate("z_m", &GrainPicture::position, 2),
-          column<GrainPicture>("radius_m", &GrainPicture::radius),
-          column<GrainPicture>("fragment", &GrainPicture::fragment),
-          added(column<GrainPicture>(group, &GrainPicture::mineral))};
+  return {column<GrainPicture, &GrainPicture::start, 0>("start_x_m"),
+          column<GrainPicture, &GrainPicture::start, 1>("start_y_m"),
+          column<GrainPicture, &GrainPicture::start, 2>("start_z_m"),
+          column<GrainPicture, &GrainPicture::position, 0>("x_m"),
+          column<GrainPicture, &GrainPicture::position, 1>("y_m"),
+          column<GrainPicture, &GrainPicture::position, 2>("z_m"),
+          column<GrainPicture, &GrainPicture::radius>("radius_m"),
+          column<GrainPicture, &GrainPicture::fragment>("fragment"),
+          column<GrainPicture, &GrainPicture::mineral>(group, "", added_later)};
 }
 
 const char* kind_name(const CrackKind kind) { return kind == CrackKind::tension ? "tension" : "shear"; }
 
-template <typename Row>
-void append_names(std::string& text, const std::vector<Column<Row>>& columns)
+template <typename Columns>
+void append_names(std::string& text, const Columns& columns)
 {
   for (const auto& one : columns)
-    fmt::format_to(std::back_inserter(text), "{}{}", &one == columns.data() ? "" : ",", one.name);
+    fmt::format_to(std::back_inserter(text), "{}{}", &one == std::data(columns) ? "" : ",", one.name);
   text += '\n';
 }
 
-template <typename Row>
-void append_row(std::string& text, const std::vector<Column<Row>>& columns, const Row& row, const double sign)
+template <typename Columns, typename Row>
+void append_row(std::string& text, const Columns& columns, const Row& row, const double sign)
 {
   for (const auto& one : columns)
-    fmt::format_to(std::back_inserter(text), "{}{}", &one == columns.data() ? "" : ",",
-                   one.laboratory ? sign * one.get(row) : one.get(row));
+    fmt::format_to(std::back_inserter(text), "{}{}", &one == std::data(columns) ? "" : ",",
+                   one.is(positive_in_test) ? sign * one.get(row) : one.get(row));
   text += '\n';
 }
 
 /// Where the columns stand in this table.
-template <typename Row>
-std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const std::vector<Column<Row>>& columns)
+template <typename Columns>
+std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const Columns& columns)
 {
   std::vector<std::optional<std::size_t>> places;
   for (const auto& one : columns)
-    places.push_back(one.added && !table.has(one.name) ? std::nullopt : std::optional(table.place(one.name)));
+    places.push_back(one.is(added_later) && !table.has(one.name) ? std::nullopt : std::optional(table.place(one.name)));
   return places;
 }
 
@@ -227,19 +121,19 @@ private:
   std::size_t n = 0;
 };
 
-template <typename Row>
-Row row_of(const CsvReader& table, const std::vector<Column<Row>>& columns,
-           const std::vector<std::optional<std::size_t>>& places, const double sign, Gaps& gaps)
+template <typename Row, typename Columns>
+Row row_of(const CsvReader& table, const Columns& columns, const std::vector<std::optional<std::size_t>>& places,
+           const double sign, Gaps& gaps)
 {
   Row row{};
-  for (std::size_t k = 0; k < columns.size(); ++k)
+  for (std::size_t k = 0; k < std::size(columns); ++k)
     if (places[k])
       {
         const double value =
           columns[k].most > 0.0 ? table.count(*places[k], columns[k].most) : table.number_or_nan(*places[k]);
-        if (std::isinf(value) || (std::isnan(value) && !columns[k].may_be_nan))
+        if (std::isinf(value) || (std::isnan(value) && !columns[k].is(perhaps_nan)))
           gaps.add(table, *places[k]);
-        columns[k].set(row, columns[k].laboratory ? sign * value : value);
+        columns[k].set(row, columns[k].is(positive_in_test) ? sign * value : value);
       }
   return row;
 }
@@ -249,7 +143,7 @@ constexpr std::string_view left_out = "rows with such cells are left out";
 
 void write_curve(const TestRecord& record, const std::filesystem::path& file)
 {
-  const auto columns = curve_columns(record.body);
+  const auto columns = columns_of_curves(record.body);
   std::string text;
   append_names(text, columns);
   for (const auto& row : record.curve)
@@ -260,11 +154,11 @@ void write_curve(const TestRecord& record, const std::filesystem::path& file)
 TableRows<CurveSample> read_curve(const std::filesystem::path& file, const TestKind& kind)
 {
   CsvReader table(file);
-  const auto places = places_of(table, curve_columns());
+  const auto places = places_of(table, curve_columns);
   Gaps gaps(file, "curves have gaps there");
   TableRows<CurveSample> curve;
   while (table.next())
-    curve.rows.push_back(row_of(table, curve_columns(), places, kind.sign, gaps));
+    curve.rows.push_back(row_of<CurveSample>(table, curve_columns, places, kind.sign, gaps));
   curve.remark = gaps.remark();
   return curve;
 }
@@ -274,7 +168,7 @@ namespace
 std::string header_of_cracks()
 {
   std::string text = "test,kind,";
-  append_names(text, crack_columns());
+  append_names(text, crack_columns);
   return text;
 }
 
@@ -283,7 +177,7 @@ void append_cracks(std::string& text, const std::vector<Crack>& cracks, const st
   for (const auto& crack : cracks)
     {
       fmt::format_to(std::back_inserter(text), "{},{},", name, kind_name(crack.kind));
-      append_row(text, crack_columns(), crack, kind.sign);
+      append_row(text, crack_columns, crack, kind.sign);
     }
 }
 
@@ -300,7 +194,7 @@ std::string read_cracks_into(const std::filesystem::path& file, const std::vecto
   CsvReader table(file);
   const std::size_t name = table.place("test");
   const std::size_t kind = table.place("kind");
-  const auto places = places_of(table, crack_columns());
+  const auto places = places_of(table, crack_columns);
   std::map<std::string_view, const CracksOfTest*> by_name;
   for (const auto& test : tests)
     by_name[test.name] = &test;
@@ -309,7 +203,7 @@ std::string read_cracks_into(const std::filesystem::path& file, const std::vecto
     if (const auto found = by_name.find(table.text(name)); found != by_name.end())
       {
         const std::size_t n_gaps = gaps.number();
-        Crack crack = row_of(table, crack_columns(), places, found->second->kind.sign, gaps);
+        Crack crack = row_of<Crack>(table, crack_columns, places, found->second->kind.sign, gaps);
         crack.kind = table.text(kind) == kind_name(CrackKind::tension) ? CrackKind::tension : CrackKind::shear;
         if (gaps.number() == n_gaps)
           found->second->cracks->push_back(crack);
@@ -371,7 +265,7 @@ TableRows<GrainPicture> read_grains(const std::filesystem::path& file)
   while (table.next())
     {
       const std::size_t n_gaps = gaps.number();
-      const GrainPicture grain = row_of(table, columns, places, 1.0, gaps);
+      const GrainPicture grain = row_of<GrainPicture>(table, columns, places, 1.0, gaps);
       if (gaps.number() == n_gaps)
         grains.rows.push_back(grain);
     }

@@ -7,6 +7,7 @@
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "results/fits/hoek_brown.h"
+#include "results/quantities.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
@@ -26,8 +27,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// A property that a source may give, and the values that one of a rock can have, in the unit at the end of its name.
-/// Bounds are wide: they are to find a number in another unit.
+/// A number that a source may give, and the values that one of a rock can have, in the unit at the end of its name.
 struct Property
 {
   std::string_view name;
@@ -35,25 +35,6 @@ struct Property
   double most;
 };
 
-constexpr Property properties[] = {{"density_kg_per_m3", 500.0, 10000.0},
-                                   {"tensile_strength_MPa", 1e-3, 1000.0},
-                                   {"strain_at_tensile_peak", 1e-7, 0.1},
-                                   {"uniaxial_compressive_strength_MPa", 0.25, 5000.0}, // below it is a soil
-                                   {"tension_to_compression", 1e-4, 1.0},
-                                   {"strain_at_compressive_peak", 1e-6, 0.2},
-                                   {"youngs_modulus_GPa", 1e-3, 1000.0},
-                                   {"poissons_ratio", -1.0, 1.0},
-                                   {"crack_initiation_stress_MPa", 1e-2, 5000.0},
-                                   {"crack_initiation_stress_lateral_MPa", 1e-2, 5000.0},
-                                   {"crack_damage_stress_MPa", 1e-2, 5000.0},
-                                   {"brazilian_strength_MPa", 1e-3, 1000.0},
-                                   {"fracture_toughness_MPa_sqrt_m", 1e-3, 100.0},
-                                   {"fracture_energy_J_per_m2", 1e-2, 1e5},
-                                   {"friction_angle_deg", 1.0, 89.0},
-                                   {"cohesion_MPa", 1e-3, 2000.0},
-                                   {"direct_shear_friction_angle_deg", 1.0, 89.0},
-                                   {"direct_shear_cohesion_MPa", 0.0, 2000.0}, // none of a joint without a filling
-                                   {"m_i", 0.1, 200.0}};
 constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
@@ -92,10 +73,9 @@ bool is_strength_of(const TestKind& kind, const std::string_view name)
 
 std::optional<Property> property_of(const std::string_view name, const std::vector<TestKind>& kinds)
 {
-  const auto found =
-    std::find_if(std::begin(properties), std::end(properties), [&](const Property& one) { return one.name == name; });
-  if (found != std::end(properties))
-    return *found;
+  for (const RockProperty& one : rock_properties)
+    if (one.key == name)
+      return Property{one.key, one.least, one.most};
   if (pressure_in(name, "strength_at_", "_MPa") || is_true_triaxial(name))
     return confined_strength;
   if (std::any_of(kinds.begin(), kinds.end(), [&](const TestKind& kind) { return is_strength_of(kind, name); }))
@@ -321,8 +301,9 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
       else
         {
           std::vector<std::string_view> known;
-          for (const Property& one : properties)
-            known.push_back(one.name);
+          for (const RockProperty& one : rock_properties)
+            if (known.empty() || known.back() != one.key) // a choice of several figures
+              known.push_back(one.key);
           at.refuse(
             fmt::format("no such property; there are {}, strength_at_P_MPa for a pressure P in MPa{}, hoek_brown, "
                         "triaxial, label, note and failure",

@@ -8,7 +8,7 @@
 #include "results/folder/provenance_json.h"
 #include "results/folder/summary.h"
 #include "results/folder/tests_table.h"
-#include "results/runs/result_table.h"
+#include "results/runs/quantity_values.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -155,15 +155,15 @@ FinishedTest test_of(const Json& json, const TestKind& kind)
   test.record.peak_demands = peak_demands_of(json);
   if (const auto way = json.find("way_to_grains_m"); way != json.end() && way->is_number())
     test.record.way_to_grains = way->get<double>();
-  for (const auto& entry : result_table())
+  for (const TestQuantity& quantity : test_quantities)
     {
-      const std::string key(entry.name);
+      const std::string key(quantity.name);
       Figure figure{std::nullopt, "not in this result folder"};
       if (const auto found = json.find(key); found != json.end() && found->is_number())
         figure = {found->get<double>(), ""};
       else if (const std::string reason = text_of(json, key + "_reason"); !reason.empty())
         figure.reason = reason;
-      entry.set(test, figure);
+      set_value(quantity, test, figure);
     }
   if (kind.pressure_acts_across && !json.contains("normal_stress_at_peak_Pa")) // layouts from before it could change
     test.results.normal_stress_at_peak = {test.record.confining_pressure, ""};

@@ -4,7 +4,7 @@
 #include "results/evaluation.h"
 #include "results/fits/direct_shear.h"
 #include "results/folder/provenance_json.h"
-#include "results/runs/result_table.h"
+#include "results/runs/quantity_values.h"
 #include "results/runs/trust.h"
 #include "results/statistics.h"
 
@@ -117,10 +117,8 @@ Json describe(const FinishedTest& test)
                      {"longest_s", ranks.longest},
                      {"longest_unmoved_s", ranks.longest_unmoved},
                      {"moves", ranks.n_moves}};
-  for (const auto& entry : result_table())
-    {
-      write_figure(json, std::string(entry.name), entry.value(test));
-    }
+  for (const TestQuantity& quantity : test_quantities)
+    write_figure(json, std::string(quantity.name), value_of(quantity, test));
   if (test.record.kind.follows_stages)
     json["stages"] = stages(test.record);
   if (const auto& notch = test.record.notch)
@@ -161,14 +159,14 @@ Json ensemble(const std::vector<FinishedTest>& tests)
       out["n_tests"] = members.size();
       out["n_valid"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->counts(); });
       out["n_made"] = std::count_if(members.begin(), members.end(), [](const auto* test) { return test->was_made(); });
-      for (const auto& entry : result_table())
+      for (const TestQuantity& quantity : test_quantities)
         {
           std::vector<double> values;
           for (const FinishedTest* const test : members)
-            if (const Figure figure = entry.value(*test); test->counts() && figure.value)
+            if (const Figure figure = value_of(quantity, *test); test->counts() && figure.value)
               values.push_back(*figure.value);
           if (const auto over_seeds = statistics(values))
-            out[std::string(entry.name)] = as_json(*over_seeds);
+            out[std::string(quantity.name)] = as_json(*over_seeds);
         }
     }
   return json;
@@ -185,14 +183,15 @@ Json verdict(const std::vector<FinishedTest>& tests)
         rock["variant"] = variant;
       rock["checks"] = Json::array();
       for (const auto& [measure, n_tests, n_out, mean, worst, worst_test] : trust_checks(of_rock, kind))
-        rock["checks"].push_back({{"measure", measure.name},
-                                  {"meaning", measure.title},
-                                  {measure.side == BoundSide::at_most ? "at_most" : "at_least", measure.bound},
-                                  {"mean", mean},
-                                  {"worst", worst},
-                                  {"worst_test", worst_test},
-                                  {"n_tests", n_tests},
-                                  {"n_out_of_bounds", n_out}});
+        rock["checks"].push_back(
+          {{"measure", measure.name},
+           {"meaning", measure.title},
+           {measure.bound.side == BoundSide::at_most ? "at_most" : "at_least", measure.bound.value},
+           {"mean", mean},
+           {"worst", worst},
+           {"worst_test", worst_test},
+           {"n_tests", n_tests},
+           {"n_out_of_bounds", n_out}});
       rock["warnings"] = warnings(of_rock, kind);
       json.push_back(rock);
     }

@@ -1,7 +1,7 @@
 #include "results/folder/tests_table.h"
 
 #include "base/whole_file.h"
-#include "results/runs/result_table.h"
+#include "results/runs/quantity_values.h"
 #include "results/varied_columns.h"
 
 #include <fmt/format.h>
@@ -35,17 +35,17 @@ void write_tests(const std::vector<FinishedTest>& tests, const std::filesystem::
   std::string text = "name,kind,seed";
   for (const VariedColumn& column : varied)
     text += fmt::format(",{}", cell(column.heading()));
-  for (const ResultEntry& entry : result_table())
-    text += fmt::format(",{}", entry.name);
+  for (const TestQuantity& quantity : test_quantities)
+    text += fmt::format(",{}", quantity.name);
   text += "\n";
   for (const auto& test : tests)
     {
       text += fmt::format("{},{},{}", cell(test.name), test.record.kind.name, test.record.seed);
       for (const VariedColumn& column : varied)
         text += fmt::format(",{}", cell(column.cell(test.settings)));
-      for (const ResultEntry& entry : result_table())
+      for (const TestQuantity& quantity : test_quantities)
         {
-          const Figure figure = entry.value(test);
+          const Figure figure = value_of(quantity, test);
           text += figure.value && std::isfinite(*figure.value) ? fmt::format(",{:.10g}", *figure.value) : ",";
         }
       text += "\n";

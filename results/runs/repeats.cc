@@ -1,6 +1,6 @@
 #include "results/runs/repeats.h"
 
-#include "results/runs/result_table.h"
+#include "results/runs/quantity_values.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,26 +8,19 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
 
 namespace feldspar
 {
 namespace
 {
-/// Figures that tell how a test was run, and nothing of the rock.
-bool is_effort(const std::string_view name)
-{
-  return name == "steps" || name == "time_step_s" || name == "wall_time_s";
-}
-
 /// The results of a test, with what it is beside the entries that vary.
 std::string results_of(const FinishedTest& test)
 {
   std::string text = fmt::format("{} {} {}", test.record.kind.name, test.record.seed,
                                  test.record.intermediate_stress.value_or(test.record.confining_pressure));
-  for (const ResultEntry& entry : result_table())
-    if (const Figure figure = is_effort(entry.name) ? Figure() : entry.value(test); figure.value)
-      text += fmt::format(" {}={:.10g}", entry.name, *figure.value);
+  for (const TestQuantity& quantity : test_quantities)
+    if (const Figure figure = value_of(quantity, test); quantity.of != QuantityOf::effort && figure.value)
+      text += fmt::format(" {}={:.10g}", quantity.name, *figure.value);
   return text + "\n";
 }
 

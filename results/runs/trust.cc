@@ -1,6 +1,7 @@
 #include "results/runs/trust.h"
 
 #include "base/append.h"
+#include "results/runs/quantity_values.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
@@ -9,28 +10,15 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace feldspar
 {
 namespace
 {
-constexpr double percent = 1e-2;
 constexpr std::size_t fewest_seeds = 3; // below that a standard deviation says nothing
 
 using Value = std::optional<double>;
-
-template <Figure TestResults::*figure>
-Value result(const FinishedTest& test)
-{
-  return (test.results.*figure).value;
-}
-
-Value energy_imbalance(const FinishedTest& test)
-{
-  if (test.bookkeeping.steps == 0 || std::isnan(test.results.energy_imbalance_over_work))
-    return std::nullopt;
-  return test.results.energy_imbalance_over_work;
-}
 
 /// The specimen tells of its width; a beam is longer than it is deep.
 Value least_width(const FinishedTest& test)
@@ -71,35 +59,58 @@ Value porosity_change(const FinishedTest& test)
   return std::abs(grains - grains / std::pow(specimen.radius_multiplier, test.record.dimension()));
 }
 
-constexpr TrustMeasure measures[] = {
-  {"energy_imbalance_over_work", "energy imbalance over boundary work", " %", percent, 2, BoundSide::at_most,
-   1 * percent, energy_imbalance},
-  {"kinetic_to_strain_energy", "kinetic over strain energy, largest over the rows up to the peak", " %", percent, 3,
-   BoundSide::at_most, 1 * percent, result<&TestResults::kinetic_to_strain_energy>},
-  {"unbalanced_force_ratio", "unbalanced over contact force, mean over the rows up to the peak", " %", percent, 3,
-   BoundSide::at_most, 1 * percent, result<&TestResults::unbalanced_force_ratio>},
-  {"end_stress_difference", "difference of the end stresses over the peak, largest over the rows", " %", percent, 1,
-   BoundSide::at_most, 5 * percent, result<&TestResults::end_stress_difference>},
-  {"p_wave_transits_to_peak", "P-wave transits up to the peak", "", 1.0, 0, BoundSide::at_least, 20,
-   result<&TestResults::p_wave_transits_to_peak>},
-  {"servo_error", "servo error of the confinement, mean over the rows up to the peak", " %", percent, 2,
-   BoundSide::at_most, 1 * percent, result<&TestResults::servo_error>},
-  {"servo_error_largest", "servo error of the confinement, largest over the rows up to the peak", " %", percent, 1,
-   BoundSide::at_most, 3 * percent, result<&TestResults::servo_error_largest>},
-  {"least_width_over_mean_diameter", "least width of the specimen over mean grain diameter", "", 1.0, 1,
-   BoundSide::at_least, 10, least_width},
-  {"ligament_over_mean_diameter", "ligament of a notched body over mean grain diameter", "", 1.0, 1,
-   BoundSide::at_least, 5, ligament},
-  {"radius_change", "change of the grain radii by genesis, over those of the input", " %", percent, 2,
-   BoundSide::at_most, 1 * percent, radius_change},
-  {"porosity_change", "difference of the porosity from that of the input", "", 1.0, 3, BoundSide::at_most, 0.02,
-   porosity_change},
-  {"poissons_ratio_initial", "Poisson's ratio, initial", "", 1.0, 3, BoundSide::at_most, 0.5,
-   result<&TestResults::poissons_ratio_initial>},
-  {"poissons_ratio_secant", "Poisson's ratio, secant at 50 % of the peak", "", 1.0, 3, BoundSide::at_most, 0.5,
-   result<&TestResults::poissons_ratio_secant>},
-  {"first_cracks_at_pads_share", "first cracks of a disc that is split, share at its pads", " %", percent, 0,
-   BoundSide::at_most, most_first_cracks_at_pads, result<&TestResults::first_cracks_at_pads_share>}};
+/// Of the body; quantities of tests have theirs in their table.
+struct BodyMeasure
+{
+  TrustMeasure measure;
+  Value (*value)(const FinishedTest&);
+};
+
+constexpr BodyMeasure measures_of_bodies[] = {
+  {{"least_width_over_mean_diameter", "least width of the specimen over mean grain diameter", display::plain(1),
+    at_least(10.0)},
+   least_width},
+  {{"ligament_over_mean_diameter", "ligament of a notched body over mean grain diameter", display::plain(1),
+    at_least(5.0)},
+   ligament},
+  {{"radius_change", "change of the grain radii by genesis, over those of the input", display::percent(2),
+    at_most(1e-2)},
+   radius_change},
+  {{"porosity_change", "difference of the porosity from that of the input", display::plain(3), at_most(0.02)},
+   porosity_change}};
+
+/// Of a test in which nothing was done there are no energies.
+Value measured(const TestQuantity& quantity, const FinishedTest& test)
+{
+  const bool is_balance = quantity.member == TestQuantity::Member(&TestResults::energy_imbalance_over_work);
+  return is_balance && test.bookkeeping.steps == 0 ? std::nullopt : value_of(quantity, test).value;
+}
+
+/// The check of a measure; none where it applies to none of the tests. `value_in`: none of a test to which it does not apply.
+template <typename ValueIn>
+std::optional<TrustCheck> checked(const TrustMeasure& measure, const TestsOfRock& tests, const ValueIn& value_in)
+{
+  TrustCheck check{measure, 0, 0, 0.0, 0.0, ""};
+  std::vector<double> all;
+  for (const FinishedTest* const test : tests)
+    if (const Value value = test->record.failure.empty() ? value_in(*test) : std::nullopt;
+        value && std::isfinite(*value))
+      {
+        if (all.empty() || (measure.bound.side == BoundSide::at_most ? *value > check.worst : *value < check.worst))
+          {
+            check.worst = *value;
+            check.worst_test = test->name;
+          }
+        all.push_back(*value);
+        check.n_out += measure.is_out(*value);
+      }
+  const auto over_tests = statistics(all);
+  if (!over_tests)
+    return std::nullopt;
+  check.n_tests = all.size();
+  check.mean = over_tests->mean;
+  return check;
+}
 
 TestsOfRock all_of(const Series& series)
 {
@@ -263,12 +274,13 @@ std::string out_of_bounds(const TrustCheck& check)
 
 std::string TrustMeasure::text(const double number) const
 {
-  return fmt::format("{:.{}f}{}", number / scale, decimals, unit);
+  return fmt::format("{:.{}f}{}", number / shown.scale, shown.decimals, unit());
 }
 
 std::string TrustMeasure::bound_text() const
 {
-  return fmt::format("{} {:g}{}", side == BoundSide::at_most ? "at most" : "at least", bound / scale, unit);
+  return fmt::format("{} {:g}{}", bound.side == BoundSide::at_most ? "at most" : "at least", bound.value / shown.scale,
+                     unit());
 }
 
 std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind kind)
@@ -276,29 +288,20 @@ std::vector<TrustCheck> trust_checks(const TestsOfRock& tests, const SeriesKind 
   std::vector<TrustCheck> checks;
   if (kind == SeriesKind::laboratory_curve)
     return checks;
-  for (const TrustMeasure& measure : measures)
-    {
-      TrustCheck check{measure, 0, 0, 0.0, 0.0, ""};
-      std::vector<double> all;
-      for (const FinishedTest* const test : tests)
-        if (const Value value = test->record.failure.empty() ? measure.value(*test) : std::nullopt;
-            value && std::isfinite(*value))
-          {
-            if (all.empty() || (measure.side == BoundSide::at_most ? *value > check.worst : *value < check.worst))
-              {
-                check.worst = *value;
-                check.worst_test = test->name;
-              }
-            all.push_back(*value);
-            check.n_out += measure.is_out(*value);
-          }
-      check.n_tests = all.size();
-      if (const auto over_tests = statistics(all))
-        {
-          check.mean = over_tests->mean;
-          checks.push_back(check);
-        }
-    }
+  const auto add = [&](const TrustMeasure& measure, const auto& value_in) {
+    if (auto check = checked(measure, tests, value_in))
+      checks.push_back(std::move(*check));
+  };
+  const auto add_quantities = [&](const bool of_method) {
+    for (const TestQuantity& quantity : test_quantities)
+      if (quantity.bound && (quantity.of == QuantityOf::method) == of_method)
+        add({quantity.name, quantity.title, quantity.shown, *quantity.bound},
+            [&](const FinishedTest& test) { return measured(quantity, test); });
+  };
+  add_quantities(true);
+  for (const auto& [measure, value] : measures_of_bodies)
+    add(measure, value);
+  add_quantities(false);
   return checks;
 }
 

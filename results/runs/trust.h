@@ -12,26 +12,22 @@
 /// here. The reasons for the bounds are in docs/report.md.
 namespace feldspar
 {
-enum class BoundSide
-{
-  at_most,
-  at_least
-};
-
 struct TrustMeasure
 {
   std::string_view name;  ///< in result files
   std::string_view title; ///< in words
-  std::string_view unit;  ///< in which numbers are shown, with the space before it; or empty
-  double scale;           ///< of that unit
-  int decimals;
-  BoundSide side;
-  double bound;
-  std::optional<double> (*value)(const FinishedTest&); ///< none of a test to which the measure does not apply
+  ShownIn shown;
+  PlausibleBound bound;
 
-  bool is_out(double number) const { return side == BoundSide::at_most ? number > bound : number < bound; }
+  bool is_out(const double number) const
+  {
+    return bound.side == BoundSide::at_most ? number > bound.value : number < bound.value;
+  }
   std::string text(double number) const; ///< 0.02 %
   std::string bound_text() const;        ///< at most 1 %
+
+private:
+  std::string unit() const { return shown.unit.empty() ? "" : ' ' + std::string(shown.unit); }
 };
 
 /// A measure over the tests to which it applies, one at least.

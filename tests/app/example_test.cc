@@ -32,6 +32,9 @@ TEST(Documentation, ParametersAreThoseOfTheCommand)
   const TemporaryFolder folder;
   EXPECT_EQ(content(source_tree + "docs/parameters.md"), run_feldspar(folder.path(), "parameters --markdown").output)
     << "write it anew: feldspar parameters --markdown > docs/parameters.md";
+  EXPECT_EQ(content(std::string(FELDSPAR_SOURCE_DIR) + "/docs/results.md"),
+            run_feldspar(folder.path(), "parameters --results").output)
+    << "write it anew: feldspar parameters --results > docs/results.md";
 }
 
 TEST(Documentation, TheFirstPageShowsTheDemo)

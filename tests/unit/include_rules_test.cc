@@ -40,6 +40,7 @@ const std::vector<Room> rooms = {
   {"dem/genesis", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics"}},
   {"dem/rock", {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/flaws", "dem/genesis"}},
   {"results", {"base"}, {"dem/dynamics/energies.h", "dem/specimen/specimen_report.h"}},
+  {"results/evaluation", {"base", "results"}},
   {"results/runs", {"base", "results"}, {"dem/specimen/specimen_report.h"}},
   {"results/fits", {"base", "results", "results/runs"}},
   {"results/folder", {"base", "results", "results/runs", "results/fits"}},

@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <string_view>
+#include <variant>
 
 namespace feldspar
 {
@@ -50,6 +53,21 @@ TestRecord known_compression()
       record.curve.push_back(row);
     }
   return record;
+}
+
+// Files, pages and calibrations know quantities by their names, and evaluation walks the table.
+TEST(LabResults, HaveOneRowEachInTheirTable)
+{
+  std::set<std::string_view> names;
+  for (const TestQuantity& quantity : test_quantities)
+    {
+      EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
+      EXPECT_EQ(&quantity_of(quantity.member), &quantity) << quantity.name << " has the member of another row";
+      EXPECT_EQ(quantity.figure() == nullptr, std::holds_alternative<std::monostate>(quantity.evaluate))
+        << quantity.name;
+    }
+  for (const RockProperty& property : rock_properties)
+    EXPECT_LT(property.least, property.most) << property.key;
 }
 
 TEST(LabResults, AreThoseOfAKnownCurve)
