@@ -12,6 +12,7 @@ strain of its peak, to see whether a higher one follows. About a quarter of an h
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -54,8 +55,9 @@ def run(feldspar, folder, name, body, kind, seeds, more=()):
     done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True)
     summary = os.path.join(folder, name, "summary.json")
     if not os.path.exists(summary):  # none of its specimens could be tested
-        n = seeds[1] - seeds[0] + 1
-        return [{"kind": kind, "seed": seeds[0] + k, "peak_stress_Pa": None, "failure": done.stderr.strip()} for k in range(n)]
+        reasons = dict(re.findall(rf"^feldspar: {kind}_seed_(\d+) cannot be made: (.*)$", done.stderr, re.MULTILINE))
+        return [{"kind": kind, "seed": seed, "peak_stress_Pa": None, "failure": reasons.get(str(seed), done.stderr.strip())}
+                for seed in range(seeds[0], seeds[1] + 1)]
     with open(summary, encoding="utf-8") as file:
         return json.load(file)["tests"]
 

@@ -91,6 +91,7 @@ cp examples/beishan-granite/reference.json rock.json
 const std::set<std::string> scripts_that_run{
   "examples/contact-models/four-models.sh",
   "python3 examples/calibrate-hidden-rocks/study.py",
+  "python3 examples/calibrate-hidden-rocks/verdicts.py",
   "python3 examples/multiscale-and-grains/study.py build/release/app/feldspar",
 };
 

@@ -1,4 +1,5 @@
 #include "dem/lab/compression.h"
+#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stop_rule.h"
@@ -426,7 +427,7 @@ TEST(StopRules, AreKept)
   };
   TestParameters at_strain;
   at_strain.stop_strain = 5e-5;
-  EXPECT_NEAR(run(at_strain).axial_strain, 5e-5, 1.1 * at_strain.tension_sampling_strain);
+  EXPECT_NEAR(run(at_strain).axial_strain, 5e-5, 1.1 * at_strain.of<TensionParameters>().sampling_strain);
   TestParameters at_stress;
   at_stress.stop_stress_over_peak = 0.3;
   const auto fallen = run(at_stress);
@@ -440,8 +441,8 @@ TEST(StopRules, AreKept)
   EXPECT_EQ(run(either).axial_strain, fallen.axial_strain);
   // Longer grips leave less free length: at one strain rate over that length the grips move slower.
   TestParameters long_grips = at_strain;
-  long_grips.grip_ratio = 0.3;
-  EXPECT_NEAR(run(long_grips).axial_strain, 5e-5, 1.1 * at_strain.tension_sampling_strain);
+  long_grips.of<TensionParameters>().grip_ratio = 0.3;
+  EXPECT_NEAR(run(long_grips).axial_strain, 5e-5, 1.1 * at_strain.of<TensionParameters>().sampling_strain);
 }
 
 TEST(StopRules, EndADiscThatBearsMoreAfterItsFirstFall)
