@@ -735,7 +735,8 @@ TEST(EnvelopePicture, GoesNoFurtherThanItsPointsAndNeedsFreedom)
     const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, tests, {}}};
     const StrengthEnvelopes envelopes = fit_strength_envelopes(strength_data(tests));
     std::map<std::string, std::vector<ChartPoint>> curves;
-    for (const ChartSeries& series : envelope_pictures({all, 0, envelopes, reference}).at(0).panels.at(0).series)
+    const Pictures pictures = envelope_pictures({all, 0, envelopes, reference});
+    for (const ChartSeries& series : pictures.at(0).panels.at(0).series)
       curves[series.label] = series.points;
     return curves;
   };
