@@ -1,7 +1,7 @@
 #pragma once
 
+#include "coupling/network/stiffness_bounds.h"
 #include "coupling/rve/path_run.h"
-#include "coupling/rve/stiffness_bounds.h"
 #include "results/evaluation.h"
 #include "results/runs/run.h"
 

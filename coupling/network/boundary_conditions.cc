@@ -1,6 +1,6 @@
 #include "coupling/network/boundary_conditions.h"
 
-#include "base/disjoint_sets.h"
+#include "dem/specimen/disjoint_sets.h"
 
 #include <cmath>
 #include <map>

@@ -1,6 +1,6 @@
 #include "coupling/rve/homogenisation.h"
 
-#include "base/disjoint_sets.h"
+#include "dem/specimen/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>

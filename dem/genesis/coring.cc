@@ -1,7 +1,7 @@
 #include "dem/genesis/coring.h"
 
-#include "base/disjoint_sets.h"
 #include "dem/genesis/joint_installation.h"
+#include "dem/specimen/disjoint_sets.h"
 #include "dem/specimen/specimen_part.h"
 
 #include <algorithm>

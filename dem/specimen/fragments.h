@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/disjoint_sets.h"
+#include "dem/specimen/disjoint_sets.h"
 #include "dem/specimen/specimen.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The boundaries of a representative volume: their order, their limits, and that what holds for the periodic one holds for
 // all.
 
+#include "coupling/network/stiffness_bounds.h"
 #include "coupling/rve/path_run.h"
-#include "coupling/rve/stiffness_bounds.h"
 #include "dem/genesis/coring.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"

@@ -1,12 +1,12 @@
 // Clumps: the mass and the motion of rigid groups against closed forms, how groups are made, tests on specimens of them.
 
-#include "base/disjoint_sets.h"
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/flaws/clumps.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "dem/specimen/disjoint_sets.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen_file.h"
