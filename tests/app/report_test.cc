@@ -537,7 +537,7 @@ TEST_F(Report, SetsAMeasuredCurveBesideTheModel)
   remade("report out --curve confined.csv --output pressed");
   const std::string beside = content(folder.path() / "pressed/tables/measured_2_confined.csv.csv");
   EXPECT_TRUE(beside.starts_with("property,confined.csv,out\n")) << beside;
-  holds(beside, {"peak stress [MPa],170.0,", "\"Young's modulus, initial [GPa]\",60.0,",
+  holds(beside, {"strength [MPa],170.0,", "\"Young's modulus, initial [GPa]\",60.0,",
                  "\"crack initiation stress, lateral strain [MPa]\",70.0,", "crack damage stress [MPa],130.0,"});
 
   // The same in other units and another order, with a column more.

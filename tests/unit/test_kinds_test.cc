@@ -86,7 +86,7 @@ TEST(TestKinds, ThatSayTooLittleAreNoProtocol)
        {+[](LaboratoryProtocol& p) { p.kind.name = ""; }, +[](LaboratoryProtocol& p) { p.kind.title = ""; },
         +[](LaboratoryProtocol& p) { p.kind.strength = ""; },
         +[](LaboratoryProtocol& p) { p.kind.sign = TestKind{}.sign; },
-        +[](LaboratoryProtocol& p) { p.strain_rate = nullptr; },
+        +[](LaboratoryProtocol& p) { p.strain_rate.reset(); },
         +[](LaboratoryProtocol& p) {
           p.set_up_2d.reset();
           p.set_up_3d.reset();
