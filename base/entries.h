@@ -230,7 +230,7 @@ Entry<Whole> within(const Entry<Parameters>& entry, const Get& get, const At& at
         return typename To::Text{form.unit, form.range,
                                  [=](Whole& whole, const std::string_view text) { form.read(at(whole), text); },
                                  [=](const Whole& whole) { return form.write(get(whole)); }};
-    },
+    }, // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): what std::function holds is its own
     entry.value);
   return {entry.name, std::move(value), entry.meaning, entry.flags};
 }

@@ -13,6 +13,7 @@ template <typename Own>
 std::vector<Entry<TestParameters>> within_tests(const std::vector<Entry<Own>>& entries)
 {
   std::vector<Entry<TestParameters>> result;
+  result.reserve(entries.size());
   for (const Entry<Own>& one : entries)
     result.push_back(within<TestParameters>(
       one, [](const TestParameters& tests) -> const Own& { return tests.of<Own>(); },
