@@ -108,7 +108,8 @@ def study(feldspar, tests):
                     for one, other in zip(tested, further):
                         one["peak_stress_further_on_Pa"] = other["peak_stress_Pa"]
                 records += tested
-                print(f"{name}: {len(tested)}", file=sys.stderr)
+                if sys.stderr.isatty():
+                    print(f"{name}: {len(tested)}", file=sys.stderr)
     return records
 
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <exception>
 #include <iterator>
 #include <regex>
 #include <sstream>
@@ -34,7 +35,7 @@ bool has(const std::vector<std::string_view>& names, const std::string& wanted)
 
 bool is_specimen(const std::string& name) { return name.starts_with("specimen") && name.ends_with(".h5"); }
 
-/// Whether every run of one rock may write this name of a specimen: specimen.h5, specimen_seed_1.h5.
+/// Says whether every run of one rock may write this name of a specimen: specimen.h5, specimen_seed_1.h5.
 bool is_usual_specimen(const std::string& name)
 {
   static const std::regex usual("specimen(_seed_[0-9]+)?\\.h5");
@@ -149,7 +150,7 @@ bool has_words(const fs::path& file, const std::string_view words)
   return objection_to_reading(file).empty() && content_of(file).find(words) != std::string::npos;
 }
 
-/// Whether a run of a version without lists wrote the folder.
+/// Says whether a run of a version without lists wrote the folder.
 bool is_of_version_without_lists(const fs::path& folder)
 {
   return !is_there(folder / list_name) &&
@@ -232,7 +233,8 @@ void FileList::note(const std::filesystem::path& file)
   const fs::path relative = relative_to(folder, plain(file));
   if (relative.empty() || known.contains(relative.string()))
     return;
-  if (all_results_are_known && is_there(folder / relative))
+  // Another process of this run may have listed it since this one read the list.
+  if (all_results_are_known && is_there(folder / relative) && !listed_files(folder).contains(relative.string()))
     keep_aside(folder / relative);
   std::string lines;
   if (list < 0)
@@ -332,7 +334,17 @@ EarlierRun::EarlierRun(const std::filesystem::path& its_folder)
 
 void EarlierRun::restore() { move(files_of_runs(folder / earlier_name), folder / earlier_name, folder); }
 
-EarlierRun::~EarlierRun() { forget_earlier_run(folder); }
+EarlierRun::~EarlierRun()
+{
+  try
+    {
+      forget_earlier_run(folder);
+    }
+  catch (const std::exception&)
+    {
+      // A file that cannot be removed stays aside; the next run with --force tries again.
+    }
+}
 
 void EarlierRun::move(const std::set<std::string>& files, const fs::path& from, const fs::path& to)
 {

@@ -1,11 +1,11 @@
 #include "dem/lab/laboratory_run.h"
 
 #include "base/hdf5_archive.h"
+#include "dem/lab/cracks.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
-#include "dem/storage/segment_place.h"
 
 #include <fmt/format.h>
 
@@ -65,46 +65,6 @@ double mean_lateral_strain(const Tensor<dim>& gradient)
   return (gradient.trace() - gradient(dim - 1, dim - 1)) / (dim - 1);
 }
 
-/// The grains of the joint that broke.
-template <int dim>
-GrainPair ends_of(const Specimen<dim>& body, const Break& event)
-{
-  const std::size_t n = body.joints.size();
-  return event.joint < n ? GrainPair(body.joints.grain_1[event.joint], body.joints.grain_2[event.joint])
-                         : body.smooth_joints[event.joint - n].ends();
-}
-
-template <int dim>
-Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
-{
-  const Specimen<dim>& body = dynamics.specimen();
-  const auto& joints = body.joints;
-  Crack result;
-  result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
-  result.segment = event.segment;
-  result.step = dynamics.n_steps();
-  result.axial_strain = axial_strain;
-  result.on_smooth_joint = event.joint >= joints.size();
-  SegmentPlace<dim> place;
-  if (result.on_smooth_joint)
-    {
-      const auto& joint = body.smooth_joints[event.joint - joints.size()];
-      const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
-      place = {at<dim>(body.grains.position, joint.grain_1) + share_of_grain_1(joint, branch) * branch,
-               Eigen::Map<const Vector<dim>>(joint.normal.data()), joint.size(body.thickness)};
-      result.joint = joint.number;
-    }
-  else
-    {
-      place = segment_place<dim>(body.grains, joints, event.joint, event.segment);
-      result.joint = joints.number[event.joint];
-    }
-  result.centroid = in_space<dim>(place.centroid);
-  result.normal = in_space<dim>(place.normal);
-  result.size = place.size;
-  result.released_energy = event.released_energy;
-  return result;
-}
 } // namespace
 
 template <int dim>

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_gr
 template <int dim>
 std::vector<std::uint32_t> fragments(const Specimen<dim>& specimen);
 
-/// Whether each grain belongs to none of the larger fragments; [n_grains].
+/// Marks the grains that belong to none of the larger fragments; [n_grains].
 template <int dim>
 std::vector<bool> loose_grains(const Specimen<dim>& specimen);
 } // namespace feldspar

@@ -86,7 +86,7 @@ Nodes sorted(Nodes nodes)
   return nodes;
 }
 
-/// What the library has read, taken over and checked.
+/// Takes over and checks a mesh that the library has read.
 class FromGmsh
 {
 public:

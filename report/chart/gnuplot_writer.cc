@@ -18,7 +18,7 @@ using Bars = ChartSeries::Bars;
 using Colours = ChartSeries::Colours;
 using Look = Chart::Look;
 
-/// What gnuplot is told of a look.
+/// Settings of gnuplot for a look.
 struct Paper
 {
   const char* set_up;

@@ -2,10 +2,10 @@
 
 #include "base/input_error.h"
 #include "dem/flaws/apply.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/direct_shear.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/laws/pivoting_plate.h"

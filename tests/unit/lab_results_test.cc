@@ -1,6 +1,6 @@
 #include "dem/lab/compression.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/stop_rule.h"
 #include "results/evaluation.h"

@@ -2,8 +2,8 @@
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/lab/compression.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "tests/unit/small_specimen.h"
 

@@ -2,11 +2,11 @@
 
 #include "base/input_error.h"
 #include "dem/lab/compression.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/brazilian.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
 #include "results/evaluation.h"

@@ -1,7 +1,7 @@
 #include "dem/genesis/genesis.h"
 #include "dem/lab/compression.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "results/evaluation.h"
 

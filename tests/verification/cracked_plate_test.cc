@@ -2,8 +2,8 @@
 // extension and the opening of its crack, as grains, against closed forms.
 
 #include "dem/genesis/genesis.h"
-#include "dem/lab/grips.h"
 #include "dem/lab/laboratory_run.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"

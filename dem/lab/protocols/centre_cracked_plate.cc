@@ -1,4 +1,4 @@
-#include "dem/lab/grips.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_part.h"

@@ -1,4 +1,4 @@
-#include "dem/lab/grips.h"
+#include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 
 namespace feldspar

@@ -1,4 +1,4 @@
-#include "dem/lab/grips.h"
+#include "dem/lab/protocols/grips.h"
 
 #include "base/input_error.h"
 #include "dem/lab/platens.h"

@@ -1,0 +1,51 @@
+#include "dem/lab/cracks.h"
+
+#include "dem/storage/segment_place.h"
+
+namespace feldspar
+{
+template <int dim>
+GrainPair ends_of(const Specimen<dim>& body, const Break& event)
+{
+  const std::size_t n = body.joints.size();
+  return event.joint < n ? GrainPair(body.joints.grain_1[event.joint], body.joints.grain_2[event.joint])
+                         : body.smooth_joints[event.joint - n].ends();
+}
+
+template <int dim>
+Crack crack(const Dynamics<dim>& dynamics, const Break& event, const double axial_strain)
+{
+  const Specimen<dim>& body = dynamics.specimen();
+  const auto& joints = body.joints;
+  Crack result;
+  result.kind = event.in_tension ? CrackKind::tension : CrackKind::shear;
+  result.segment = event.segment;
+  result.step = dynamics.n_steps();
+  result.axial_strain = axial_strain;
+  result.on_smooth_joint = event.joint >= joints.size();
+  SegmentPlace<dim> place;
+  if (result.on_smooth_joint)
+    {
+      const auto& joint = body.smooth_joints[event.joint - joints.size()];
+      const Vector<dim> branch = Eigen::Map<const Vector<dim>>(joint.branch.data());
+      place = {at<dim>(body.grains.position, joint.grain_1) + share_of_grain_1(joint, branch) * branch,
+               Eigen::Map<const Vector<dim>>(joint.normal.data()), joint.size(body.thickness)};
+      result.joint = joint.number;
+    }
+  else
+    {
+      place = segment_place<dim>(body.grains, joints, event.joint, event.segment);
+      result.joint = joints.number[event.joint];
+    }
+  result.centroid = in_space<dim>(place.centroid);
+  result.normal = in_space<dim>(place.normal);
+  result.size = place.size;
+  result.released_energy = event.released_energy;
+  return result;
+}
+
+template GrainPair ends_of<2>(const Specimen<2>&, const Break&);
+template GrainPair ends_of<3>(const Specimen<3>&, const Break&);
+template Crack crack<2>(const Dynamics<2>&, const Break&, double);
+template Crack crack<3>(const Dynamics<3>&, const Break&, double);
+} // namespace feldspar
