@@ -1,7 +1,7 @@
 #include "app/run/launched.h"
 
 #include "app/run/interrupt.h"
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 
 #include <mpi.h>
 #include <tbb/global_control.h>

@@ -1,9 +1,9 @@
 #include "coupling/sample/sample_body.h"
 
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
 #include "coupling/sample/continua/continua.h"
 #include "coupling/sample/grain_material.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_run.h"
 #include "coupling/sample/softening.h"
 #include "fem/mesh/boundary_places.h"

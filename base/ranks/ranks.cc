@@ -1,4 +1,4 @@
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 
 #include "base/input_error.h"
 #include "base/whole_file.h"
