@@ -77,14 +77,16 @@ const std::vector<Room> rooms = {
 };
 
 /// The rooms of the command, which may include all libraries, from the ground up; each sees those before it.
-const std::vector<std::string> rooms_of_the_command = {"app/input/maps", "app/input",       "app/screen",  "app/run",
-                                                       "app/programme",  "app/calibration", "app/commands"};
+const std::vector<std::string> rooms_of_the_command = {"app/processes",   "app/input/maps", "app/input",
+                                                       "app/screen",      "app/run",        "app/programme",
+                                                       "app/calibration", "app/commands"};
 
 /// Folders that may include any room, but for those named.
 const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
 
 /// What only these rooms may see of deal.II.
-const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/run", "tests", "benchmarks"};
+const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/processes", "tests",
+                                                           "benchmarks"};
 
 /// Headers of ours that belong to no folder: written by the build.
 const std::vector<std::string> generated = {"feldspar_version.h"};
@@ -266,6 +268,37 @@ TEST(IncludeRules, TestsLieUnderTestsOnly)
     EXPECT_TRUE(!path.stem().string().ends_with("_test") || lies_in(path.parent_path().string(), {"tests"})) << path;
 }
 
+// Environment, signals and communicators belong to the program: whoever calls a library has its own. A child process may
+// give handlers up.
+TEST(IncludeRules, OnlyTheProgramSetsItsProcessUp)
+{
+  const std::vector<std::string> of_a_program{"setenv(",        "putenv(",        "sigaction(",     "signal(",
+                                              "MPI_COMM_WORLD", "MPI_COMM_SELF",  "MPI_Init",       "MPI_Finalize",
+                                              "MPI_Comm_dup(",  "MPI_Comm_split", "MPI_Comm_create"};
+  const std::regex all_processes(R"(\bMPI_COMM_WORLD\b)"); // not OMPI_COMM_WORLD_SIZE
+  std::vector<std::string> places;
+  for (const fs::path& path : sources())
+    {
+      const std::string folder = path.parent_path().string();
+      if (lies_in(folder, {"tests", "benchmarks"}))
+        continue;
+      std::ifstream source(source_root / path);
+      std::size_t number = 0;
+      for (std::string line; std::getline(source, line);)
+        {
+          const std::string place = path.string() + ":" + std::to_string(++number) + ": " + line;
+          line.resize(std::min(line.find("//"), line.size()));
+          if (line.find("MPI_COMM_WORLD") != std::string::npos && std::regex_search(line, all_processes))
+            places.push_back(place);
+          if (lies_in(folder, {"app"}) || line.find("SIG_DFL") != std::string::npos)
+            continue;
+          for (const std::string& name : of_a_program)
+            EXPECT_EQ(line.find(name), std::string::npos) << place;
+        }
+    }
+  EXPECT_EQ(places.size(), 1u) << "one place hands all processes down";
+}
+
 // Each room sees rooms above its own line only, so that no two of them can depend on each other.
 TEST(IncludeRules, RoomsStandInOneOrder)
 {
@@ -305,6 +338,6 @@ TEST(IncludeRules, LetTheRestThrough)
     0u);
   EXPECT_EQ(n_violations("report/sections", "#include \"laboratory/record.h\"\n#include \"report/page/table.h\"\n"),
             0u);
-  EXPECT_EQ(n_violations("app/run", "#include \"feldspar_version.h\"\n#include <deal.II/base/mpi.h>\n"), 0u);
+  EXPECT_EQ(n_violations("app/processes", "#include \"feldspar_version.h\"\n#include <deal.II/base/mpi.h>\n"), 0u);
   EXPECT_EQ(n_violations("tests/unit", "#include \"app/input/quantity.h\"\n"), 0u);
 }
