@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// States as plain bytes, by the description that HDF5 files take too (base/hdf5_archive.h): `transfer(archive, state)` names
+/// States as plain bytes, by the description that HDF5 files take too (base/system/hdf5_archive.h): `transfer(archive, state)` names
 /// each value once and serves writing and reading.
 namespace feldspar
 {

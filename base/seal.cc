@@ -1,10 +1,10 @@
 #include "base/seal.h"
 
+#include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
-#include "base/system/fingerprint.h"
-#include "base/system/write_at.h"
 #include "base/whole_file.h"
+#include "base/write_at.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -3,7 +3,7 @@
 #include "base/prefixes.h"
 
 #include "calibration/posterior.h"
-#include "results/paired_moments.h"
+#include "laboratory/paired_moments.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

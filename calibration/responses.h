@@ -1,8 +1,8 @@
 #pragma once
 
 #include "calibration/parameters.h"
+#include "laboratory/kinds.h"
 #include "results/folder/reference.h"
-#include "results/kinds.h"
 #include "results/runs/run.h"
 
 #include <cmath>

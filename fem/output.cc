@@ -1,6 +1,6 @@
 #include "fem/output.h"
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 #include "base/whole_file.h"
 
 #include <deal.II/base/mpi.h>

@@ -1,8 +1,8 @@
 #include "results/sample_fields.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
+#include "base/system/hdf5_archive.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <expat.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/prefixes.h"
-#include "results/bookkeeping.h"
-#include "results/record.h"
+#include "laboratory/bookkeeping.h"
+#include "laboratory/record.h"
 
 #include <cstdint>
 #include <numbers>

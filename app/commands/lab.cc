@@ -12,7 +12,7 @@
 #include "app/screen/progress.h"
 #include "base/append.h"
 #include "base/input_error.h"
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/seating.h"
 #include "report/sections/comparison.h"

@@ -15,9 +15,9 @@
 #include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/ranks/ranks.h"
 #include "coupling/rve/explicit_run.h"
 #include "coupling/rve/rve_file.h"
-#include "coupling/sample/ranks.h"
 #include "dem/specimen/specimen_file.h"
 
 #include <Eigen/Geometry>

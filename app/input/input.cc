@@ -8,8 +8,8 @@
 #include "base/quoted.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/loading_stages.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

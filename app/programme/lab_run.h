@@ -5,8 +5,8 @@
 #include "app/run/checkpoints.h"
 #include "app/screen/progress.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/test_outcome.h"
 #include "results/runs/run.h"
-#include "results/test_outcome.h"
 
 #include <filesystem>
 #include <functional>

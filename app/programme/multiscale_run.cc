@@ -8,10 +8,10 @@
 #include "app/run/interrupt.h"
 #include "app/run/run_record.h"
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/grain_material.h"
-#include "coupling/sample/ranks.h"
-#include "dem/lab/loading_stages.h"
+#include "laboratory/loading_stages.h"
 
 #include <Eigen/LU>
 #include <fmt/format.h>

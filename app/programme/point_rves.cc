@@ -2,8 +2,8 @@
 
 #include "app/programme/rve_view.h"
 #include "base/byte_archive.h"
+#include "base/ranks/ranks.h"
 #include "coupling/rve/state_archive.h"
-#include "coupling/sample/ranks.h"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 
 #include "coupling/sample/sample_rve.h"
 #include "dem/specimen/specimen.h"
-#include "results/appearance.h"
+#include "laboratory/appearance.h"
 
 #include <vector>
 

@@ -3,9 +3,9 @@
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
 #include "coupling/rve/rve_file.h"
 #include "coupling/sample/continua/continua.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_body.h"
 #include "dem/lab/protocols/protocols.h"
 

@@ -2,9 +2,9 @@
 
 #include "app/input/parameter_table.h"
 #include "app/run/run.h"
+#include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
-#include "base/system/fingerprint.h"
 #include "base/whole_file.h"
 #include "feldspar_version.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <cstddef>
 #include <optional>

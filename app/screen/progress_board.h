@@ -4,9 +4,9 @@
 #include "app/screen/expected_length.h"
 #include "app/screen/progress.h"
 #include "app/screen/stage_length.h"
-#include "results/curve.h"
-#include "results/kinds.h"
-#include "results/peak.h"
+#include "laboratory/curve.h"
+#include "laboratory/kinds.h"
+#include "laboratory/peak.h"
 
 #include <cstddef>
 #include <mutex>

@@ -1,6 +1,6 @@
 #include "app/screen/stage_length.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/loading_stages.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/lab/compression.h"
-#include "dem/lab/stage_walk.h"
+#include "laboratory/compression.h"
+#include "laboratory/stage_walk.h"
 
 #include <vector>
 

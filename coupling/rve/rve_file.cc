@@ -1,7 +1,7 @@
 #include "coupling/rve/rve_file.h"
 
-#include "base/hdf5_archive.h"
 #include "base/quoted.h"
+#include "base/system/hdf5_archive.h"
 #include "coupling/rve/parameters.h"
 #include "coupling/rve/state_archive.h"
 #include "dem/specimen/specimen_file.h"

@@ -1,7 +1,7 @@
 #include "coupling/sample/checkpoints.h"
 
+#include "base/ranks/ranks.h"
 #include "base/whole_file.h"
-#include "coupling/sample/ranks.h"
 
 #include <algorithm>
 #include <system_error>

@@ -1,8 +1,8 @@
 #include "coupling/sample/grain_material.h"
 
 #include "base/byte_archive.h"
+#include "base/fingerprint.h"
 #include "base/random.h"
-#include "base/system/fingerprint.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/state_archive.h"
 

@@ -2,9 +2,9 @@
 
 #include "coupling/sample/sample_body.h"
 #include "coupling/sample/sample_run.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
 #include "fem/solid/advance.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
 
 #include <cstdint>
 #include <functional>

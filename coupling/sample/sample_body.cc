@@ -1,9 +1,10 @@
 #include "coupling/sample/sample_body.h"
 
 #include "base/input_error.h"
+#include "base/ranks/communicator.h"
+#include "base/ranks/ranks.h"
 #include "coupling/sample/continua/continua.h"
 #include "coupling/sample/grain_material.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_run.h"
 #include "coupling/sample/softening.h"
 #include "fem/mesh/boundary_places.h"
@@ -52,11 +53,11 @@ fem::SampleMesh<dim> made_mesh(const SampleParameters& sample)
 {
   const std::array<unsigned int, 2> divisions{sample.elements_across, sample.elements_along};
   if constexpr (dim == 3)
-    return fem::cylinder_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+    return fem::cylinder_sample(ranks::communicator(), 0.5 * sample.width, sample.height, divisions, 0);
   else if (sample.geometry == SampleGeometry::axisymmetric)
-    return fem::axisymmetric_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+    return fem::axisymmetric_sample(ranks::communicator(), 0.5 * sample.width, sample.height, divisions, 0);
   else
-    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height, divisions, 0);
+    return fem::plane_sample(ranks::communicator(), sample.width, sample.height, divisions, 0);
 }
 
 double metres(const MeshUnit unit)
@@ -81,7 +82,7 @@ void check_size(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample
 template <int dim>
 fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
 {
-  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0, metres(sample.mesh_unit));
+  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(ranks::communicator(), sample.mesh_file, 0, metres(sample.mesh_unit));
   check_size(mesh, sample);
   for (const std::string& boundary : boundaries_of(sample.geometry))
     mesh.boundary(boundary);

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
 #include "fem/output.h"
 #include "fem/solid/solid.h"
-#include "results/record.h"
+#include "laboratory/record.h"
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
-#include "dem/lab/parameters.h"
-#include "results/test_outcome.h"
+#include "laboratory/parameters.h"
+#include "laboratory/test_outcome.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dem/dynamics/contact_watch.h"
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/grips.h"
@@ -16,6 +15,7 @@
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <cstdint>
 #include <functional>

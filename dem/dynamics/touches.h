@@ -1,6 +1,5 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/images.h"
 #include "dem/dynamics/incidence.h"
@@ -9,6 +8,7 @@
 #include "dem/laws/linear_contact_law.h"
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
+#include "laboratory/energies.h"
 
 #include <algorithm>
 #include <cmath>

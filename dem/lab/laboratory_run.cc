@@ -1,6 +1,6 @@
 #include "dem/lab/laboratory_run.h"
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/lab/cracks.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"

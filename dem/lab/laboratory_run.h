@@ -3,11 +3,11 @@
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
-#include "dem/lab/parameters.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
 #include "dem/lab/strain_gauge.h"
-#include "results/test_outcome.h"
+#include "laboratory/parameters.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
+#include "laboratory/test_outcome.h"
 
 #include <filesystem>
 #include <functional>

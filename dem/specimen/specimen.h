@@ -5,10 +5,10 @@
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/periodic_images.h"
-#include "dem/specimen/specimen_report.h"
 #include "dem/storage/grains.h"
 #include "dem/storage/joints.h"
 #include "dem/storage/smooth_joints.h"
+#include "laboratory/specimen_report.h"
 
 #include <cmath>
 #include <cstdint>

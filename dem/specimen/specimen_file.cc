@@ -1,8 +1,8 @@
 #include "dem/specimen/specimen_file.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
+#include "base/system/hdf5_archive.h"
 
 #include <fmt/format.h>
 

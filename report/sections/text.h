@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/prefixes.h"
+#include "laboratory/record.h"
 #include "results/fits/fit.h"
-#include "results/record.h"
 #include "results/statistics.h"
 
 #include <string>

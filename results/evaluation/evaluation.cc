@@ -1,7 +1,7 @@
 #include "results/evaluation.h"
 
+#include "laboratory/peak.h"
 #include "results/evaluation/rising_branch.h"
-#include "results/peak.h"
 
 namespace feldspar
 {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "laboratory/kinds.h"
 #include "results/fits/strength_envelopes.h"
-#include "results/kinds.h"
 
 #include <filesystem>
 #include <map>

@@ -9,6 +9,7 @@
 #include "results/folder/summary.h"
 #include "results/folder/tests_table.h"
 #include "results/runs/quantity_values.h"
+#include "results/sample_fields.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

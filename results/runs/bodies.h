@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/specimen/specimen_report.h"
+#include "laboratory/specimen_report.h"
 #include "results/runs/series.h"
 #include "results/statistics.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "laboratory/test_outcome.h"
 #include "results/evaluation.h"
-#include "results/test_outcome.h"
 #include "results/variant_setting.h"
 
 #include <string>

@@ -3,10 +3,10 @@
 #include "dem/genesis/coring.h"
 
 #include "base/random.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
+#include "laboratory/compression.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
 

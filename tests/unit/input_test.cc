@@ -5,8 +5,6 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/direct_shear.h"
@@ -14,6 +12,8 @@
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

@@ -2,11 +2,11 @@
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/parallel_bonds.h"

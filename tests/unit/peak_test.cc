@@ -1,9 +1,9 @@
 // The peak of a curve, and the end of a test by it.
 
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
+#include "laboratory/loading_stages.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

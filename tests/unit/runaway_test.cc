@@ -1,10 +1,10 @@
 #include "dem/dynamics/runaway.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
 #include "report/pictures/figures.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/rves.h"
 #include "results/folder/result_folder.h"
+#include "results/sample_fields.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/parameters.h"
+#include "laboratory/compression.h"
+#include "laboratory/parameters.h"
 
 #include <type_traits>
 

@@ -1,7 +1,6 @@
 // Laboratory tests on cylinders.
 
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/bending.h"
@@ -9,6 +8,7 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"

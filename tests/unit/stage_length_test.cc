@@ -1,6 +1,6 @@
 #include "app/screen/stage_length.h"
 
-#include "dem/lab/compression.h"
+#include "laboratory/compression.h"
 #include "tests/unit/staged_runs.h"
 
 #include <gtest/gtest.h>

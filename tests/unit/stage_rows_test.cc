@@ -3,8 +3,8 @@
 
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/sample_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

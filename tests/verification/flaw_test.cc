@@ -3,10 +3,10 @@
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>

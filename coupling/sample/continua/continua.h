@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/sample/sample_parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "fem/materials/material.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <vector>
 

@@ -2,11 +2,11 @@
 
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
+#include "laboratory/own_entries.h"
 
 #include <fmt/format.h>
 

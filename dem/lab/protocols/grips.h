@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
+#include "laboratory/own_entries.h"
 
 #include <vector>
 

@@ -1,11 +1,11 @@
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/protocols.h"
 
-#include "dem/lab/entries.h"
+#include "laboratory/entries.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/body.h"
 #include "dem/lab/laboratory_protocol.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "laboratory/curve.h"
 #include "report/chart/chart.h"
 #include "report/pictures/picture.h"
-#include "results/curve.h"
 #include "results/runs/series.h"
 #include "results/runs/test_groups.h"
 

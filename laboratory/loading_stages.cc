@@ -1,4 +1,4 @@
-#include "dem/lab/loading_stages.h"
+#include "laboratory/loading_stages.h"
 
 #include "base/csv.h"
 #include "base/input_error.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "results/appearance.h"
-#include "results/bookkeeping.h"
-#include "results/record.h"
+#include "laboratory/appearance.h"
+#include "laboratory/bookkeeping.h"
+#include "laboratory/record.h"
 
 namespace feldspar
 {

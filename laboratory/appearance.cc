@@ -1,4 +1,4 @@
-#include "results/appearance.h"
+#include "laboratory/appearance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/entries.h"
-#include "dem/lab/parameters.h"
+#include "laboratory/parameters.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/run/launched.h"
+#include "app/processes/mpi_session.h"
 
 namespace feldspar
 {

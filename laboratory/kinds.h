@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/curve.h"
+#include "laboratory/curve.h"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "dem/lab/stop_rule.h"
+#include "laboratory/stop_rule.h"
 
 namespace feldspar
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/lab/own_entries.h"
+#include "laboratory/own_entries.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
-#include "results/column.h"
+#include "laboratory/column.h"
+#include "laboratory/energies.h"
 
 #include <cstdint>
 #include <string_view>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// The processes that run one test together: all that mpirun started. Every function but number() and mine() is
-/// collective. Where MPI is not up there is one process, and only sum(), sums() and gathered() cannot be asked.
+/// The processes that run one test together: those of a Group (base/ranks/communicator.h), or without one this process
+/// alone. Every function but number() and mine() is collective.
 namespace feldspar::ranks
 {
 unsigned int number(); ///< how many there are
@@ -31,9 +31,4 @@ void together(const std::function<void()>& work);
 
 /// Work that only the first rank does; else as together().
 void first(const std::function<void()>& work);
-
-/// Runs a program of all ranks, and leaves none waiting for another. What it throws on all of them the first rethrows;
-/// where a rank is alone with it, it says so and ends all. The exit code is that of the first, 0 on others: mpirun ends all
-/// once one has another.
-int guarded(const std::function<int()>& program);
 } // namespace feldspar::ranks

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "results/record.h"
-#include "results/sample_fields.h"
+#include "laboratory/record.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,21 @@
 /// The looks of a test, for pictures; no figure is read off them later.
 namespace feldspar
 {
+/// The fields at one time that a test on finite elements left for ParaView (fem/output.h). No nodes: there are none.
+struct SampleFields
+{
+  unsigned int dimension = 0;                              ///< of the mesh
+  std::size_t n_rows = 0;                                  ///< of the curve when they were written
+  std::vector<std::array<double, 3>> nodes;                ///< at rest [m]; those of each cell are its own
+  std::vector<std::array<double, 3>> displacement;         ///< of each node [m]
+  std::vector<std::vector<std::uint32_t>> cells;           ///< their nodes: around, or in space as VTK has them
+  std::map<std::string, std::vector<double>> of_each_cell; ///< by its name, with its unit
+
+  bool has(const std::string& field) const { return of_each_cell.contains(field); }
+  /// A cylinder by half of its section: x is r, y is z.
+  bool is_axisymmetric() const { return has("stress_rr_Pa"); }
+};
+
 /// A grain as the pictures need it.
 struct GrainPicture
 {

@@ -1,4 +1,4 @@
-#include "dem/lab/compression.h"
+#include "laboratory/compression.h"
 
 namespace feldspar
 {

@@ -1,6 +1,6 @@
-#include "dem/lab/stage_walk.h"
+#include "laboratory/stage_walk.h"
 
-#include "results/peak.h"
+#include "laboratory/peak.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/run/finite_elements.h"
+#include "app/processes/finite_elements.h"
 
 #include <deal.II/base/mpi.h>
 

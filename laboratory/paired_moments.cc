@@ -1,4 +1,4 @@
-#include "results/paired_moments.h"
+#include "laboratory/paired_moments.h"
 
 namespace feldspar
 {

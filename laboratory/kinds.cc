@@ -1,4 +1,4 @@
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <fmt/format.h>
 

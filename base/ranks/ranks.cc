@@ -1,69 +1,70 @@
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 
 #include "base/input_error.h"
+#include "base/ranks/communicator.h"
 #include "base/whole_file.h"
 
-#include <fmt/format.h>
-#include <mpi.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <exception>
 #include <numeric>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
+#include <utility>
 
 namespace feldspar::ranks
 {
 namespace
 {
-bool mpi_is_up()
-{
-  int has_come = 0, has_gone = 0;
-  MPI_Initialized(&has_come);
-  MPI_Finalized(&has_gone);
-  return has_come != 0 && has_gone == 0;
-}
+// Collective calls are of the process as a whole, as its standard output is.
+MPI_Comm of_group = MPI_COMM_NULL;
+
+bool is_alone() { return of_group == MPI_COMM_NULL; }
 
 int all(const int here, const MPI_Op operation)
 {
   int result = here;
-  MPI_Allreduce(&here, &result, 1, MPI_INT, operation, MPI_COMM_WORLD);
+  MPI_Allreduce(&here, &result, 1, MPI_INT, operation, of_group);
   return result;
 }
 } // namespace
 
+Group::Group(const MPI_Comm communicator) { of_group = communicator; }
+Group::~Group() { of_group = MPI_COMM_NULL; }
+
+MPI_Comm communicator() { return of_group; }
+
 unsigned int number()
 {
   int n = 1;
-  if (mpi_is_up())
-    MPI_Comm_size(MPI_COMM_WORLD, &n);
+  if (!is_alone())
+    MPI_Comm_size(of_group, &n);
   return unsigned(n);
 }
 
 unsigned int mine()
 {
   int rank = 0;
-  if (mpi_is_up())
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (!is_alone())
+    MPI_Comm_rank(of_group, &rank);
   return unsigned(rank);
 }
 
-bool any(const bool here) { return mpi_is_up() ? all(here, MPI_MAX) != 0 : here; }
+bool any(const bool here) { return is_alone() ? here : all(here, MPI_MAX) != 0; }
 
 std::uint64_t sum(const std::uint64_t here)
 {
   std::uint64_t result = here;
-  MPI_Allreduce(&here, &result, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  if (!is_alone())
+    MPI_Allreduce(&here, &result, 1, MPI_UINT64_T, MPI_SUM, of_group);
   return result;
 }
 
 std::vector<double> sums(const std::vector<double>& here)
 {
+  if (is_alone())
+    return here;
   std::vector<double> result(here.size());
-  MPI_Allreduce(here.data(), result.data(), int(here.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(here.data(), result.data(), int(here.size()), MPI_DOUBLE, MPI_SUM, of_group);
   return result;
 }
 
@@ -74,10 +75,10 @@ constexpr std::size_t most_at_once = std::size_t(1) << 30; // MPI counts with in
 std::string of_rank(const unsigned int rank, std::string text)
 {
   std::uint64_t size = text.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, int(rank), MPI_COMM_WORLD);
+  MPI_Bcast(&size, 1, MPI_UINT64_T, int(rank), of_group);
   text.resize(size);
   for (std::size_t begin = 0; begin < size; begin += most_at_once)
-    MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, int(rank), MPI_COMM_WORLD);
+    MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, int(rank), of_group);
   return text;
 }
 } // namespace
@@ -87,15 +88,17 @@ std::string of_first(const std::string& text) { return number() == 1 ? text : of
 std::string gathered(const std::string& text)
 {
   const unsigned int n = number();
+  if (n == 1)
+    return text;
   std::vector<std::uint64_t> sizes(n);
   const std::uint64_t size = text.size();
-  MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, of_group);
   // One message a rank, of those that have anything to say: MPI_Gatherv would count all bytes with int.
   constexpr int tag = 1;
   if (!is_first())
     {
       for (std::size_t begin = 0; begin < size; begin += most_at_once)
-        MPI_Send(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, 0, tag, MPI_COMM_WORLD);
+        MPI_Send(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, 0, tag, of_group);
       return {};
     }
   std::string all = text;
@@ -105,8 +108,7 @@ std::string gathered(const std::string& text)
       {
         const std::size_t part = std::min(most_at_once, left);
         all.resize(all.size() + part);
-        MPI_Recv(all.data() + (all.size() - part), int(part), MPI_BYTE, int(rank), tag, MPI_COMM_WORLD,
-                 MPI_STATUS_IGNORE);
+        MPI_Recv(all.data() + (all.size() - part), int(part), MPI_BYTE, int(rank), tag, of_group, MPI_STATUS_IGNORE);
         left -= part;
       }
   return all;
@@ -159,7 +161,7 @@ void together(const std::function<void()>& work)
   if (first_that_failed == number())
     return;
   int its_outcome = outcome;
-  MPI_Bcast(&its_outcome, 1, MPI_INT, int(first_that_failed), MPI_COMM_WORLD);
+  MPI_Bcast(&its_outcome, 1, MPI_INT, int(first_that_failed), of_group);
   what = of_rank(first_that_failed, what);
   if (its_outcome == input_error)
     throw InputError(what);
@@ -174,55 +176,5 @@ void first(const std::function<void()>& work)
     if (is_first())
       work();
   });
-}
-
-namespace
-{
-/// Whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
-/// another collective call.
-bool all_are_here(const MPI_Comm communicator)
-{
-  using namespace std::chrono_literals;
-  MPI_Request request;
-  MPI_Ibarrier(communicator, &request);
-  const auto end = std::chrono::steady_clock::now() + 10s;
-  int done = 0;
-  while (done == 0 && std::chrono::steady_clock::now() < end)
-    {
-      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-      std::this_thread::sleep_for(10ms);
-    }
-  return done != 0;
-}
-} // namespace
-
-int guarded(const std::function<int()>& program)
-{
-  if (number() == 1)
-    return program();
-  MPI_Comm of_failures;
-  MPI_Comm_dup(MPI_COMM_WORLD, &of_failures);
-  try
-    {
-      const int exit_code = program();
-      MPI_Comm_free(&of_failures);
-      return is_first() ? exit_code : 0;
-    }
-  catch (const std::exception& error)
-    {
-      if (!all_are_here(of_failures))
-        {
-          std::fputs(
-            fmt::format("feldspar: process {} of {} failed and ends all: {}\n", mine(), number(), error.what()).c_str(),
-            stderr);
-          std::fflush(stderr);
-          constexpr int failed = 1;
-          MPI_Abort(MPI_COMM_WORLD, failed);
-        }
-      MPI_Comm_free(&of_failures);
-      if (!is_first())
-        return 0;
-      throw;
-    }
 }
 } // namespace feldspar::ranks

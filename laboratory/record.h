@@ -1,9 +1,9 @@
 #pragma once
 
-#include "dem/specimen/specimen_report.h"
-#include "results/curve.h"
-#include "results/kinds.h"
-#include "results/peak.h"
+#include "laboratory/curve.h"
+#include "laboratory/kinds.h"
+#include "laboratory/peak.h"
+#include "laboratory/specimen_report.h"
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <vector>
 
 /// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0. Its
-/// looks and its effort are elsewhere: results/test_outcome.h.
+/// looks and its effort are elsewhere: laboratory/test_outcome.h.
 namespace feldspar
 {
 enum class CrackKind

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/lab/parameters.h"
-#include "results/peak.h"
+#include "laboratory/parameters.h"
+#include "laboratory/peak.h"
 
 namespace feldspar
 {

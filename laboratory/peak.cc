@@ -1,7 +1,7 @@
-#include "results/peak.h"
+#include "laboratory/peak.h"
 
-#include "results/paired_moments.h"
-#include "results/record.h"
+#include "laboratory/paired_moments.h"
+#include "laboratory/record.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 
 #include "base/readable_file.h"
 #include "base/seal.h"

@@ -2,9 +2,9 @@
 
 #include "base/byte_archive.h"
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/loading_stages.h"
-#include "results/record.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
+#include "laboratory/record.h"
 
 #include <fmt/format.h>
 
