@@ -76,6 +76,7 @@ END
    {R"(feldspar lab examples/first-run/granite.prm --output granite
 cp -r granite slate
 cp examples/beishan-granite/reference.json rock.json
+sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' > core.csv
 )",
     settings_of_a_small_rock}},
   {"examples/contact-models/README.md",

@@ -105,7 +105,7 @@ const std::map<std::string, std::vector<StatedFigure>> figures_of_pages{
   {"multiscale.md",
    {{"has the {} segments", "further/summary.json", {"/rves/0/highest_stress/xx/n_tension_cracks"}, 1.0, 0}}},
   {"representative-volume.md",
-   {{"bears {} MPa at most", "cell/summary.json", {"/rves/0/highest_stress/yy/stress_Pa"}, 1e6, 1}}},
+   {{"strength of the cell is {} MPa", "cell/summary.json", {"/rves/0/highest_stress/yy/stress_Pa"}, 1e6, 1}}},
   {"your-own-rock.md",
    {{"0° (above) | {} ± {} |",
      "marble/summary.json",
