@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-/// How the contact plane of two grains moves over a step; docs/theory.md §1.2. Real is double or a pack of doubles.
+/// Motion of the contact plane of two grains over a step; docs/theory.md §1.2. Real is double or a pack of doubles.
 namespace feldspar
 {
 /// The exact angle from one unit vector to another, given sine and cosine [rad].

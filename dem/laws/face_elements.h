@@ -131,7 +131,7 @@ WholeFace<dim> whole_face(const std::vector<FaceElement<dim>>& elements)
   return whole;
 }
 
-/// How a face is divided: {N}, or {N_r, N_α}.
+/// Division of a face into elements: {N} in the plane, {N_r, N_α} in space.
 template <int dim>
 using FaceDivision = std::array<unsigned int, dim - 1>;
 

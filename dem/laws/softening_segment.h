@@ -94,14 +94,14 @@ Real energy_of_bond(const flat_joint::Segment<dim, Real>& segment, const Real& g
          flat_joint::normal_energy(segment, gap, slope, Mask(false));
 }
 
-/// How far a bond would soften to follow its segment.
+/// Softening by which a bond would follow its segment.
 template <typename Real>
 struct Demand
 {
   Real before; ///< d so far
   Real pulled; ///< d that the opening asks for (s.1), at least `before`
   Real now;    ///< d that the shear asks for beyond that (s.5)
-  // What the segment bears in shear: (s.4).
+  // Parts of the shear stress that the segment carries: (s.4).
   Real residual; ///< τ_r of friction [Pa]
   Real of_bond;  ///< τ_c - τ_r [Pa]
   Real size;     ///< |τ| as if the bond did not soften [Pa]
