@@ -137,7 +137,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   std::size_t size() const { return grain_1.size(); }
   std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
 
-  /// How the law divides every face, and how many numbers of its own a segment remembers.
+  /// Sets how the law divides every face, and how many numbers of its own are stored for a segment.
   void divide(const FaceDivision<dim>& into, const std::size_t numbers_of_the_law)
   {
     division = into;
@@ -176,7 +176,8 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return true;
   }
 
-  /// What each joint is and remembers, but for its grains, its number and its response; for whoever stores or permutes.
+  /// Visits all properties and states of the joints except their grains, numbers and responses; for code that stores or
+  /// permutes joints.
   template <typename Visitor>
   void visit_per_joint(Visitor&& visit)
   {

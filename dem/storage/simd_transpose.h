@@ -17,7 +17,7 @@ using Four = double __attribute__((vector_size(4 * sizeof(double))));
 
 using Eight = double __attribute__((vector_size(8 * sizeof(double))));
 
-// By shuffles and not by way of memory: a load waits for two stores that it spans.
+// Shuffles replace a way by memory, where a load would wait for the two stores that it spans.
 inline Eight joined(const Four& low, const Four& high)
 {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
