@@ -6,7 +6,7 @@
 /// input in the plane; in space an input without a porosity means 0.36.
 namespace feldspar
 {
-/// Whether a specimen is cut out of a body that repeats itself; docs/theory.md §3.
+/// Choice whether a specimen is cut out of a periodic body; docs/theory.md §3.
 enum class Coring
 {
   none,       ///< packed between walls

@@ -8,7 +8,7 @@
 /// Grains that move as one rigid body: the groups of a specimen of clumps, in the plane; docs/theory.md §2.6.
 namespace feldspar
 {
-/// Where the body stands that each grain is a part of: the centre of its group, or its own.
+/// Position of the body that each grain is a part of: the centre of its group, or its own centre.
 template <int dim>
 class BodyCentres
 {

@@ -93,7 +93,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
     }
 }
 
-/// As transfer_flaws(): nothing of a specimen without any.
+/// Transfers the smooth joints; like transfer_flaws(), it stores nothing of a specimen without any.
 template <int dim, typename Archive>
 void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
 {
