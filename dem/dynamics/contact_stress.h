@@ -25,11 +25,11 @@ std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches
 template <int dim>
 Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images);
 
-/// That the grains above a plane across the last axis receive from those below [N], along that axis.
+/// Force that the grains above a plane across the last axis receive from those below, along that axis [N].
 template <int dim>
 double force_across(const Specimen<dim>& body, const Touches<dim>& touches, double height);
 
-/// Over the joints and the pairs that touch [N]; 0 without any.
+/// Mean force over the joints and the pairs in contact [N]; 0 without any.
 template <int dim>
 double mean_contact_force(const Specimen<dim>& body, const Touches<dim>& touches);
 } // namespace feldspar

@@ -127,7 +127,7 @@ std::vector<Break> Dynamics<dim>::step()
   return breaks;
 }
 
-/// Whether contacts must be searched for anew.
+/// Returns whether contacts must be searched for anew.
 template <int dim>
 bool Dynamics<dim>::watch_is_over()
 {
@@ -176,7 +176,7 @@ void Dynamics<dim>::index_joints()
   joints_of = incidence(
     images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
-  // By the numbers of the joints, wherever they stand: sums over them have one order.
+  // Entries are sorted by the numbers of the joints, wherever these are stored: sums over them have one order.
   const auto number_and_end = [&](const std::uint32_t entry) { return std::pair(joints.number[entry / 2], entry % 2); };
   for (std::size_t i = 0; i < images.n_own(); ++i)
     std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],

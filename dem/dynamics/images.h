@@ -33,7 +33,7 @@ public:
   {
     return grain < own_grains ? Vector<dim>::Zero().eval() : shift(images[grain - own_grains], edges);
   }
-  /// Whether a contact of these two is the one of its kind that counts.
+  /// Returns whether a contact of these two is the one of its kind that counts.
   bool pair_counts(const std::uint32_t one, const std::uint32_t two) const
   {
     return one < own_grains && (two < own_grains || counts(one, images[two - own_grains]));

@@ -31,7 +31,8 @@ namespace
 constexpr double share_for_rounding = 1e-6;
 constexpr std::size_t most_steps_that_round = 100'000;
 
-/// Whether a smooth plane lies between them, along which they pass over one another, or they are of one rigid body.
+/// Returns whether two grains cannot come into contact: a smooth plane, along which they slide past each other, lies
+/// between them, or they belong to one rigid body.
 template <int dim>
 bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 {
@@ -45,7 +46,7 @@ bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 }
 } // namespace
 
-/// Where a pair stands, or would stand.
+/// Finds the place of a pair in the list, or the place where it would be inserted.
 template <int dim>
 auto Touches<dim>::find(const GrainPair& pair) const
 {

@@ -46,9 +46,9 @@ class Touches
 {
 public:
   const std::vector<Touch<dim>>& list() const { return touches; }
-  /// Which of them each grain takes part in.
+  /// Contacts in which each grain takes part.
   const Incidence& incidence() const { return contacts_of; }
-  /// Whether the touch of this number presses; does not read the touch itself.
+  /// Returns whether the contact of this number presses; does not read the Touch itself.
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
   /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
   std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }
@@ -78,8 +78,8 @@ public:
   }
 
 private:
-  /// What a step has to know of a pair that may have come to touch and most often has not: kept together and small,
-  /// while a Touch takes lines of the cache.
+  /// Data by which a step finds out whether a pair has come into contact. Most pairs have not; therefore these data are
+  /// small and kept together, while a Touch takes several lines of the cache.
   struct Look
   {
     std::uint32_t grain_1, grain_2;

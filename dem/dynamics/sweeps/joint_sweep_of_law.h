@@ -60,7 +60,7 @@ struct RowsOfPack
   }
 };
 
-/// Where a face stands at the beginning of a step.
+/// State of a face at the beginning of a step.
 template <int dim, typename Real>
 struct FaceBefore
 {
@@ -394,7 +394,8 @@ typename Law::template State<double> stored_state(const Joints<dim>& joints, con
   return state;
 }
 
-/// Whether a face responds as one: all its bonds hold, and none remembers more than the motion of the face tells.
+/// Returns whether a face responds as one: all its bonds hold, and none has stored more than the motion of the face
+/// tells.
 template <int dim, JointLaw<dim> Law>
 bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
 {
@@ -407,7 +408,7 @@ bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
   return true;
 }
 
-/// Whether a face bears nothing and stays so as long as it is open.
+/// Returns whether a face carries nothing, and will carry nothing as long as it is open.
 template <int dim, JointLaw<dim> Law>
 bool stands_open_without_bonds(const Law&, const Joints<dim>& joints, const std::size_t j)
 {
