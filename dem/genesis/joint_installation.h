@@ -64,8 +64,8 @@ std::vector<PairGap<dim>> pair_gaps(
   return gaps;
 }
 
-/// How many of the pairs, sorted by gap, get a joint. A gap below which exactly so many lie is what bisection on the
-/// gap would find.
+/// Number of pairs, sorted by gap, that get a joint. Bisection on the gap would find a gap below which exactly so many
+/// pairs lie.
 template <int dim, typename Parameters>
 std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted, const std::size_t n_grains,
                             const double mean_radius, const std::string& section)
