@@ -39,7 +39,7 @@ void check(const Specimen<dim>& specimen, const double diameter)
                                  size_entry, 1e3 * diameter, 4e3 * specimen.report.mean_radius));
 }
 
-/// Of each grain those that it is joined to, by the numbers of the joints.
+/// Neighbours of each grain by its joints, in the order of the joints' numbers.
 template <int dim>
 std::vector<std::vector<std::uint32_t>> joined(const Specimen<dim>& specimen)
 {
