@@ -37,7 +37,8 @@ public:
 
   /// x of A x = b, nearly; [n_motions * n_grains], grain by grain.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// Of several at once: of six, three and a half times as fast as one by one. Sums are in another order.
+  /// Solves for several right-hand sides at once; for six, three and a half times as fast as one by one. Sums are in
+  /// another order.
   UnitUnknowns<dim> solve(const UnitUnknowns<dim>& b) const;
 
   std::size_t bytes() const

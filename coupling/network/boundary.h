@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// What holds the sides of a cell; docs/theory.md §9.6.
+/// Condition on the sides of a cell; docs/theory.md §9.6.
 namespace feldspar
 {
 enum class BoundaryKind

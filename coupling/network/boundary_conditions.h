@@ -12,9 +12,9 @@
 /// The boundary of a cell as conditions on the motions of its grains; docs/theory.md §9.6.
 namespace feldspar
 {
-/// What a boundary asks of the motions u of grains beside the affine ones: B u = 0, and no displacement of the grains that it
-/// holds. All motions of a network go through these conditions; forces that do no work on such motions are borne by the
-/// boundary.
+/// Conditions of a boundary on the motions u of grains beside the affine ones: B u = 0, and no displacement of the
+/// grains that it holds. All motions of a network go through these conditions; forces that do no work on such motions
+/// are carried by the boundary.
 template <int dim>
 class BoundaryConditions
 {
@@ -36,11 +36,12 @@ public:
   const std::vector<Piece>& pieces() const { return all_pieces; }
   const std::vector<std::uint32_t>& held() const { return held_grains; }
 
-  /// That a piece or a hold acts on.
+  /// Grains on which a piece or a hold acts.
   std::vector<std::uint32_t> grains() const;
 
-  /// Less the pairs of which the two are not in one fragment any more, by the joints that hold, the first of the links:
-  /// nothing holds one against the traction on the other. The others of their piece take their share.
+  /// Returns the conditions without the pairs whose two grains are no longer in one fragment: nothing holds one of them
+  /// against the traction on the other. Fragments follow from the joints that hold; joints are the first of the links.
+  /// The other pairs of the piece take their share.
   BoundaryConditions that_bear(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains,
                                const std::function<bool(std::uint32_t joint)>& holds) const;
 

@@ -54,7 +54,8 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
   factor = made;
   condense();
 
-  // It also applies the matrix; and an operation of the factor, whose blocks stay in the cache, is somewhat faster.
+  // Cost of an iteration over that of a solution: an iteration also applies the matrix, and an operation of the factor,
+  // whose blocks stay in the cache, is somewhat faster.
   constexpr double iteration_over_solution = 3.5;
   cost = unsigned(std::clamp(made->cost_of_factor() / iteration_over_solution, 8.0, 1000.0));
 }

@@ -49,7 +49,7 @@ Tensor<3> contact_axes(const Vector<3>& normal)
   return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
 }
 
-/// Of normal and shear stress.
+/// Bond stress that belongs to a normal and shear stress.
 template <int dim>
 BondStress bond_stress(const Vector<dim>& stress)
 {

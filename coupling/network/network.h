@@ -20,7 +20,7 @@ namespace feldspar
 template <int dim>
 using UnitResponse = Eigen::Matrix<double, dim, n_voigt<dim>>;
 
-/// Where a straight strain path meets the first break.
+/// Point of a straight strain path at which the first segment breaks.
 struct FirstBreak
 {
   double factor; ///< of the direction; infinity if nothing breaks along it
@@ -37,7 +37,7 @@ public:
   explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity(),
                    const Boundary& boundary = {});
 
-  /// Of the cell, then the images behind open sides.
+  /// Number of grains of the cell and, behind them, of the images behind open sides.
   std::size_t n_grains() const { return number_of_grains; }
   std::size_t n_own_grains() const { return number_of_own_grains; }
   std::size_t n_joints() const { return number_of_joints; }
@@ -107,12 +107,12 @@ public:
   /// For a law whose bonds bear the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
-  /// Whether, by a linear law, no pair without a face can come to touch at this strain: with all bonds kept the network is
-  /// linear.
+  /// Returns whether under a linear law no pair without a face can come into contact at this strain: with all bonds
+  /// kept the network is then linear.
   bool stays_linear(const Voigt<dim>& strain) const;
-  /// Whether no segment is overloaded and no pair touches at this strain.
+  /// Returns whether no segment is overloaded and no pair is in contact at this strain.
   bool stays_intact(const Voigt<dim>& strain) const;
-  /// Along the ray `factor * direction`, in closed form.
+  /// First break along the ray `factor * direction`, in closed form.
   FirstBreak first_break(const Voigt<dim>& direction) const;
 
 private:

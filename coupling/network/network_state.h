@@ -16,7 +16,7 @@ struct UnbondedSegment
   std::array<double, dim - 1> shear_stress; ///< [Pa]
 };
 
-/// What a bond remembers of its softening (softening::State::more): 0 of one that has not softened.
+/// Softening values that a bond stores (softening::State::more); 0 for a bond that has not softened.
 using Memory = std::array<double, 3>;
 
 /// A segment whose bond holds and has softened.

@@ -2,8 +2,8 @@
 
 #include "coupling/network/network.h"
 
-/// How the boundary of an RVE acts on its elasticity: the same grains and joints under the weakest and
-/// the strictest hold on their boundary. All others lie between them; docs/theory.md §9.6.
+/// Influence of the boundary of an RVE on its elasticity: the same grains and joints under the weakest and the
+/// strictest hold on their boundary. All other boundaries lie between them; docs/theory.md §9.6.
 namespace feldspar
 {
 template <int dim>
