@@ -10,7 +10,7 @@ namespace
 constexpr double near_worst_share = 0.98;
 constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
 
-/// Of a segment since rest [m].
+/// Opening of a segment since rest [m].
 template <int dim>
 double opening_at(const Network<dim>& network, const NetworkHistory<dim>& history, const std::uint32_t link,
                   const std::uint32_t i, const Unknowns& position)

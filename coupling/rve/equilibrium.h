@@ -46,7 +46,7 @@ public:
   /// To be called before it relaxes or breaks anything: an intact network takes the kinematics that were asked for.
   void leave_intact_response();
 
-  /// Where the search begins, instead of at the last event: the position of a state found from it.
+  /// Begins the search at the position of a state found from the last event, instead of at that event.
   void begin_at(const NetworkState<dim>& nearby);
 
   /// The factor by which its linear systems are solved until that takes too long.
@@ -78,8 +78,8 @@ public:
   /// Strain, stress and motions at the present position, without history.
   NetworkState<dim> provisional_state() const;
 
-  /// Whether nothing is broken, softened or pressed together that was apart at rest; never of faces that are not linear while
-  /// bonded.
+  /// Returns whether nothing has broken or softened, and nothing presses that was apart at rest; false for faces that
+  /// are not linear while bonded.
   bool is_intact() const { return history.active().empty() && here().balance.touches.empty(); }
 
   const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }

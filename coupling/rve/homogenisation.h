@@ -9,7 +9,7 @@
 /// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// Of a network in small strains, at a state of it.
+/// Forces of the links of a network in small strains, at one of its states.
 template <int dim>
 LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
 

@@ -25,7 +25,7 @@ struct Balance
   std::vector<LinkTurn<dim>> turns;                                 ///< of each link that bears; empty in small strains
 };
 
-/// Where a network stands, and the forces there.
+/// Position of a network, and the forces there.
 template <int dim>
 struct Configuration
 {
@@ -43,18 +43,18 @@ public:
 
   const Network<dim>& network() const { return of; }
   bool is_finite() const { return finite; }
-  /// Once an intact network is to break.
+  /// Called once an intact network is to break.
   void become_finite();
-  /// Of a link since rest, with the grains at a position.
+  /// Motion of a link since rest, with the grains at a position.
   Motion<dim> motion(std::uint32_t link, const Unknowns& at) const;
   const Unknowns& position() const { return position_at_event; }
-  /// In the order of their first break or touch.
+  /// Active links in the order of their first break or contact.
   const std::vector<ActiveLink<dim>>& active() const { return active_links; }
   bool is_active(const std::uint32_t link) const { return number[link] != none; }
   /// The number of an active link in active().
   std::uint32_t active_number(const std::uint32_t link) const { return number[link]; }
 
-  /// Of the boundary, on the pairs that can bear them.
+  /// Conditions of the boundary on the pairs that can carry them.
   const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return bearing; }
   /// The network's factor with every pair touching, under these conditions.
   const FactorisedNetwork<dim>& factorised_stiffest() const;

@@ -30,7 +30,7 @@ struct LegCourse
   Control<dim> at(double share) const;
   /// Largest change of a component of the intact RVE's strain, tensor shear.
   double size() const { return strain_tensor<dim>(way).cwiseAbs().maxCoeff(); }
-  /// So many that none changes by more than `largest_step` in one.
+  /// Number of increments of which none changes a strain by more than `largest_step`.
   std::uint64_t n_increments(double largest_step) const;
 
   Control<dim> start;                  ///< what the target gives, where it begins

@@ -28,7 +28,7 @@ public:
   const Unknowns of_grains; ///< without strain
   const Unknowns of_strain; ///< without motions
 
-  /// Where the network is on it; all links halve it at the same places.
+  /// Position of the network at a share of the way; all links halve the way at the same places.
   const Unknowns& position(const double share)
   {
     if (share == 0.0 || share == 1.0)
@@ -114,7 +114,7 @@ public:
   }
   Stop<dim> at(const double share) const { return at(share, response_at(share)); }
 
-  /// By trapezoids.
+  /// Work between two stops by the trapezoidal rule.
   Stretch between(const Stop<dim>& from, const Stop<dim>& to) const
   {
     const double half = 0.5 * (to.share - from.share);
@@ -158,7 +158,7 @@ private:
     return sum;
   }
 
-  /// Whether the link has the same states at both ends, and nothing slid between them.
+  /// Returns whether the link has the same states at both ends and nothing slid between them.
   bool stays_linear(const LinkResponse<dim>& from, const LinkResponse<dim>& to) const
   {
     if (from.tangent != to.tangent)
