@@ -43,7 +43,7 @@ struct PathVertex
              const dealii::IndexSet& owned);
 };
 
-/// By the forces on the degrees of freedom of this rank. held: those whose displacement is prescribed.
+/// Work by the forces on the degrees of freedom of this rank. `held` are those whose displacement is prescribed.
 BoundaryWork work_between(const PathVertex& from, const PathVertex& to, const std::vector<bool>& held);
 
 /// The work of all ranks. Collective.

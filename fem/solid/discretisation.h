@@ -30,7 +30,8 @@ dealii::ComponentMask only(const unsigned int component)
   return mask;
 }
 
-/// Of all cells of a mesh whose coarse cells are all refined as often, in the order of their CellIds.
+/// Number of a cell among all cells of a mesh whose coarse cells are all refined as often, in the order of their
+/// CellIds.
 template <typename Cell>
 std::uint64_t number_of(const Cell& cell)
 {

@@ -43,7 +43,7 @@ private:
   double unbalanced_resultant() const;
   PathVertex vertex_of(const SolidState<material_dim>& state) const;
   std::vector<bool> held_by(const dealii::AffineConstraints<double>& constraints) const;
-  /// How a round over the points of all ranks ended: of any the worst, which is the last.
+  /// Outcome of a round over the points of all ranks: the worst of any, which is the last in this list.
   enum class Round
   {
     answered,

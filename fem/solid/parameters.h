@@ -11,7 +11,7 @@
 
 namespace feldspar::fem
 {
-/// How a solve went.
+/// Outcome of a solve.
 struct NewtonReport
 {
   bool converged = false;

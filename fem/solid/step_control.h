@@ -36,7 +36,7 @@ public:
 
   double done() const { return where; }
   bool finished() const { return where >= 1.0; }
-  /// Where the next step should end. The last two are made equal rather than leave a sliver.
+  /// Returns where the next step should end. The last two steps are made equal, so that no sliver is left.
   double next() const
   {
     const double left = 1.0 - where;
