@@ -14,8 +14,8 @@ struct SolverWork
   double seconds_in_points = 0.0; ///< of one core
 };
 
-/// How evenly the processes (ranks) of a test were at work in the representative volumes of its points; one is as long
-/// as the mean.
+/// Balance of the work of the processes (ranks) of a test in the representative volumes of its points; even if the
+/// longest is as long as the mean.
 struct RankBalance
 {
   double mean = 0.0;            ///< of one rank on one core, up to the last step [s]

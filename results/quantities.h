@@ -48,7 +48,7 @@ struct TestResults
   Figure servo_error;
   Figure servo_error_largest;
 
-  /// Whether the test measured what its kind measures: a disc that breaks at its pads is not split.
+  /// Returns whether the test measured what its kind measures: a disc that breaks at its pads is not split.
   bool is_valid() const { return !(first_cracks_at_pads_share.value.value_or(0.0) > most_first_cracks_at_pads); }
 };
 

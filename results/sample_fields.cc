@@ -158,7 +158,7 @@ SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& o
   });
   if (one.fields.empty())
     throw InputError("there is no field in it");
-  // Of each node, those of cells too; all in one file.
+  // Values of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
   read_foreign_hdf5(folder / one.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
     for (const auto& [name, place] : one.fields)

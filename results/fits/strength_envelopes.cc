@@ -114,7 +114,7 @@ const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const H
   return nullptr;
 }
 
-/// Where the intact form is no envelope of these strengths; begins with a space, empty where it is.
+/// Remark that the intact form is no envelope of these strengths; begins with a space, empty where it is one.
 std::string remark_on_intact_form(const StrengthEnvelopes& envelopes)
 {
   const auto miss = miss_of_intact_form(envelopes);

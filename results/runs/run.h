@@ -43,12 +43,13 @@ struct FinishedTest
   TestAppearance appearance;
   RunBookkeeping bookkeeping;
 
-  /// Whether it ran to its end.
+  /// Returns whether the test ran to its end.
   bool was_made() const { return record.failure.empty() && !record.interrupted; }
-  /// Whether its figures may be averaged with those of others: it ran to its end and is a valid test of its kind.
+  /// Returns whether the figures of the test may be averaged with those of others: it ran to its end and is a valid
+  /// test of its kind.
   bool counts() const { return was_made() && results.is_valid(); }
-  /// Whether the body has holes, slots or joints: its highest stress is then nominal, load over the whole section, and
-  /// not a strength of the rock.
+  /// Returns whether the body has holes, slots or joints: its highest stress is then nominal, load over the whole
+  /// section, and not a strength of the rock.
   bool has_flaws() const { return !appearance.flaws.empty(); }
 };
 
