@@ -57,7 +57,7 @@ double step_of_marks(const std::vector<double>& values)
   return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
 }
 
-/// How many values fall into each of equal parts of the range, as columns of one area.
+/// Numbers of values in equal parts of the range, as columns of one area.
 ChartSeries histogram(const std::vector<double>& values)
 {
   constexpr std::size_t n_bins = 24;

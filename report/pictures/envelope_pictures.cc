@@ -138,7 +138,7 @@ struct EnvelopePlot
       add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, end, looks);
   }
 
-  /// As far as its points go, beyond which nothing is known of it.
+  /// Adds a fit as far as its points go; beyond them nothing is known of it.
   template <typename Fit>
   void add_fit(const Fit& fit, ChartSeries looks)
   {
@@ -218,7 +218,7 @@ struct DrawnFit
   bool is_intact;
 };
 
-/// Those with more points than parameters.
+/// Fits with more points than parameters.
 std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
 {
   std::vector<DrawnFit> fits;

@@ -110,7 +110,7 @@ Json crack_panel(const TestRecord& record, const Box& box, const std::string& ti
           {"legend", discs.legend}};
 }
 
-/// Of each fragment.
+/// Number of grains of each fragment.
 std::map<std::uint32_t, std::size_t> numbers_of_grains(const std::vector<GrainPicture>& grains)
 {
   std::map<std::uint32_t, std::size_t> n_grains;

@@ -12,8 +12,8 @@
 
 namespace feldspar
 {
-/// Of more series than these a page shows each as a row of its tables, and pictures of these alone. So many of a small rock
-/// take some 5 MB of the 10 MB of a page.
+/// Largest number of series that a page shows in full. With more series, each is a row of its tables, and only so many
+/// have pictures. So many of a small rock take some 5 MB of the 10 MB of a page.
 inline constexpr std::size_t most_series_in_full = 12;
 
 /// Everything that sections are made of, computed once. What it refers to outlives it.
@@ -32,7 +32,7 @@ struct Findings
   bool has_several() const { return all.size() > 1; }
   bool has_many() const { return all.size() > most_series_in_full; }
 
-  /// Whether the n-th has blocks and pictures of its own: one of the first, or measured on rock.
+  /// Returns whether the n-th series has blocks and pictures of its own: one of the first, or measured on rock.
   bool is_in_full(std::size_t n) const
   {
     return n < most_series_in_full || all[n].kind == SeriesKind::laboratory_curve;

@@ -8,7 +8,7 @@ namespace feldspar
 /// Mean strengths of every kind of test.
 Table strength_table(const Findings& findings);
 
-/// How the specimens came out, one a line; of seeds of which a test was made.
+/// Figures of the specimens, one a line, for seeds with which a test was made.
 Table specimen_table(const Series& series);
 
 /// The stages of tests that follow a loading table, a row each; no rows where there are no such tests.

@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// Whether the model is the rock, in words.
+/// Verdict in words: whether the model is the rock.
 struct Verdict
 {
   std::string headline;

@@ -21,11 +21,11 @@ struct SeriesGroup
   std::size_t n; ///< of the series
   TestGroup group;
 
-  /// And energies.
+  /// Returns whether the series counts cracks, and therefore energies.
   bool counts_cracks() const;
 };
 
-/// Of every series that has them.
+/// Tests of one kind and pressure, of every series that has them.
 using SameTests = std::vector<SeriesGroup>;
 
 using Quantity = std::function<double(const CurveSample&)>;
@@ -35,7 +35,7 @@ bool any_has_several(const SameTests& same);
 /// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
 std::string means_of_several(const SameTests& same, bool shows_single_tests = false);
 
-/// Of what the quantities of a test are followed along, and of its axis.
+/// Name of the abscissa of a test, along which its quantities are followed, and label of its axis.
 std::string abscissa_name(const SameTests& same);
 std::string abscissa_label(const SameTests& same);
 

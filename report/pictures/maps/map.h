@@ -82,13 +82,13 @@ MapFrame map_frame_of(const FinishedTest& test);
 /// A map without anything on it: millimetres, the axis of the test upwards.
 Chart empty_map(const MapLimits& frame, const TestRecord& record, const std::string& title = "");
 
-/// Whether panels stand better one below the other.
+/// Returns whether panels stand better one below the other.
 bool is_long(const MapLimits& frame);
 
 /// Pixels of a panel that is high enough for tics and key.
 std::pair<int, int> panel_size(const MapLimits& frame);
 
-/// Where numbers are written on a map.
+/// Region of a map in which numbers are written.
 MapPaper paper_of(const MapLimits& frame);
 
 /// A stage of a test: cracks up to a step.
