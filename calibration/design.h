@@ -21,7 +21,7 @@ struct SobolIndices
   std::vector<double> total;       ///< by it and all its interactions
 };
 
-/// By the estimator of Martinez (2011) with n points for each matrix, (dimension + 2) n values in all.
+/// Sobol indices by the estimator of Martinez (2011) with n points for each matrix, (dimension + 2) n values in all.
 SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, std::size_t dimension, std::size_t n,
                            std::uint64_t seed);
 } // namespace feldspar::calibration

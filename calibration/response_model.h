@@ -31,9 +31,10 @@ struct Place
   double log_strength; ///< of the bonds in tension [Pa]
 };
 
-/// How the responses depend on the micro-parameters. Each is its scale (of stiffness: the intact representative volume's
-/// answer; of strength: the bond tensile strength) times a smooth function of the dimensionless parameters, which is
-/// learnt from a design, times a correction by later tests. Poisson's ratio is a sum of these instead.
+/// Responses as functions of the micro-parameters. Each response is its scale times a smooth function of the
+/// dimensionless parameters, which is learnt from a design, times a correction by later tests. The scale of a stiffness
+/// is the response of the intact representative volume, that of a strength the bond tensile strength. Poisson's ratio
+/// is a sum of these instead.
 class ResponseModel
 {
 public:
@@ -49,10 +50,10 @@ public:
 
   std::size_t n_responses() const { return all.size(); }
   const Response& response(const std::size_t j) const { return all[j]; }
-  /// Of the response of this name; the name itself where there is none.
+  /// Title of the response of this name; the name itself where there is none.
   std::string title(const std::string& name) const;
   const std::vector<Unknown>& unknowns() const { return unknown; }
-  /// Whether the design gave enough values of it.
+  /// Returns whether the design gave enough values of a response.
   bool knows(const std::size_t j) const { return surrogates[j].has_value(); }
 
   MicroParameters parameters(const Place& place) const;
