@@ -127,7 +127,7 @@ public:
       Hdf5Writer(*copy).text(name, stored);
   }
 
-  /// How many values an array has.
+  /// Returns the number of values of an array.
   std::size_t size_of(const std::string& name) const { return size_of(name, group.openDataSet(name)); }
 
   template <typename T>

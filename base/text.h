@@ -26,7 +26,7 @@ std::string duration_in_words(double seconds);
 /// The pieces between commas, trimmed; one at least.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Whether all of the text is [sign] digits [. digits] [e [sign] digits].
+/// Returns whether all of the text is [sign] digits [. digits] [e [sign] digits].
 bool is_decimal_number(std::string_view text);
 
 /// One decimal number; `nan` and `inf` are none. The decimal sign is a point in every locale. Throws InputError.
