@@ -61,7 +61,7 @@ echo 'reader ALL=(ALL) NOPASSWD: ALL' >/etc/sudoers.d/reader
 END
 }
 
-# Of what is committed, as a reader gets it.
+# Clones what is committed, as a reader gets it.
 clone()
 {
   git clone --quiet --no-local "$tree" "$clone" && inside root <<<'chown --recursive reader: /home/reader/feldspar'
