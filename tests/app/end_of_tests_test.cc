@@ -60,10 +60,10 @@ protected:
 
 TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
 {
-  // Of the specimen that was packed in its box. A platen that is brought lies on the grains on which the wall of the packing
-  // lay: until the first crack nothing differs but the strain gauge, which lies up to 1 % higher. Then the last digits of the
-  // positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001 and 1.001 /s the specimen
-  // that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
+  // Strength of the specimen that was packed in its box. A platen that is brought lies on the grains on which the wall
+  // of the packing lay: until the first crack nothing differs but the strain gauge, which lies up to 1 % higher. Then
+  // the last digits of the positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001
+  // and 1.001 /s the specimen that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
   constexpr double strength = 66.67e6, tolerance = 0.12;
   ASSERT_EQ(run_feldspar(folder.path(), of_packing("15 mm", "30 mm")).exit_code, 0);
   const double modulus = first_test(folder.path())["youngs_modulus_initial_Pa"].get<double>();

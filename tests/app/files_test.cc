@@ -82,7 +82,7 @@ TEST(WriteOver, IsRefusedInTheFolderOfTheInput)
   for (const char* const command : {"lab", "multiscale", "rve", "calibrate"})
     expect_refused(folder, fmt::format("{} rock/input.prm --output rock --force", command),
                    command == std::string("lab") ? why : "feldspar: ");
-  // By another name of the same folder, and by a link to the input.
+  // Refusals by another name of the same folder, and by a link to the input.
   fs::create_symlink("rock", folder.path() / "same");
   expect_refused(folder, "lab rock/input.prm --output same --force", "input.prm is read by this run");
   folder.write("rock/input.prm", rock);

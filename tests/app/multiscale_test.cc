@@ -66,7 +66,7 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   EXPECT_LT(test.at("peak_stress_Pa").get<double>(), 15e6);
   EXPECT_GT(test.at("n_tension_cracks").get<int>(), 10);
   EXPECT_LT(test.at("energy_imbalance").get<double>(), 0.01);
-  // What such a test does not have is missing with its reason, not zero.
+  // A figure that such a test does not have is missing with its reason, not zero.
   EXPECT_EQ(test.at("body"), "finite_elements");
   for (const char* const figure : {"strain_rate_per_s", "kinetic_to_strain_energy", "p_wave_transits_to_peak",
                                    "n_fragments", "servo_error", "time_step_s"})

@@ -282,7 +282,7 @@ TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
   expect_success(run_feldspar(folder.path(), "lab --resume out --quiet", alone));
   expect_same_files(folder.path() / "one", folder.path() / "out", "curves", 3);
 
-  // What is wrong is said once, and leaves nothing.
+  // An error is said once, and leaves nothing.
   const auto wrong =
     run_feldspar(folder.path(), "lab rock.prm --output bad --set 'Specimen/Width = 0.1 mm'", mpirun(2));
   EXPECT_EQ(wrong.exit_code, 2) << wrong.error;

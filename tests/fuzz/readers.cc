@@ -65,7 +65,7 @@ void read_any_input(const fs::path& file)
   variants(input);
 }
 
-/// By both dimensions; what one refuses may be right for the other.
+/// Reads in both dimensions; what one refuses may be right for the other.
 template <typename Read>
 void read_in_plane_or_space(const Read& read_as)
 {
@@ -120,7 +120,7 @@ void read_reference_results(const std::string& content, const fs::path& folder)
     throw std::logic_error("the words of a reference body are not one printable line: " + words);
 }
 
-/// What `feldspar calibrate` leaves.
+/// Reads the files that `feldspar calibrate` leaves.
 void read_calibration_folder(const std::string& content, const fs::path& folder)
 {
   write_files(content, {"calibration.json", "posterior.csv"}, folder);

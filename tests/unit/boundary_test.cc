@@ -180,7 +180,7 @@ TYPED_TEST(Boundaries, StiffnessIsThatOfADirectSolution)
     }
 }
 
-// What a grain and its image bear is their share of one traction, and the stress is that of these tractions.
+// A grain and its image carry their share of one traction, and the stress is that of these tractions.
 TYPED_TEST(Boundaries, BearTheirStressByUniformTractions)
 {
   constexpr int dim = TypeParam::value;

@@ -85,7 +85,7 @@ TEST(RigidGroups, FreeSpinAndFallAsOneBody)
   EXPECT_NEAR(grains.spin[0][0], spin, 1e-12 * spin);
   EXPECT_NEAR(grains.spin[0][1], spin, 1e-12 * spin);
   const Energies energies = dynamics.energies();
-  // What is left open is what theory.md §2.3 leaves open at the start, where the first kick is half a step: ¼ M g V Δt.
+  // Energy left open is that of theory.md §2.3 at the start, where the first kick is half a step: ¼ M g V Δt.
   const double half_kick = 0.25 * m * 9.81 * velocity * dynamics.time_step();
   EXPECT_NEAR(energies.unaccounted(), -half_kick, 1e-3 * half_kick);
   EXPECT_NEAR(energies.boundary_work, m * 9.81 * (0.5 - centre[1]), 1e-12 * m);

@@ -286,7 +286,7 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
   EXPECT_NE(
     words(PackingFile(apart + "0 0.002 0.001\n0.01 0.002 0.001\n")).find(":3: overlaps the grain of line 2 by 0.002"),
     std::string::npos);
-  // Its own image, 10 mm away.
+  // Overlap of a grain with its own image, 10 mm away.
   EXPECT_NE(
     words(PackingFile("0.005 0.005 0.0052\n0.005 0.005 0.001\n")).find(":1: overlaps its own image by 0.0004 m"),
     std::string::npos);
@@ -317,7 +317,7 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleInSpaceToo)
   EXPECT_EQ(PackingFile(inside + "0.009 0.005 0.005 0.001\n").refusal<3>("cylinder"), "");
 }
 
-// As many pairs as grains squared, if they were listed before one is refused.
+// Pairs would be as many as grains squared, if they were listed before one is refused.
 TEST(PackingImport, OfGrainsAllAtOnePlaceIsRefusedAtOnce)
 {
   std::string lines;

@@ -85,7 +85,7 @@ const std::vector<std::string> rooms_of_the_command = {"app/input/maps", "app/in
 /// Folders that may include any room, but for those named.
 const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
 
-/// What only these rooms may see of deal.II.
+/// Rooms that may include headers of deal.II; no others may.
 const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/run", "tests", "benchmarks"};
 
 /// Headers of ours that belong to no folder: written by the build.

@@ -109,7 +109,7 @@ TEST(JointGroups, PutBrokenJointsTogetherAndChangeNone)
 
 TEST(JointGroups, ArePutAnewOnlyWhereItSparesEnough)
 {
-  // Of some 650 joints three that are broken take three of eighty packs the long way: one would do.
+  // Three broken joints of some 650 make a sweep compute three of eighty packs segment by segment: one would do.
   auto joints = granite_box(0.03, 0.03).joints;
   JointGroups<2> groups(joints);
   for (const std::size_t j : {std::size_t(0), std::size_t(100), std::size_t(400)})

@@ -170,7 +170,7 @@ TEST(ParallelBondRve, IsThatOfSlowExplicitDynamics)
   const double fast = error(100);
   const double slow = error(10000);
   EXPECT_LT(slow, fast);
-  // What small strains leave out is of the order of the strain, the way of friction from step to step a little more.
+  // Small strains neglect terms of the order of the strain, and the way of friction from step to step a little more.
   EXPECT_LT(slow, 2e-3);
 }
 

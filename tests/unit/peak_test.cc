@@ -103,7 +103,7 @@ TEST(Peak, IsAMaximumWhoseRestOnlyWavers)
 
 TEST(Peak, OfATestThatEndsInAFallIsBeforeIt)
 {
-  // By Stop stress over peak, or by a Stop strain: two rows before the end the curve still rose.
+  // End by Stop stress over peak, or by a Stop strain: two rows before the end the curve still rose.
   EXPECT_NEAR(peak_of(curve_through({{0.0, 0.0}, {8.30, 102.0}, {8.32, 70.0}})).second, 102.0, 1e-9);
   // Behind an earlier maximum, on its way up again.
   EXPECT_EQ(peak_of(curve_through({{0.0, 0.0}, {2.0, 71.0}, {2.1, 50.0}, {2.5, 65.0}})).second, 0.0);

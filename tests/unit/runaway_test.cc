@@ -58,7 +58,7 @@ TEST(Runaway, IsToldByGrainStepAndReason)
       EXPECT_NE(words.find(" in step "), std::string::npos) << words;
       EXPECT_EQ(words.find('\n'), std::string::npos) << words;
     }
-  // What is in nobody's way shows who it is.
+  // A grain in nobody's way is named itself.
   const std::string thrown = end_after([](Grains<2>& grains) { grains.velocity[0][7] = 1e9; });
   EXPECT_NE(thrown.find("grain "), std::string::npos);
   // A grain in free flight does its own radius in a step at 2 km/s and more, and is not disturbed below.

@@ -124,7 +124,8 @@ TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
 
 TEST(Seating, RefusesABodyInTwoPieces)
 {
-  // Its upper half stands off by a tenth of a millimetre, and by no joint: an open flaw from side to side.
+  // The upper half of the body is a tenth of a millimetre away, without a joint to the lower: an open flaw from side to
+  // side.
   auto specimen = small_specimen();
   const double middle = 0.5 * specimen.size[1];
   std::vector<std::size_t> kept;

@@ -124,7 +124,7 @@ TEST(SmoothJoint, ShearedUnderPressureBearsCoulombsStrengthThenSlidesAndDilates)
   EXPECT_NEAR(-smooth_joint::normal_stress(joint.face, joint.state),
               pressure + wanted.normal_stiffness * std::tan(wanted.dilation_angle) * s, 1e-3 * pressure);
 
-  // What was put in is stored, released or slipped away.
+  // Work put in is stored, released or dissipated by slip.
   joint.lead(1e-5, 3e-6);
   EXPECT_EQ(smooth_joint::normal_stress(joint.face, joint.state), 0.0);
   EXPECT_EQ(joint.state.shear_stress[0], 0.0);
@@ -248,7 +248,7 @@ TYPED_TEST(SmoothPair, ARigidTurnStressesNothing)
         }
       ASSERT_TRUE(sweep_smooth_joints(specimen, 1.0).empty());
     }
-  // By 11.5°; the third order of each step is left: 20000 × 1e-15 / 12 of 1.7 mm.
+  // The pair has turned by 11.5°; the third order of each step is left: 20000 × 1e-15 / 12 of 1.7 mm.
   EXPECT_LT(std::abs(smooth_joint::normal_stress(joint.face, joint.state)), 1e-3 * joint.face.bond.tensile_strength);
   EXPECT_LT(std::abs(joint.state.shear_stress[0]), 1e-3 * joint.face.bond.cohesion);
 }

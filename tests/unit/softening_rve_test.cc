@@ -165,7 +165,7 @@ Led lead(const unsigned int n_steps, const bool in_shear)
   const Network<2> network(softening_cell<2>(over_opening));
   const Link<2>& link = network.links()[0];
   const Bond<double>& bond = network.bond(link.first_segment);
-  // What holds: under pressure in shear, so that friction is beside.
+  // Strength of the segment: in shear under pressure, so that friction acts beside the bond.
   const double pressed = in_shear ? -20e6 / link.normal_stiffness : 0.0;
   const double strength = in_shear ? shear_strength(bond, link.normal_stiffness * pressed) : bond.tensile_strength;
   const double residual = in_shear ? -link.friction * link.normal_stiffness * pressed : 0.0;
@@ -185,7 +185,7 @@ Led lead(const unsigned int n_steps, const bool in_shear)
       const auto event = lead_to(network, active, motion, !in_shear, n_steps);
       if (!event)
         continue;
-      // What it would store there without the event.
+      // Energy that would be stored there without the event.
       const double before = response(network, unmoved, motion).stored_energy;
       ++led.n_events;
       EXPECT_EQ(event->broke && event->in_tension, event->broke && !in_shear);
@@ -241,7 +241,7 @@ std::array<double, 2> by_turns(const double s)
   return {6e-6 * (s + wave), 24e-6 * (s - wave)};
 }
 
-/// What a bond has given up at the end of a way, by the law of the sweep in small steps [J].
+/// Energy that a bond has given up at the end of a way, by the law of the sweep in small steps [J].
 double given_by_the_law(const Network<2>& network, const MixedWay way)
 {
   const Link<2>& link = network.links()[0];

@@ -19,8 +19,8 @@ using std::numbers::pi;
 
 TEST(FaceElements, AreWholeInAreaAndLumpedInBendingAndTwist)
 {
-  // Of the continuum disk's ½π (twist) and ¼π (bending): Σ A_e r_e², which for four sectors or more is the same about
-  // every axis; 0.608, 0.781, 0.914, 0.960 are those of an independent program.
+  // Share of the continuum disk's ½π (twist) and ¼π (bending): Σ A_e r_e², which for four sectors or more is the same
+  // about every axis; 0.608, 0.781, 0.914, 0.960 are those of an independent program.
   struct Case
   {
     unsigned int n_rings, n_sectors;

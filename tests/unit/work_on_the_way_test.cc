@@ -81,7 +81,7 @@ TYPED_TEST(WorkOnTheWay, HasTheSlipOfAJointThatSlidesOn)
 
 TYPED_TEST(WorkOnTheWay, HasTheSlipOfAJointThatSlidesBack)
 {
-  // Its shear stress is as large at both ends, and opposite: a single trapezoid would have no slip at all.
+  // Shear stress is as large at both ends, and opposite: a single trapezoid would have no slip at all.
   const OneJointAtItsLimit<TypeParam::value> joint;
   const double way = 5.0 * joint.elastic_way;
   const double expected = joint.limit * joint.area * (way - 2.0 * joint.elastic_way);

@@ -122,7 +122,7 @@ TestOutcome pulled(const LaboratoryProtocol& protocol, const Specimen<2>& specim
   return test.finish(false);
 }
 
-/// Of the stress over the strain, through the origin, over the second half of the curve [Pa].
+/// Slope of the stress over the strain, through the origin, over the second half of the curve [Pa].
 double slope(const std::vector<CurveSample>& curve)
 {
   double of_both = 0.0;
@@ -135,8 +135,9 @@ double slope(const std::vector<CurveSample>& curve)
   return of_both / of_strain;
 }
 
-/// What a crack of the length 2 a adds to the extension of a plate of this width, over the stress over the modulus [m]. Under a
-/// held force half its work is released at the two tips, so that d(extension)/da = 4 K² / (E' σ W), here with Feddersen's K.
+/// Extension that a crack of the length 2 a adds to that of a plate of this width, over the stress over the modulus
+/// [m]. Under a held force half its work is released at the two tips, so that d(extension)/da = 4 K² / (E' σ W), here
+/// with Feddersen's K.
 double extension_over_strain(const double a, const double width)
 {
   constexpr int n = 1000;
