@@ -105,7 +105,7 @@ def calibrate(feldspar, work, rock):
 
 
 def merged(work):
-    """What is told of all rocks, with the provenance of the last run."""
+    """Returns the results of all rocks, with the provenance of the last run."""
     rocks = []
     for rock in range(1, N_ROCKS + 1):
         answer = read(os.path.join(work, f"rock-{rock}"), "calibration.json")
