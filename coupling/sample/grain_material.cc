@@ -217,7 +217,7 @@ std::any GrainPoint<dim>::structure() const
 
 namespace
 {
-/// Of GrainPoint::fields(); components along the axes of the sample.
+/// Names of GrainPoint::fields(); components along the axes of the sample.
 template <int dim>
 std::vector<std::string> names_of_fields()
 {

@@ -178,8 +178,8 @@ void first(const std::function<void()>& work)
 
 namespace
 {
-/// Whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
-/// another collective call.
+/// Returns whether every rank calls this within some seconds. The communicator is of no other use: others may be
+/// waiting in another collective call.
 bool all_are_here(const MPI_Comm communicator)
 {
   using namespace std::chrono_literals;

@@ -14,7 +14,7 @@
 
 namespace feldspar
 {
-/// Where a row of a test that follows stages leads.
+/// Target of a row of a test that follows stages.
 struct StageRow
 {
   enum class Lead

@@ -17,7 +17,7 @@
 
 namespace feldspar
 {
-/// How a multiscale test stands, for who watches it.
+/// Progress of a multiscale test, for its observer.
 struct SampleStanding
 {
   unsigned int n_newton_iterations = 0; ///< of the last row

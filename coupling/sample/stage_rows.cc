@@ -54,7 +54,8 @@ StageRow SampleTest::Parts::next_row_of_stage()
     }
   else
     {
-      // By the slope of the stage's last row; at its first, by the steepest there was, so that it does not go too far.
+      // Stiffness by the slope of the stage's last row; at its first row by the steepest slope so far, so that the row
+      // does not go too far.
       const auto& curve = record.curve;
       const auto slope = [&](const std::size_t k) {
         return (curve[k].axial_stress - curve[k - 1].axial_stress) /
