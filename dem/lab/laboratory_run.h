@@ -24,7 +24,7 @@ struct EndStress
   double upper;
 };
 
-/// How a specimen is loaded and measured once its walls or grips stand; keeps no state of its own.
+/// Loading and measurement of a specimen once its walls or grips stand; keeps no state of its own.
 template <int dim>
 struct Loading
 {
@@ -78,7 +78,7 @@ public:
 
   bool has_ended() const { return ended; }
   bool is_seated() const { return seated; }
-  /// Whether it has ended because of its numbers.
+  /// Returns whether the test has ended because of its numbers.
   bool went_wrong() const { return !record.failure.empty(); }
   std::uint64_t n_steps() const { return set_up.dynamics.n_steps(); }
   const std::vector<CurveSample>& curve() const { return record.curve; }

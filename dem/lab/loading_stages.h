@@ -35,7 +35,7 @@ std::vector<Entry<TestParameters>> loading_table_entries();
 /// the stage, for a stage that cannot be made.
 std::vector<LoadingStage> read_loading_stages(const std::filesystem::path& file);
 
-/// Its target: "axial strain 0.004", "hold of 1e-05 s".
+/// Target of a stage in words: "axial strain 0.004", "hold of 1e-05 s".
 std::string words(const LoadingStage& stage);
 
 /// All its numbers, to the last bit: two stages of the same text are the same.

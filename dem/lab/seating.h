@@ -8,8 +8,8 @@
 /// Walls that hold a specimen from the first step of its test on; docs/theory.md §4.
 namespace feldspar
 {
-/// Whether each grain is a part of the body: has a joint, or, in a rigid group, a member of it has; all of a body without
-/// joints. [n_grains]
+/// Returns whether each grain is a part of the body: it has a joint, or, in a rigid group, a member of the group has
+/// one. In a body without joints all grains are parts of it. [n_grains]
 template <int dim>
 std::vector<bool> grains_of_body(const Specimen<dim>& specimen);
 

@@ -15,7 +15,7 @@
 
 namespace feldspar
 {
-/// Where a test stands; compression positive.
+/// State of a test at one moment; compression positive.
 struct StageMoment
 {
   double time; ///< of the dynamics [s]
@@ -50,7 +50,7 @@ public:
   /// Asked before each step.
   StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;
-  /// Whether the lateral strain leads a stage of the table: moments must then have it.
+  /// Returns whether the lateral strain controls a stage of the table: moments must then have it.
   bool needs_lateral_strain() const;
   bool is_led_by_lateral_strain() const { return stage().lateral_strain.has_value(); }
   /// The magnitude of the strain rate of the present stage [1/s].
@@ -64,7 +64,7 @@ public:
   bool is_over(const std::vector<CurveSample>& curve, const StageMoment& now);
 
   const std::vector<StageRecord>& records() const { return begun; }
-  /// Which stage could not be reached, and why; empty if all were.
+  /// Message on the stage that could not be reached, and why; empty if all were.
   const std::string& ended_early() const { return early; }
 
   /// Into or out of a checkpoint. Throws InputError where that is of another table.

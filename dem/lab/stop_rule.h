@@ -21,10 +21,10 @@ struct StopRule
 
   /// Takes the next row.
   void add(const CurveSample& row) { peak.add(row); }
-  /// Whether the row that was added last ends the test.
+  /// Returns whether the row that was added last ends the test.
   bool is_met_by(const CurveSample& row, const TestParameters& wanted) const;
-  /// Whether the body, loaded without a wanted strain, was moved so far without a crack, or without a stress that a body
-  /// bears, that nothing holds it.
+  /// Returns whether nothing holds the body: loaded without a wanted strain, it was moved so far without a crack, or
+  /// without a stress that a body carries.
   bool bears_nothing(const CurveSample& row, const TestParameters& wanted) const;
 
   TestKind kind;

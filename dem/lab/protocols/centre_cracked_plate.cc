@@ -27,7 +27,7 @@ SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  // Its longer side is the plate's length.
+  // Length of the plate is the longer side of the specimen.
   Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : specimen;
   const double width = plate.size[0];
   const double ratio = wanted.of<NotchParameters>().ratio;
