@@ -312,8 +312,8 @@ private:
   std::function<int()> chosen;
 };
 
-/// Where a standard stream is closed, the first file to be opened would take its number, and what is printed would go
-/// into it.
+/// Opens standard streams that are closed: the first file to be opened would take the number of such a stream, and what
+/// is printed would go into it.
 void open_standard_streams()
 {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

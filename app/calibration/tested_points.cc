@@ -32,7 +32,7 @@ double expected_end(const TestCase& test, const Input& rock)
   return expected_last_strain(expected_strain_at_peak(test, rock).value_or(0.0), rock.tests);
 }
 
-/// Of several points at a time, by the strains that their tests have come to.
+/// Progress of several points at a time, by the strains that their tests have come to.
 class PointBoard
 {
 public:

@@ -45,7 +45,7 @@ double normal_stress(const Law&, const Face<double>& face, const FaceElement<dim
   return mean_stress(place_segment(face, element).segment, update.normal);
 }
 
-/// That of the bond.
+/// Normal stress of the bond.
 template <int dim>
 double normal_stress(const ParallelBond<dim>&, const Face<double>& face, const FaceElement<dim>&,
                      const FaceMotion<dim, double>& motion,

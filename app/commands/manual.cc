@@ -39,7 +39,7 @@ std::string in_roff(const std::string_view text)
   return safe;
 }
 
-/// As it is typed: --output DIR.
+/// Option as it is typed: --output DIR.
 std::string usage(const CLI::Option& option)
 {
   std::string text = option.get_name();

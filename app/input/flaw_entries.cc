@@ -92,7 +92,7 @@ public:
 
   bool has(const std::string_view word) const { return texts.contains(word); }
 
-  /// Whether it is given in this way: by all of these words and by none of the others.
+  /// Returns whether the shape is given in this way: by all of these words and by none of the others.
   bool is_given_by(const std::vector<std::string_view>& words, const std::vector<std::string_view>& others) const
   {
     const auto is_given = [&](const std::string_view word) { return has(word); };
@@ -331,7 +331,7 @@ Shape read_joint_set(const Quantities& given)
   return set;
 }
 
-/// How shapes are called, the words of their quantities, and how they are read.
+/// Form of a shape: its name, the words of its quantities, and its reader.
 struct Form
 {
   std::string_view name;

@@ -57,7 +57,7 @@ void check_fractions(const Input& input, const GivenEntries& values)
   });
 }
 
-/// What an entry of a section that is not of use has against it.
+/// Reason why an entry of a section that is not of use is refused.
 std::string refusal_of(const std::string_view section, const std::set<std::string>& laws)
 {
   if (section == "Smooth joint")
@@ -245,7 +245,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
-/// Of a specimen out of a file the size is not known yet; putting them in checks them again.
+/// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
   if (!input.specimen.specimen_file.empty())

@@ -42,7 +42,7 @@ std::vector<std::string_view> entry_names(std::string_view section);
 /// Null if there is none of that name.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
 
-/// Whether a flaw or mineral grains put smooth joints into the rock.
+/// Returns whether a flaw or mineral grains put smooth joints into the rock.
 bool has_smooth_joints(const Input& input);
 
 /// False for the sections of joint laws other than the input's own, and of smooth joints where there are none.

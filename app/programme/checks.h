@@ -20,14 +20,14 @@ void with_name_of(const std::filesystem::path& input_file, const std::function<v
 /// A reference file that does not serve is told by its own name.
 void check_reference(const Input& input);
 
-/// Of representative volumes: clumps and mineral grains, which a cell does not have; to be told before its shape, which is
-/// another for them.
+/// Refuses clumps and mineral grains in representative volumes, which do not have them; to be called before the check
+/// of the shape, which is another for them.
 void check_no_groups(const Input& input);
 
 /// Representative volumes find equilibria event by event, which not every joint law allows.
 void check_equilibria(const SpecimenParameters& specimen, std::string_view remedy);
 
-/// Of representative volumes.
+/// Checks the boundary of representative volumes.
 void check_boundary(const Input& input);
 
 /// Refuses tests that are not made on specimens of this shape, and entries that have no use there.

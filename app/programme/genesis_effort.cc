@@ -20,7 +20,8 @@ namespace feldspar
 {
 namespace
 {
-/// Of a packing file, which has one in a line. Without a word about a file that cannot be read, which its reader will say.
+/// Number of lines of a packing file, which has one grain in a line. Says nothing about a file that cannot be read,
+/// which its reader will do.
 double n_lines(const std::string& path)
 {
   if (!objection_to_reading(path).empty())
@@ -120,7 +121,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
 
 namespace
 {
-/// Of each specimen.
+/// Efforts of all specimens.
 std::vector<GenesisEffort> efforts(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
 {
   std::vector<GenesisEffort> all;

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> packing_seeds(const Input& input)
   return seeds;
 }
 
-/// Where the specimens of the RVEs lie; runs of 0.2.0 have them in `volumes`.
+/// Folder of the specimens of the RVEs; runs of 0.2.0 have them in `volumes`.
 std::filesystem::path folder_of_rves(const std::filesystem::path& folder)
 {
   const std::filesystem::path earlier = folder / "volumes";

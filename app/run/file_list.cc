@@ -48,7 +48,7 @@ bool is_there(const fs::path& file)
   return fs::exists(fs::symlink_status(file, ignored));
 }
 
-/// As it is compared: from the root, without `.`, `..` and slashes at its end.
+/// Path as it is compared: from the root, without `.`, `..` and slashes at its end.
 fs::path plain(const fs::path& path)
 {
   const fs::path normal = fs::absolute(path).lexically_normal();
@@ -80,7 +80,7 @@ std::set<std::string> listed_files(const fs::path& folder)
   return files;
 }
 
-/// Whether no folder on the way to the file is a link.
+/// Returns whether no folder on the way to the file is a link.
 bool lies_in(const fs::path& folder, const fs::path& relative)
 {
   fs::path way = folder;

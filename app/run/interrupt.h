@@ -16,7 +16,7 @@ struct Interrupted : std::exception
 /// `acknowledged`: at once by a line on standard error.
 void watch_for_interrupt(bool acknowledged);
 
-/// Whether the run was asked to end.
+/// Returns whether the run was asked to end.
 bool interrupted();
 
 /// For work that may take long after an interrupt, such as drawing: whether the run was asked to end and, if that was

@@ -36,7 +36,7 @@ RunEnd go(const Run& run, const SharedRun& shared)
 
 bool is_launched()
 {
-  // Of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
+  // Variables of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
   constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
   return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }

@@ -9,8 +9,8 @@
 
 namespace feldspar
 {
-/// Whether mpirun or srun started this process, perhaps with others. A process that nobody started so does without MPI
-/// where it can: it is up at once.
+/// Returns whether mpirun or srun started this process, perhaps with others. A process that they did not start does not
+/// initialise MPI where it can do without; it is ready at once.
 bool is_launched();
 
 /// Keeps MPI up while it lives, with what else needs to be up: of any type.

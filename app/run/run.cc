@@ -26,7 +26,7 @@ std::string how_to_resume(const RunCommand& command, const std::filesystem::path
   return fmt::format("go on with: feldspar {} --resume {}", command.name, printable(folder.string()));
 }
 
-/// What failed of a run that came to its end, if anything did.
+/// Prints which part of a run that came to its end has failed, if any has.
 void tell_failure(const std::string& failure, const std::filesystem::path& folder)
 {
   if (!failure.empty())

@@ -44,7 +44,7 @@ struct Run
   bool quiet;
 };
 
-/// How a command left a run.
+/// State in which a command left a run.
 struct RunEnd
 {
   bool was_interrupted; ///< something is left to be done
