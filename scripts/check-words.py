@@ -59,12 +59,12 @@ def comments_of_shell(text):
 READERS = {".h": comments_of_cpp, ".cc": comments_of_cpp, ".py": comments_of_python, ".sh": comments_of_shell}
 
 
-def beginnings(comments):
-    """Comments that do not continue one in the line above. A comment behind code is continued only by one that stands below
-    its own column."""
+def beginnings(comments, lines):
+    """Comments that do not continue one in the line above: behind code, or not below another that begins in the same column."""
     above = (-1, -1)
     for line, column, words in sorted(comments):
-        if (line - 1, column) != above:
+        is_behind_code = bool(lines[line - 1][:column].strip())
+        if is_behind_code or (line - 1, column) != above:
             yield line, words.strip()
         above = (line, column)
 
@@ -73,7 +73,7 @@ def flagged(path):
     reader = READERS[os.path.splitext(path)[1]]
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         text = file.read()
-    for line, words in beginnings(reader(text)):
+    for line, words in beginnings(reader(text), text.split("\n")):
         if WITHOUT_NOUN_OR_VERB.match(words):
             yield line, words.splitlines()[0]
 
