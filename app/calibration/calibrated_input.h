@@ -10,8 +10,9 @@ namespace feldspar::calibration
 /// The micro-parameters of the input's flat joint.
 MicroParameters micro_parameters(const Input& input);
 
-/// The input with other micro-parameters. What belongs to them follows: the coefficients of variation of both strengths
-/// are kept, and so are the ratios of the particle contact's modulus, stiffness ratio and friction to the joint's.
+/// The input with other micro-parameters. Values that belong to them follow: the coefficients of variation of both
+/// strengths are kept, and so are the ratios of the particle contact's modulus, stiffness ratio and friction to the
+/// joint's.
 Input with_parameters(const Input& input, const MicroParameters& parameters);
 
 /// An input of `feldspar lab` in words: every section that a laboratory test reads. `comment`: what stands above it, lines

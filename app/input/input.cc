@@ -134,8 +134,9 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
       check(sides->among(input.smooth_joint), "Flaws", "Shapes");
 }
 
-/// Boundaries without a bond are said, not forgotten: the defaults of section Smooth joint are those of open flaws, and a
-/// rock of such boundaries falls apart. Of a bond both strengths are said, as the other one would be zero.
+/// Boundaries without a bond must be given by the user: the defaults of section Smooth joint are those of open flaws,
+/// and a rock of such boundaries falls apart. For a bond both strengths must be given, because the other one would be
+/// zero.
 void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
   const auto is_said = [&](const std::string& entry) {

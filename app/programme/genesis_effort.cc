@@ -57,7 +57,8 @@ std::optional<double> free_memory()
 
 namespace
 {
-/// Processes that run or wait for a processor, as a mean over a minute. Of the beginning of the run: later it counts the run itself.
+/// Processes that run or wait for a processor, as a mean over a minute. The value is that of the beginning of the run:
+/// later it counts the run itself.
 double load_at_start()
 {
   static const double load = [] {
@@ -98,7 +99,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
     return {}; // it brings its grains
   if (!specimen.packing_file.empty())
     {
-      // Nothing moves. Its neighbours are many where it is dense: measured on lattices in which each grain has all that it
+      // Nothing moves. A dense packing has many neighbours: measured on lattices in which each grain has all that it
       // can (100 000 discs, 40 000 spheres).
       const double n = n_lines(specimen.packing_file);
       return {n, 0.0, n * (specimen.dimension == 2 ? 4e3 : 1.6e4), n * 1e-5};

@@ -157,8 +157,8 @@ bool is_of_version_without_lists(const fs::path& folder)
          (has_words(folder / record_name, "\"relative_to\"") || has_words(folder / page_name, "Feldspar report of"));
 }
 
-/// The files that runs wrote into the folder. Of a version without lists only the known names at its top: what lies in its
-/// folders of results may be the user's.
+/// The files that runs wrote into the folder. A folder of a version without lists gives only the known names at its
+/// top: files in its folders of results may be the user's.
 std::set<std::string> files_of_runs(const fs::path& folder)
 {
   std::set<std::string> files = listed_files(folder);
