@@ -41,8 +41,8 @@ public:
   ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns, const MicroParameters& fixed,
                 ElasticTable elastic, double gap_of_specimens);
 
-  /// Learns from a design whose points were all tested on the same packings. What a packing adds to all points alike is
-  /// no noise of the function: it is left to correct().
+  /// Learns from a design whose points were all tested on the same packings. An effect of a packing that is alike in
+  /// all points is no noise of the function: it is left to correct().
   void learn(const std::vector<TestedPoint>& design);
 
   /// Sets the corrections by tests on other packings, each packing by the mean of its tests.
