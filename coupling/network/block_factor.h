@@ -15,8 +15,8 @@ namespace feldspar
 /// (benchmarks/README.md), and the bits of CHOLMOD's depend on the library of linear algebra that a machine has. Here sums are
 /// in one order, and every processor that rounds a product and a sum once (all with AVX2) gives the same bits.
 ///
-/// In space L is made in double precision and kept in single (KeptBlockColumn). What is solved with it is another matrix, as
-/// symmetric and as definite, of which L differs by 6e-8: enough for conjugate gradients.
+/// In space L is made in double precision and kept in single (KeptBlockColumn). Solutions are then those of another
+/// matrix, as symmetric and as definite, whose L differs by 6e-8: enough for conjugate gradients.
 template <int dim>
 class BlockFactor
 {

@@ -97,8 +97,8 @@ public:
   /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
   Unknowns regularising_forces(const Unknowns& unknowns) const;
 
-  // The intact response: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
-  // whose faces are not, the response of the stiffest state: a scale and a first guess.
+  // The intact response: while all segments hold and no pair comes into contact, everything is linear in the strain.
+  // For a law whose faces are not linear it is the response of the stiffest state: a scale and a first guess.
 
   /// C_0 [Pa].
   const Stiffness<dim>& intact_stiffness() const { return c_0; }

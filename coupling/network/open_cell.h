@@ -10,10 +10,10 @@
 
 namespace feldspar
 {
-/// A periodic specimen cut open along the sides that its boundary opens. The cut goes through grains: of each joint that leads
-/// over such a side one grain is there twice, as itself and as an image on the other side, and the joint holds the image. No
-/// joint is lost, so that the body has the volume of the cell. Of the two grains of a joint the one is doubled that has more
-/// such joints: an image then hangs on several.
+/// A periodic specimen cut open along the sides that its boundary opens. The cut goes through grains: of each joint
+/// that leads over such a side one grain is there twice, as itself and as an image on the other side, and the joint
+/// holds the image. No joint is lost, so that the body has the volume of the cell. The grain of a joint that has more
+/// such joints is doubled: an image then hangs on several.
 template <int dim>
 class OpenCell
 {

@@ -66,7 +66,8 @@ public:
   /// A link that is not active as if it were: all bonded, or, where it has no face, not at all.
   ActiveLink<dim> as_at_event(std::uint32_t link) const;
 
-  /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
+  /// An active link; made one as it stands at the last event, all bonded, where it was not. The segments of the link
+  /// may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);
 
   /// To be called after bonds of its links have been changed.

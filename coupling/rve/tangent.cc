@@ -135,8 +135,8 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
   if (history.active().empty() && at.touches.empty())
     return network.intact_stiffness();
   const Eigen::Index n_own = network.n_unknowns() - n;
-  // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts against
-  // the energy of the intact network under this strain.
+  // The search begins with the intact network's rearrangement. The forces that this leaves unbalanced may be no more
+  // than round-off: they count against the energy of the intact network under this strain.
   UnitUnknowns<dim> units = UnitUnknowns<dim>::Zero(network.n_unknowns(), n_columns);
   Eigen::Array<double, 1, n_columns> least = decltype(least)::Zero();
   for (int k = 0; k < n; ++k)

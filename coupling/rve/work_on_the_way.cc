@@ -169,8 +169,8 @@ private:
     return true;
   }
 
-  /// The balance alone does not see slip that is counted wrong: as much is missing of the work. What slides is therefore
-  /// halved once at least.
+  /// Halves the way until its work makes no difference. The balance alone does not see slip that is counted wrong: as
+  /// much is missing of the work. A link that slides is therefore halved once at least.
   Stretch refined(const Stop<dim>& from, const Stop<dim>& to, const Stretch& whole, const double tolerance,
                   const unsigned int halvings_left) const
   {

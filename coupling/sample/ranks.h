@@ -25,15 +25,15 @@ std::string of_first(const std::string& text);
 /// The texts of all ranks, one after another by rank, on the first; nothing on others. Any length.
 std::string gathered(const std::string& text);
 
-/// Work of each rank by itself. What it throws on any rank (of several, the first) is thrown on all: InputError,
-/// OutputError (std::system_error too) or, of anything else, std::runtime_error.
+/// Work of each rank by itself. An exception on any rank (of several, the first) is thrown on all: InputError,
+/// OutputError (std::system_error too) or, for anything else, std::runtime_error.
 void together(const std::function<void()>& work);
 
 /// Work that only the first rank does; else as together().
 void first(const std::function<void()>& work);
 
-/// Runs a program of all ranks, and leaves none waiting for another. What it throws on all of them the first rethrows;
-/// where a rank is alone with it, it says so and ends all. The exit code is that of the first, 0 on others: mpirun ends all
-/// once one has another.
+/// Runs a program of all ranks, and leaves none waiting for another. An exception on all of them is thrown again by the
+/// first; where a rank is alone with it, it says so and ends all. The exit code is that of the first, 0 on others:
+/// mpirun ends all once one has another.
 int guarded(const std::function<int()>& program);
 } // namespace feldspar::ranks

@@ -77,7 +77,8 @@ struct SampleTest::Parts
   /// avalanche, which no step divides. From where it was left, if it was. `solve` goes a fraction of the way that is left.
   void go(const std::function<fem::NewtonReport(double)>& solve);
   void share_work();
-  /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
+  /// Called after each accepted step. Cracks of a point come in the order in which they broke, points in the order of
+  /// their numbers.
   void gather_cracks();
   /// Adds the present state of the sample to the curve as a row.
   void add_row();
