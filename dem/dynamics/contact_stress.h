@@ -15,8 +15,9 @@ template <int dim>
 Tensor<dim> mean_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Walls<dim>& walls);
 
 /// Stress of each grain, a pull > 0: Σ f ⊗ (x_c - x) over contacts at x_c, over its share of the body's volume, its own
-/// over the solid share [Pa]; symmetric where its couples balance. Members of a rigid group have that of their group. Of one grain it scatters by the size of the stress; the
-/// mean over some tens of grains is that of the body there. [n_grains]
+/// over the solid share [Pa]; symmetric where its couples balance. Members of a rigid group have that of their group.
+/// The stress of one grain scatters by the size of the stress; the mean over some tens of grains is that of the body
+/// there. [n_grains]
 template <int dim>
 std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches<dim>& touches,
                                         const Walls<dim>& walls);

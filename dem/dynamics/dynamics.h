@@ -47,10 +47,11 @@ public:
   /// nothing can be done with this object any more.
   void set_check(std::function<void()> within_a_step) { check = std::move(within_a_step); }
 
-  /// In a periodic body the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
-  /// counts as boundary work.
+  /// Sets the rate at which the cell of a periodic body, and with it every image, moves away from the origin [1/s]. The
+  /// work of this motion counts as boundary work.
   void deform_cell(const Tensor<dim>& rate) { images.deform(rate); }
-  /// The same, and the grains are set off with the motion of the cell about its middle, so that no wave has to tell them.
+  /// The same, and the grains start with the motion of the cell about its middle, so that no wave has to bring it to
+  /// them.
   void deform_body(const Tensor<dim>& rate);
 
   /// Adds to the velocity of a grain from outside [m/s]; the energy this gives counts as there from the start.

@@ -19,7 +19,7 @@
 #include <tuple>
 #include <vector>
 
-/// Installation of joints, written over the law; docs/theory.md §3. Of every law's parameters it reads modulus,
+/// Installation of joints, written over the law; docs/theory.md §3. It reads from every law's parameters modulus,
 /// stiffness_ratio, radius_multiplier, bond_friction_angle, installation_gap_ratio, coordination_number,
 /// gapped_fraction, slit_fraction and initial_gap as FlatJointParameters has them; the law divides the faces and draws
 /// the strengths.

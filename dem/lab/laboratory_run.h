@@ -83,8 +83,8 @@ public:
   std::uint64_t n_steps() const { return set_up.dynamics.n_steps(); }
   const std::vector<CurveSample>& curve() const { return record.curve; }
 
-  /// The test as it stands, whether it has ended or not. Of one whose numbers went wrong, all that was before the row in
-  /// which they did.
+  /// The test as it stands, whether it has ended or not. A test whose numbers went wrong has all that was before the
+  /// row in which they did.
   TestOutcome finish(bool interrupted) const;
 
   /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.

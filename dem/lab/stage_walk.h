@@ -59,8 +59,8 @@ public:
   const LoadingStage& stage() const { return stages[begun.size() - 1]; }
   const StageMoment& start_of_stage() const { return start; }
 
-  /// Once a row has been added to the curve: ends the stage where it has got to its target or never will, and begins the
-  /// next. Whether that was the last one.
+  /// Called once a row has been added to the curve: ends the stage where it has reached its target or never will, and
+  /// begins the next. Returns whether that was the last one.
   bool is_over(const std::vector<CurveSample>& curve, const StageMoment& now);
 
   const std::vector<StageRecord>& records() const { return begun; }

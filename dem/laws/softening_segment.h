@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
-/// A segment of a flat joint whose bond does not lose its stress at once: beyond its strength it falls along a straight line
-/// over the softening opening, in tension and in shear. What remains of the bond is one number between both, so that what
-/// one takes is lost to the other. Without a bond the segment is that of the flat joint. docs/theory.md §1.10, (s.n) below;
-/// signs and notation as in flat_joint_law.h.
+/// A segment of a flat joint whose bond does not lose its stress at once: beyond its strength the stress falls along a
+/// straight line over the softening opening, in tension and in shear. One number says for both how much of the bond
+/// remains, so that softening in one weakens the other. Without a bond the segment is that of the flat joint.
+/// docs/theory.md §1.10, (s.n) below; signs and notation as in flat_joint_law.h.
 namespace feldspar::softening
 {
 using simd::larger;

@@ -93,7 +93,7 @@ struct JointTables
   static constexpr std::size_t n_segment_rows = n_shear + 1;
   static constexpr std::size_t n_strength_rows = 2;
 
-  /// τ of each segment [Pa]. Of a face whose segments are all bonded it is left as it was: its law may know it from the
+  /// τ of each segment [Pa]. It is not updated on a face whose segments are all bonded: its law may know it from the
   /// motion of the face (RespondsAsOne in dem/laws/joint_law.h).
   PackedComponents<n_shear> shear_stress = packed_components<n_shear>(segment_state, 0, n_segment_rows);
   PackedRow bonded{segment_state, n_shear, n_segment_rows}; ///< 1 bonded, 0 not (a double: it is a mask in the sweep)

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <cstring>
 
-/// Between records of four numbers, one for each of many things, and packs of one number of many things. What a loop
-/// over joints gathers from grains, and leaves for them to gather, lies in records: a record comes by one load, where
-/// numbers in arrays of their own take one each.
+/// Conversion between records of four numbers, one for each of many things, and packs of one number of many things.
+/// Numbers that a loop over joints gathers from grains, and leaves for them to gather, lie in records: a record comes
+/// by one load, where numbers in arrays of their own take one each.
 namespace feldspar::simd
 {
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
