@@ -12,8 +12,8 @@ namespace feldspar::fem
 {
 /// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §8.3.
 ///
-/// Between two cascades the structure of every point is frozen. Its responses come from the points' accepted states, which
-/// the search leaves as they are; their structure at work it changes.
+/// Between two cascades the structure of every point is frozen. Responses come from the points' accepted states, which
+/// the search leaves as they are; it changes the points' structure at work.
 template <int dim, int material_dim>
 class NewtonSearch
 {

@@ -39,8 +39,9 @@ public:
   /// the solid is then unusable.
   void restore(const StoredSolid& stored);
 
-  /// Deals the cells out to the ranks anew, by the time each took, if what the present deal has lost would have paid for
-  /// it. What is of this rank is then of other points. Not between solve() and accept() or reject().
+  /// Distributes the cells to the ranks anew, by the time each took, if the loss of the present distribution would have
+  /// paid for it. Data of this rank then belong to other points. Not to be called between solve() and accept() or
+  /// reject().
   Balance rebalance();
 
   /// From the next solve on.
