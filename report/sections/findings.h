@@ -16,7 +16,7 @@ namespace feldspar
 /// have pictures. So many of a small rock take some 5 MB of the 10 MB of a page.
 inline constexpr std::size_t most_series_in_full = 12;
 
-/// Everything that sections are made of, computed once. What it refers to outlives it.
+/// Everything that sections are made of, computed once. The series and references that it refers to must outlive it.
 struct Findings
 {
   const std::vector<Series>& all;

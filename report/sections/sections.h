@@ -7,7 +7,7 @@
 /// The sections of the page, a file each; those with pictures keep them in the book, which draws them all at the end.
 namespace feldspar
 {
-/// Verdict whether the model is the rock, each series beside the reference, and every warning.
+/// Verdict on whether the model agrees with the rock, each series beside the reference, and every warning.
 PageSection verdict_section(const Findings& findings);
 
 /// Results over the entries that take several numbers; nothing where there are none.

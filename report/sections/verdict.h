@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// Verdict in words: whether the model is the rock.
+/// Verdict in words on whether the model agrees with the rock.
 struct Verdict
 {
   std::string headline;

@@ -42,8 +42,8 @@ std::string abscissa_label(const SameTests& same);
 /// Adds a mean and, where there are deviations from its points, the band around it.
 void add_mean(Chart& chart, ChartSeries mean, const std::vector<std::array<double, 2>>& deviations);
 
-/// The picture of a chart: bands below thin lines, below the others, below those of the axis on the right. None of an empty
-/// one. Its name begins with that of the tests.
+/// The picture of a chart: bands below thin lines, below the others, below those of the axis on the right. An empty
+/// chart has none. The name of the picture begins with that of the tests.
 std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std::string& ending,
                                    const std::string& caption, const std::string& alternative);
 

@@ -67,8 +67,8 @@ struct MapLimits
   double height() const { return high[1] - low[1]; }
 };
 
-/// Around all grains as they lay at the start and where they came to. What flew farther than half the specimen's size is
-/// left out, for it would make the specimen small.
+/// Frame around all grains as they lay at the start and where they came to. Grains that flew farther than half the
+/// specimen's size are left out, because they would make the specimen small.
 struct MapFrame
 {
   MapLimits frame;
