@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0. Its
-/// looks and its effort are elsewhere: results/test_outcome.h.
+/// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0.
+/// The looks and the effort of a test are elsewhere: results/test_outcome.h.
 namespace feldspar
 {
 enum class CrackKind
