@@ -555,9 +555,9 @@ std::string input_in_space(const std::string& sample, const std::string& tests)
   return text;
 }
 
-// A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole, by half of its section, and by
-// its RVE alone, whose sides are free: also where segments break, up to nine tenths of the strength. What is left is
-// that a ring and a radius have one strain on the axis and an RVE of seventy spheres has not.
+// A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole, by half of its section, and
+// by its RVE alone, whose sides are free: also where segments break, up to nine tenths of the strength. The remaining
+// difference: a ring and a radius have one strain on the axis, and an RVE of seventy spheres has not.
 TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
 {
   TemporaryFolder folder;

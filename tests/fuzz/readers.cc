@@ -79,7 +79,7 @@ void read_in_plane_or_space(const Read& read_as)
     }
 }
 
-/// Several files as one text: each begins after a line `@@ NAME`. What is not in it is not in the folder.
+/// Several files as one text: each begins after a line `@@ NAME`. A file that is not in the text is not in the folder.
 void write_files(const std::string& content, const std::vector<std::string>& names, const fs::path& folder)
 {
   for (const std::string& name : names)

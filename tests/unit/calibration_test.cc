@@ -42,8 +42,8 @@ TEST(SobolPoints, FillTheCubeEvenlyAndFollowTheirSeed)
 
 TEST(SobolIndicesOfAFunction, AreThoseOfItsClosedForm)
 {
-  // Variances of x_0 + 2 x_1: 1/12 and 4/12. Of (x_0 - 1/2)(x_1 - 1/2): all of it is interaction. The estimator of 2048
-  // points has standard errors of some 0.02.
+  // Variances of x_0 + 2 x_1: 1/12 and 4/12. The variance of (x_0 - 1/2)(x_1 - 1/2) is all interaction. The estimator
+  // of 2048 points has standard errors of some 0.02.
   const auto sum = sobol_indices([](const UnitPoint& x) { return x[0] + 2.0 * x[1]; }, 3, 2048, 1);
   EXPECT_NEAR(sum.first_order[0], 0.2, 0.06);
   EXPECT_NEAR(sum.first_order[1], 0.8, 0.06);

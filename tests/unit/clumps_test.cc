@@ -241,8 +241,8 @@ TEST(Clumps, MeanStressIsThatOfThePlatens)
     dynamics.step();
   const double platen_stress = -0.5 * (dynamics.wall_force(0) + dynamics.wall_force(1)) / 0.020;
   ASSERT_LT(platen_stress, -1e6);
-  // Platens are smooth, and groups that balance have the stress that the platens put in: -(1/V) Σ f ⊗ x at the platens is
-  // the force times the distance of the points where it acts, 0.1 % less than the height. What is left is the unbalanced
+  // Platens are smooth, and groups that balance have the stress that the platens put in: -(1/V) Σ f ⊗ x at the platens
+  // is the force times the distance of the points where it acts, 0.1 % less than the height. The rest is the unbalanced
   // force, some 0.5 %.
   EXPECT_NEAR(dynamics.mean_stress()(1, 1), platen_stress, 0.01 * std::abs(platen_stress));
   EXPECT_NEAR(dynamics.mean_stress()(0, 0), 0.0, 0.01 * std::abs(platen_stress));

@@ -146,8 +146,9 @@ TEST(Genesis, SaysWhichCoordinationNumbersCanBeHad)
     }
 }
 
-// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to end. Of
-// 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks between its parts.
+// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to
+// end. For 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks
+// between its parts.
 TEST(Genesis, CanBeEndedWithinAStep)
 {
   struct Ended

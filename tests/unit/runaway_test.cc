@@ -108,8 +108,8 @@ TestOutcome run(LabTest<dim> test, const std::size_t most_rows)
   return test.finish(!test.has_ended());
 }
 
-// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the stiffest
-// grain, by which the step is chosen. What is allowed as safety, 1, is thus stable even without damping.
+// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the
+// stiffest grain, by which the step is chosen. The largest safety allowed, 1, is thus stable even without damping.
 TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
 {
   const auto pressed_with = [](const double safety) {

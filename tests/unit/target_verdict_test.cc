@@ -31,7 +31,7 @@ TargetVerdict verdict_on_values(const std::vector<double>& values)
 
 TEST(TargetVerdict, FollowsTheWholeIntervalOfTheMean)
 {
-  // Student's factor of four values is 3.182. Of 101 ± d, two each, the standard error is d / √3.
+  // Student's factor of four values is 3.182. The standard error of 101 ± d, two each, is d / √3.
   const auto about_101 = [](const double half_width) {
     const double d = half_width * std::sqrt(3.0) / 3.182446;
     return std::vector<double>{101.0 - d, 101.0 - d, 101.0 + d, 101.0 + d};

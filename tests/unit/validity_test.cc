@@ -156,8 +156,8 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
     }
 }
 
-// The strength is the stress of row 10, at step 1000: of 110 cracks, one each 20 steps, 50 are there, and 16 are the first
-// third of them. Those that came later do not make a disc that was split one that was crushed.
+// The strength is the stress of row 10, at step 1000: of 110 cracks, one each 20 steps, 50 are there, and 16 are the
+// first third of them. Later cracks do not make a disc that was split one that was crushed.
 TEST(SplittingTest, IsJudgedByTheFirstThirdOfTheCracksUpToItsPeak)
 {
   std::vector<double> heights(15, 0.002);

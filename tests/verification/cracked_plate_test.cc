@@ -53,9 +53,9 @@ double force(const double half_length, const unsigned int n_cracked)
   return solid.reaction("top", 1);
 }
 
-/// K_I over the gross stress of such a plate, from the energy that it gives up where its crack grows between fixed grips. Of
-/// the energy U, half the force times the way, each of the four quarters has its share, and there are two tips:
-/// K² / E' = -2 dU/da.
+/// K_I over the gross stress of such a plate, from the energy that it gives up where its crack grows between fixed
+/// grips. The energy U is half the force times the way; each of the four quarters has its share of it, and there are
+/// two tips: K² / E' = -2 dU/da.
 double intensity_over_stress(const double half_length, const unsigned int n_cracked)
 {
   const double released = (force(half_length, n_cracked - 1) - force(half_length, n_cracked + 1)) * 0.5 * n_across;
