@@ -53,7 +53,8 @@ def hidden(rock):
 
 
 def settings_of(truth):
-    """The entries of its specimens. What a calibration ties is tied: coefficients of variation, and the particle contact."""
+    """Returns the entries of its specimens. Entries that a calibration ties are tied: coefficients of variation, and
+    the particle contact."""
     contact = {"Modulus": f"{truth['modulus']:.9g} Pa", "Stiffness ratio": f"{truth['stiffness_ratio']:.9g}",
                "Friction": f"{truth['friction']:.9g}"}
     strength, cohesion = truth["bond_tensile_strength"], truth["bond_cohesion"]
