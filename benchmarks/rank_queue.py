@@ -36,7 +36,7 @@ N_ROWS = 30
 ITERATIONS_A_ROW = 8
 RELAXATIONS_A_ROW = 4
 POINTS_A_CELL = 4
-POLICIES = {  # how cells are dealt to ranks, cores of each, whether these take first what took longest in the row before
+POLICIES = {  # how ranks get cells, cores of each, whether these take first what took longest in the row before
     "equal": ("equal", 1, False),
     "measured": ("measured", 1, False),
     "last row": ("last row", 1, False),

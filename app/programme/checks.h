@@ -17,7 +17,7 @@ namespace feldspar
 /// Runs a check, and puts the name of the input in front of what it refuses.
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check);
 
-/// A reference file that does not serve is told by its own name.
+/// A reference file that does not serve is reported by its own name.
 void check_reference(const Input& input);
 
 /// Refuses clumps and mineral grains in representative volumes, which do not have them; to be called before the check

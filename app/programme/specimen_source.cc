@@ -90,7 +90,7 @@ private:
   struct Entry
   {
     GenesisEffort expected;
-    std::uint64_t n_steps = 0; ///< of its own thread, which alone looks at it
+    std::uint64_t n_steps = 0; ///< of its own thread, which alone reads it
     double share = 0.0;
     bool finished = false;
   };

@@ -45,7 +45,7 @@ public:
   BoundaryConditions that_bear(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains,
                                const std::function<bool(std::uint32_t joint)>& holds) const;
 
-  /// Motions less what the conditions do not admit; forces less what the boundary bears. The orthogonal projection.
+  /// Motions less what the conditions do not admit; forces less what the boundary carries. The orthogonal projection.
   void project(Eigen::VectorXd& motions_or_forces) const;
 
   /// B u.
@@ -53,7 +53,7 @@ public:
   /// Bᵀ λ; λ are the tractions of the pieces, component by component [N], then the couples of the pairs [N m].
   void add_reactions(const Eigen::VectorXd& multipliers, double factor, Eigen::VectorXd& forces) const;
   Eigen::Index n_multipliers() const { return Eigen::Index(rows.size()); }
-  /// λ that bears most of these forces, by least squares.
+  /// λ that carries most of these forces, by least squares.
   Eigen::VectorXd multipliers(const Eigen::VectorXd& forces) const;
   Vector<dim> traction(const Eigen::VectorXd& multipliers, const std::size_t piece) const
   {

@@ -101,8 +101,9 @@ Columns FactorisedNetwork<dim>::solve_unconditioned(const Columns& forces) const
   constexpr int n = n_motions<dim>;
   if (!its_conditions->held().empty())
     return factor->solve(forces);
-  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it. A
-  // factor that was rounded shifts the body by balanced forces, too: for the inverse to be symmetric both are taken out.
+  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held
+  // carries it. A factor that was rounded shifts the body by balanced forces, too: for the inverse to be symmetric both
+  // are taken out.
   const auto without_mean = [](Columns rows) {
     RowsOf<dim, Columns> mean = RowsOf<dim, Columns>::Zero();
     const Eigen::Index n_grains = rows.rows() / n;

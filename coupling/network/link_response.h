@@ -57,7 +57,7 @@ LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& a
 /// Demand on a bond that has softened to soften farther.
 struct SofteningDemand
 {
-  double ratio;  ///< of what is asked of it to what it bears, as overload_ratio() of one that has not softened
+  double ratio;  ///< of what is asked of it to what it carries, as overload_ratio() of one that has not softened
   bool exceeded; ///< by at least half a step
 };
 

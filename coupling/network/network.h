@@ -104,7 +104,7 @@ public:
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
   /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
-  /// For a law whose bonds bear the normal and shear stress of their segment, as all do now.
+  /// For a law whose bonds carry the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
   /// Returns whether under a linear law no pair without a face can come into contact at this strain: with all bonds

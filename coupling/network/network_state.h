@@ -37,7 +37,7 @@ struct NetworkWork
   double settled = 0.0;  ///< done by unbalanced forces on the way to equilibrium after a break
 };
 
-/// All that a copy of a representative volume remembers. While it is intact the strain says everything.
+/// All that a copy of a representative volume keeps. While it is intact the strain says everything.
 template <int dim>
 struct NetworkState
 {

@@ -21,8 +21,8 @@ public:
   StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains,
                    const std::function<bool(std::uint32_t link)>& bears);
 
-  /// The blocks of a link that bears. `block` couples both grains, the first in its rows unless it is transposed; none where
-  /// both ends are one grain and its image.
+  /// The blocks of a link that has a stiffness. `block` couples both grains, the first in its rows unless it is
+  /// transposed; none where both ends are one grain and its image.
   struct Place
   {
     std::uint32_t first, second;

@@ -18,7 +18,7 @@ struct BreakEvent
   double released_energy; ///< by all of its events [J]
 };
 
-/// Forces borne by all links of a network.
+/// Forces carried by all links of a network.
 template <int dim>
 struct LinkForces
 {

@@ -22,7 +22,7 @@ struct Balance
   double stored_energy = 0.0;
   std::vector<LinkResponse<dim>> active;                            ///< of each active link
   std::vector<std::pair<std::uint32_t, LinkResponse<dim>>> touches; ///< of pairs without a face that press
-  std::vector<LinkTurn<dim>> turns;                                 ///< of each link that bears; empty in small strains
+  std::vector<LinkTurn<dim>> turns;                                 ///< of links with a force; empty in small strains
 };
 
 /// Position of a network, and the forces there.

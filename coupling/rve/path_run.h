@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// A representative volume led along a path of strains and stresses.
+/// A representative volume that follows a path of strains and stresses.
 namespace feldspar
 {
 /// A straight stretch of a path: what is given moves in proportion from where it stands to the target.

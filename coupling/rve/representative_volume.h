@@ -22,7 +22,7 @@ template <int dim>
 struct Trial
 {
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
-  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
+  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would keep
   std::vector<BreakEvent<dim>> breaks;
   std::size_t n_loosened = 0;          ///< bonds that broke or softened, one as often as it did
   bool would_break = false;            ///< or soften: it stands overloaded; with Bonds::until_break

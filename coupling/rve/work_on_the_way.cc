@@ -205,7 +205,7 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
   Unknowns of_grains = present.position - history.position(), of_strain = Unknowns::Zero(network.n_unknowns());
   of_strain.template tail<n_voigt<dim>>() = of_grains.template tail<n_voigt<dim>>();
   of_grains.template tail<n_voigt<dim>>().setZero();
-  history.conditions()->project(of_grains); // what the boundary bears does no work
+  history.conditions()->project(of_grains); // what the boundary carries does no work
   Way way(history.position(), present.position, std::move(of_grains), std::move(of_strain));
 
   // All links by one trapezoid, then what is missing of those that it does not have exactly.

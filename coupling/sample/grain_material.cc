@@ -138,7 +138,8 @@ void GrainPoint<dim>::reject()
 
 namespace
 {
-/// The tangent goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
+/// The tangent goes with the state: computed anew it would differ by its precision, and a resumed run would go another
+/// way.
 template <int dim>
 struct StoredPoint
 {

@@ -1,4 +1,4 @@
-// A sample that is led through the stages of a loading table, row by row. docs/theory.md §10.
+// A sample that follows the stages of a loading table, row by row. docs/theory.md §10.
 
 #include "coupling/sample/running_sample.h"
 

@@ -75,7 +75,7 @@ void Touches<dim>::number(const Images<dim>& images)
     looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
 }
 
-/// All pairs are looked at in the next update().
+/// All pairs are computed in the next update().
 template <int dim>
 void Touches<dim>::forget_ways()
 {

@@ -17,7 +17,7 @@ namespace feldspar
 {
 namespace
 {
-/// Grains that fall out of a hole's rim with it: as many hang together at most.
+/// Grains that fall out of a hole's rim with it: at most so many connected ones.
 constexpr std::uint32_t largest_crumb = 3;
 
 /// The coordinates of the plane of the pictures.
@@ -202,7 +202,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
 
   const std::size_t n_joints = specimen.joints.size();
   drop_joints(specimen, cut);
-  // The rest of the body: pieces without a face to the largest hang on nothing.
+  // The rest of the body: pieces without a face to the largest are held by nothing.
   Specimen<dim> rest = part_of(specimen, kept);
   std::vector<std::uint32_t> old_number;
   for (std::uint32_t i = 0; i < n_grains; ++i)

@@ -131,7 +131,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
   if (specimen.round)
     dynamics.add_wall(round_wall(specimen));
 
-  // The first overlaps are as large as grains; let go, they would throw grains about: follow the forces step by step
+  // The first overlaps are as large as grains; released, they would throw grains about: follow the forces step by step
   // without gathering speed.
   constexpr unsigned int n_creeps = 300;
   for (unsigned int k = 0; k < n_creeps; ++k)

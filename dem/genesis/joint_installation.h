@@ -189,7 +189,7 @@ void install_joints(
         }
     }
 
-  // Slit and gapped joints are drawn from all by lot.
+  // Slit and gapped joints are drawn from all at random.
   std::vector<std::size_t> lot(n);
   std::iota(lot.begin(), lot.end(), std::size_t(0));
   Random(specimen.seed, RandomStream::bonds).shuffle(lot);

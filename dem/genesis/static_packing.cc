@@ -384,7 +384,7 @@ void Descent<dim>::advance(const double time_step, const double keep, const doub
 /// The treatment of the radii.
 enum class Stage
 {
-  as_drawn,   ///< the first overlaps are let go
+  as_drawn,   ///< the first overlaps are released
   pressed,    ///< grown or shrunk until grains are at rest under the dense stress
   let_go,     ///< the stress is lowered bit by bit: one that falls below on the way makes grains flow
   at_pressure ///< until at rest

@@ -62,7 +62,7 @@ struct LaboratoryCase
   double confining_pressure = 0.0;
 };
 
-/// A laboratory test that can be left and taken up again: run row by row of its curve.
+/// A laboratory test that can be left and resumed: run row by row of its curve.
 template <int dim>
 class LabTest
 {
@@ -73,7 +73,7 @@ public:
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
   /// every step, which may throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws
-  /// InputError where the confinement cannot be reached, or a strain that leads not be measured.
+  /// InputError where the confinement cannot be reached, or a prescribed strain not be measured.
   bool advance(const std::function<void()>& check = [] {});
 
   bool has_ended() const { return ended; }

@@ -21,7 +21,7 @@ struct StageMoment
   double time; ///< of the dynamics [s]
   double axial_strain;
   double axial_stress;         ///< mean of both ends [Pa]
-  double lateral_strain = 0.0; ///< of the gauge, where a stage of the table is led by it
+  double lateral_strain = 0.0; ///< of the gauge, where a stage of the table prescribes it
 };
 
 /// The demand of a stage at one moment.
@@ -114,6 +114,6 @@ private:
   StageMoment start{};         ///< of the stage that runs
   double highest_stress = 0.0; ///< of its rows so far [Pa]
   double strain_at_highest = 0.0;
-  double widening_let_be = 0.0; ///< of a stage led by the lateral strain, beyond what its rate has come to
+  double widening_let_be = 0.0; ///< of a stage that prescribes the lateral strain, beyond what its rate has come to
 };
 } // namespace feldspar

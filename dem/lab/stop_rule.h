@@ -5,8 +5,8 @@
 
 namespace feldspar
 {
-/// Follows the curve of a test, row by row, to its end; docs/theory.md §4.5. The first row is where the strain is zero. Its
-/// state follows from the rows, so that a test that is taken up hands it its curve again.
+/// Follows the curve of a test, row by row, to its end; docs/theory.md §4.5. The first row is where the strain is zero.
+/// The state of the rule follows from the rows, so that a resumed test hands it its curve again.
 struct StopRule
 {
   StopRule(const TestKind& of_test, const double confining_pressure, const PeakDemands& demands)

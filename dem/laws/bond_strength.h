@@ -20,7 +20,7 @@ struct Bond
   double friction_slope; ///< tan φ_b [-]
 };
 
-/// Stress that a bond bears, or its rate along a straight path.
+/// Stress that a bond carries, or its rate along a straight path.
 struct BondStress
 {
   double tension; ///< largest normal stress, held against the tensile strength [Pa]

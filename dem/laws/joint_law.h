@@ -93,9 +93,10 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
     } -> std::same_as<FaceResultants<dim, Real>>;
 };
 
-/// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
-/// installation. Such a law also knows when a face without bonds is open and bears nothing. The sweep then looks at elements one
-/// by one only where a bond may break or a broken face may press, and the shear stress of bonded faces need not be stored.
+/// A law may know the response of a face whose elements are all bonded, and store nothing else, from its motion since
+/// installation. Such a law also knows when a face without bonds is open and carries nothing. The sweep then computes
+/// elements one by one only where a bond may break or a broken face may press, and the shear stress of bonded faces
+/// need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
@@ -181,8 +182,8 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     law.stiffest(face)
     } -> std::same_as<FaceSprings>;
 
-  // In small strains: whether a face responds linearly as long as all its bonds hold and none remembers anything, with the
-  // stiffness below, and none of its elements has a shear stress to remember.
+  // In small strains: whether a face responds linearly as long as all its bonds hold and none has stored anything, with
+  // the stiffness below, and none of its elements has a shear stress to store.
   {
     Law::linear_while_bonded
     } -> std::convertible_to<bool>;
@@ -191,7 +192,7 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
   {
     Law::has_equilibria
     } -> std::convertible_to<bool>;
-  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
+  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond carries.
   {
     law.bonded_stiffness(face, elements.front(), rows)
     } -> std::same_as<JointStiffness<dim>>;

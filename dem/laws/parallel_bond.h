@@ -13,7 +13,7 @@
 #include <vector>
 
 /// The linear parallel bond (Potyondy and Cundall 2004): beside a linear contact with friction a beam of cement that
-/// bears tension, shear, bending and twist, and breaks as a whole; docs/theory.md §1.8. Signs as of the flat joint.
+/// carries tension, shear, bending and twist, and breaks as a whole; docs/theory.md §1.8. Signs as of the flat joint.
 namespace feldspar
 {
 namespace parallel_bond

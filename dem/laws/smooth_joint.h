@@ -7,8 +7,9 @@
 #include <cmath>
 
 /// The smooth joint: two grains that meet at a plane whose normal is fixed, whatever the direction between their centres.
-/// Per area of the plane it has a normal and a shear stiffness, bears tension and cohesion while it is bonded, then slides
-/// by Coulomb's law and opens by dilation; it bears no moment. docs/theory.md §1.9. Signs as of the flat joint.
+/// Per area of the plane it has a normal and a shear stiffness, carries tension and cohesion while it is bonded, then
+/// slides by Coulomb's law and opens by dilation; it carries no moment. docs/theory.md §1.9. Signs as of the flat
+/// joint.
 namespace feldspar::smooth_joint
 {
 /// The constants of a joint.

@@ -53,7 +53,7 @@ public:
   {
   }
 
-  /// d of a bond that has borne this stress as if it were elastic; below 0 of one that has not come to its strength.
+  /// d of a bond that has carried this stress as if it were elastic; below 0 of one that has not come to its strength.
   Real at(const Real& elastic_stress) const { return smaller(Real(1.0), (elastic_stress - strength) / fall); }
 
   /// D of d: (s.2).

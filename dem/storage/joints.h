@@ -50,11 +50,11 @@ struct JointTables
   }
   ~JointTables() = default;
 
-  PackedRows state;         ///< what a joint is and remembers
+  PackedRows state;         ///< what a joint is and stores
   PackedTable<1> response;  ///< its force and couples, those of a joint together: grains gather them
-  PackedRows segment_state; ///< what its segments remember; all rows of a segment, then all of the next
+  PackedRows segment_state; ///< what its segments store; all rows of a segment, then all of the next
   PackedRows strength;      ///< of the segments' bonds
-  PackedRows more_state;    ///< what else the law has its segments remember; in the order of segment_state
+  PackedRows more_state;    ///< what else the law has its segments store; in the order of segment_state
 
   /// Numbers of the rows of `state`.
   struct Row

@@ -25,7 +25,7 @@ namespace
 {
 using namespace plot;
 
-/// A result over which a study is looked at.
+/// A result over which a study is shown.
 struct Property
 {
   std::string_view name; ///< of files

@@ -326,7 +326,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
           }))
         {
           test.record.stages.clear();
-          if (!test.record.curve.empty()) // a table that is missing has been told
+          if (!test.record.curve.empty()) // a table that is missing has been reported
             of_stages.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
         }
       if (test.record.body == TestBody::grains)

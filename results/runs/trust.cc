@@ -420,7 +420,7 @@ std::string as_text(const std::vector<TrustCheck>& checks)
 
 std::string trust_as_text(const std::vector<FinishedTest>& tests)
 {
-  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is told
+  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is reported
   const auto rocks = by_rock(tests);
   std::string text;
   if (rocks.size() > most_in_full)

@@ -100,7 +100,7 @@ TEST_F(Packing, ThatDoesNotFillItsBoxIsRefused)
 
 TEST(EndOfATest, IsNotAtAFirstMaximum)
 {
-  // Seed 8 of the specimen of the recipes has a first maximum of 71 MPa at 1.3e-3, and bears 138 MPa at 5.5e-3.
+  // Seed 8 of the specimen of the recipes has a first maximum of 71 MPa at 1.3e-3, and carries 138 MPa at 5.5e-3.
   const TemporaryFolder folder;
   folder.write("rock.prm", rock);
   const std::string seed_8 = "lab rock.prm --output out --force --quiet --set 'Seeds/Seeds = 8'";

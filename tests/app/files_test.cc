@@ -363,7 +363,7 @@ TEST(Links, LeadNoWriterOutOfTheFolder)
        {"report.html", "figures/overview.png", "figures/direct_tension_stress.svg", "tables/strengths.csv"})
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(out / file))) << file;
 
-  // A run that is taken up writes tables, fields and its record.
+  // A resumed run writes tables, fields and its record.
   make_incomplete(out);
   for (const char* const file : {"summary.json", "log.txt", "tests.csv", "run.json.unfinished"})
     link("../victim.txt", file);

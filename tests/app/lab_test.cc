@@ -441,7 +441,7 @@ end
   EXPECT_TRUE(content(folder.path() / "out/tables/comparison.csv")
                 .starts_with("source,kind,Flat joint/Bond tensile strength [MPa],property,unit,mean,"));
 
-  // A folder of before values were in names is taken up by its own names.
+  // A folder of before values were in names is resumed by its own names.
   auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record.erase("variants_named");
   record["complete"] = false;
@@ -693,7 +693,7 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   auto json = summary(folder.path() / "out");
   EXPECT_EQ(json["tests"].size(), 1u);
   EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "8 mm");
-  // A run that is taken up has them still.
+  // A resumed run still has them.
   auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record["complete"] = false;
   folder.write("out/run.json", record.dump());

@@ -163,8 +163,9 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
   EXPECT_FALSE(nlohmann::json::parse(contents(folder.path() / "run/summary.json"))["tests"][0].contains("ended_early"));
 }
 
-// Up, down, further up and down, then towards more than the sample bears. Cracks open above the highest strain there was
-// (Kaiser's effect); what has cracked is softer, so that the way down is flatter each time, and some strain is left.
+// Up, down, further up and down, then towards more than the sample carries. Cracks open above the highest strain there
+// was (Kaiser's effect); what has cracked is softer, so that the way down is flatter each time, and some strain is
+// left.
 TEST(Multiscale, FollowsALoadingTable)
 {
   TemporaryFolder folder;
@@ -515,7 +516,7 @@ TEST(Multiscale, ComparesWithLinearElasticityAndMohrCoulomb)
 }
 
 // Without grains, so that the closed form is at hand: a cylinder under pressure, as half of its section and as a whole,
-// answers with Young's modulus and Poisson's ratio; plane strain with E/(1 - ν²) and ν/(1 - ν).
+// responds with Young's modulus and Poisson's ratio; plane strain with E/(1 - ν²) and ν/(1 - ν).
 TEST(Multiscale, TakesCylindersAndPlaneStrain)
 {
   TemporaryFolder folder;
@@ -734,8 +735,8 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
 
 TEST(Multiscale, TakesAFlawedRve)
 {
-  // One element between smooth platens is strained alike throughout: it bears what its RVE does alone, pulled with its
-  // sides free.
+  // One element between smooth platens is strained alike throughout: it carries what its RVE does alone, pulled with
+  // its sides free.
   const TemporaryFolder folder;
   const std::string flaw = "subsection Flaws\n  set Shapes = closed flaw from 4, 7 mm to 10, 7 mm\nend\n";
   std::string sample = input("  set Platens = smooth\n  set Order = 1\n  set Orientation = fixed\n"

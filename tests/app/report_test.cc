@@ -52,7 +52,7 @@ std::string words_of(const fs::path& page)
   return text;
 }
 
-/// One run, some ninety grains a specimen, that the tests of this file look at and copy.
+/// One run, some ninety grains a specimen, that the tests of this file read and copy.
 class Report : public testing::Test
 {
 protected:
@@ -79,7 +79,7 @@ protected:
     fs::copy(run->path() / "out", folder.path() / "out", fs::copy_options::recursive);
   }
 
-  /// Makes the report anew and returns its words; pictures, which take the most time, only where they are looked at.
+  /// Makes the report anew and returns its words; pictures, which take the most time, only where a test needs them.
   std::string remade(const std::string& arguments = "report out", const bool with_pictures = false)
   {
     const auto answer =
@@ -788,7 +788,7 @@ void expect_shown_in_a_browser(const fs::path& page)
         fs::remove(shot);
       }
 
-  // The figures on the first screen answer to the pointer: the policy lets the page's own script run.
+  // The figures on the first screen respond to the pointer: the policy lets the page's own script run.
   const std::string alive = Browser::show(page, "--window-size=1280,2500 --virtual-time-budget=5000 --dump-dom").output;
   EXPECT_NE(alive.find("<figure class=\"live\"><div class=\"stage\">"), std::string::npos);
   EXPECT_NE(alive.find("<canvas"), std::string::npos);

@@ -58,7 +58,7 @@ std::string refusal(const std::function<void()>& read)
   return "";
 }
 
-/// Every one of so many mutations of a file is told by `read`, in one line.
+/// Every one of so many mutations of a file is reported by `read` in one line.
 void expect_all_refused(const std::filesystem::path& file, const std::function<void()>& read)
 {
   constexpr std::uint64_t n_mutations = 300;

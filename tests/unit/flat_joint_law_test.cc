@@ -278,7 +278,7 @@ TEST(Friction, GathersShearOnlyWhileClosed)
 
 TEST(Friction, ShearUnderAnEdgeWhileTheMiddleIsOpenIsSlip)
 {
-  // Under half of a shear stress that friction could bear; tilted, so that the middle is open and an edge presses.
+  // Under half of a shear stress that friction could carry; tilted, so that the middle is open and an edge presses.
   const double limit = face.friction * 50e6;
   const double slip = 0.5 * limit / face.shear_stiffness;
   const double gap = 1e-9;

@@ -55,7 +55,7 @@ std::size_t n_packs_with_broken_bonds(const Joints<dim>& joints)
   return n;
 }
 
-/// All that a joint is, remembers and does, by its number.
+/// All that a joint is, stores and does, by its number.
 template <int dim>
 std::vector<std::vector<double>> told_by_number(Joints<dim>& joints)
 {

@@ -447,7 +447,8 @@ TEST(StopRules, AreKept)
 
 TEST(StopRules, EndADiscThatBearsMoreAfterItsFirstFall)
 {
-  // The whole disc bears 10 MPa at a strain of 1e-3; its halves fall to 9 MPa and rise to 30, never below the share of 0.7.
+  // The whole disc carries 10 MPa at a strain of 1e-3; its halves fall to 9 MPa and rise to 30, never below the share
+  // of 0.7.
   TestParameters wanted;
   wanted.stop_stress_over_peak = 0.7;
   const auto end = [&](const LaboratoryProtocol& protocol) {

@@ -1,5 +1,5 @@
 // Representative volumes of parallel bonds: the response of one face, the tangent, balances through breakage, explicit
-// dynamics beside, and a path taken up again.
+// dynamics beside, and a resumed path.
 
 #include "coupling/network/link_response.h"
 #include "coupling/rve/equilibrium.h"

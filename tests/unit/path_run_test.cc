@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-/// Paths: interrupted and taken up, controlled in mixed ways, and led where there is no equilibrium.
+/// Paths: interrupted and resumed, controlled in mixed ways, and on a path without equilibrium.
 namespace feldspar
 {
 namespace

@@ -17,7 +17,7 @@ class Rves : public testing::Test
 };
 TYPED_TEST_SUITE(Rves, Dimensions);
 
-/// FNV-1a over all an RVE remembers.
+/// FNV-1a over all an RVE keeps.
 template <int dim>
 std::uint64_t hash(const NetworkState<dim>& state)
 {

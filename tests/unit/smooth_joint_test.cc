@@ -1,4 +1,4 @@
-// Smooth joints: one against closed forms, pairs, planes through specimens, mineral grains; files and tests taken up again.
+// Smooth joints: one against closed forms, pairs, planes through specimens, mineral grains; files and resumed tests.
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
@@ -89,7 +89,7 @@ TEST(SmoothJoint, PulledBearsItsTensileStrengthThenNothing)
   EXPECT_EQ(joint.n_tension, 1);
   EXPECT_EQ(smooth_joint::normal_stress(joint.face, joint.state), 0.0);
   EXPECT_NEAR(joint.released, 0.5 * wanted.tensile_strength * critical, 1e-4 * joint.released);
-  // Closed again it presses from where it lay, and bears no tension any more.
+  // Closed again it presses from where it lay, and carries no tension any more.
   joint.lead(-2.0 * critical, 0.0);
   EXPECT_NEAR(smooth_joint::normal_stress(joint.face, joint.state), -0.999 * wanted.tensile_strength, 1e-9 * 4e6);
   joint.lead(2.0 * critical, 0.0);
@@ -504,8 +504,8 @@ TEST(SmoothPlane, BetweenRigidHalvesBearsItsCohesionThenSlides)
       pressure = dynamics.grip_force(upper)[1] / 0.020;
       shear = -dynamics.grip_force(upper)[0] / 0.020;
     }
-  // Rigid halves stress all of the plane alike: it bears c + σ tan φ, whatever the grains along it, then μ σ. It goes in
-  // two hundred steps to its strength.
+  // Rigid halves stress all of the plane alike: it carries c + σ tan φ, whatever the grains along it, then μ σ. It goes
+  // in two hundred steps to its strength.
   EXPECT_EQ(n_broken, specimen.smooth_joints.size());
   EXPECT_NEAR(borne, strength, 0.01 * strength);
   EXPECT_NEAR(shear, 0.5 * pressure, 0.01 * shear);
@@ -654,7 +654,7 @@ TEST(MineralGrains, CrackAtTheirBoundariesAndTheEnergiesBalance)
     n += crack.on_smooth_joint;
   EXPECT_GT(n, 10u);
   EXPECT_LT(n, outcome.record.cracks.size());
-  // A quarter of the joints are boundaries, one crack each where others have four segments. They bear a fifth of what
+  // A quarter of the joints are boundaries, one crack each where others have four segments. They carry a fifth of what
   // these do: before the specimen yields it is they that open.
   EXPECT_GT(*results.smooth_tension_share_at_peak.value, 0.15);
   EXPECT_TRUE(std::all_of(outcome.record.cracks.begin(), outcome.record.cracks.begin() + 5,

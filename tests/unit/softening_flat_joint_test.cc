@@ -23,7 +23,7 @@ const Bond<double> bond{20e6, 60e6, std::tan(std::acos(-1.0) / 6.0)};
 constexpr double elastic_opening = 20e6 / 40e12;
 constexpr double softening_opening = 4e-6;
 
-/// One segment that is led by its gap and its shear, in steps that are small against both openings.
+/// One segment with prescribed gap and shear, in steps that are small against both openings.
 class LedSegment
 {
 public:

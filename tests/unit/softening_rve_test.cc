@@ -1,5 +1,5 @@
 // Representative volumes whose bonds soften from event to event: one face against the law of the sweep, the energy of one bond
-// in closed form, tangent, balances through breakage, explicit dynamics beside, and a path taken up again.
+// in closed form, tangent, balances through breakage, explicit dynamics beside, and a resumed path.
 
 #include "coupling/network/link_response.h"
 #include "coupling/rve/equilibrium.h"
@@ -75,7 +75,7 @@ double highest_stress(const PathRecord<dim>& record)
 TYPED_TEST(SofteningRves, ASoftenedFaceRespondsAsTheLawOfTheSweep)
 {
   // Open, closed and, in the plane, closed in part; the first segment has not softened. So that none softens further here
-  // the law of the sweep is given bonds that bear anything at their damage.
+  // the law of the sweep is given bonds that carry anything at their damage.
   constexpr int dim = TypeParam::value;
   const auto specimen = softening_cell<dim>();
   const Network<dim> network(specimen);
@@ -152,7 +152,7 @@ std::optional<BondEvent> lead_to(const Network<2>& network, ActiveLink<2>& activ
   return overloaded ? std::optional(loosen(network, active, 0, in_tension, least_step)) : std::nullopt;
 }
 
-/// One segment led by its opening, or by its shear under a constant opening, until its bond is gone.
+/// One segment with prescribed opening, or prescribed shear under a constant opening, until its bond is gone.
 struct Led
 {
   double given_up; ///< by the bond, over the energy below its line
@@ -340,7 +340,8 @@ TYPED_TEST(SofteningRves, WorkBalancesThroughSofteningAndBreakage)
 
 TEST(SofteningRve, IsThatOfExplicitDynamics)
 {
-  // The same cell pulled both ways. Softening grows with the bonds' energy: what the cell bears rises by the same share in both.
+  // The same cell pulled both ways. Softening grows with the bonds' energy: what the cell carries rises by the same
+  // share in both.
   const auto specimen = softening_cell<2>();
   auto by_events = pulled<2>(5e-4);
   while (!by_events.has_ended())

@@ -267,7 +267,7 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
   EXPECT_NEAR(beam[2], 12e-3 / 4.4, 1e-15);
 }
 
-// A roller that bore one sphere would let the half disc tilt about it; one that pivots bears on two at least.
+// A roller that rested on one sphere would let the half disc tilt about it; one that pivots rests on two at least.
 TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
 {
   const auto specimen = granite_in_space("box", 0.012, 0.012);

@@ -1,5 +1,5 @@
-// A sample of finite elements led through the stages of a loading table. Linear elasticity between smooth platens is in a
-// uniform state, so that each stage ends where Hooke's law says.
+// A sample of finite elements that follows the stages of a loading table. Linear elasticity between smooth platens is
+// in a uniform state, so that each stage ends where Hooke's law says.
 
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/sample_run.h"

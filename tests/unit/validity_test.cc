@@ -129,7 +129,7 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
       EXPECT_EQ(*tests[1].results.first_cracks_at_pads_share.value, 0.75);
       EXPECT_TRUE(tests[0].counts());
       EXPECT_FALSE(tests[1].counts());
-      EXPECT_EQ(*tests[1].results.peak_stress.value, 5.3e6); // it is told none the less
+      EXPECT_EQ(*tests[1].results.peak_stress.value, 5.3e6); // it is reported none the less
       EXPECT_EQ(*strength_data(tests).tensile_strength, 10e6);
       const auto rows = compare(tests, std::nullopt);
       const ComparisonRow* const strength = row_of(rows, "Brazilian tensile strength");

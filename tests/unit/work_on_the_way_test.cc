@@ -15,7 +15,8 @@ class WorkOnTheWay : public testing::Test
 };
 TYPED_TEST_SUITE(WorkOnTheWay, Dimensions);
 
-/// A network under pressure whose first joint has no bond left and bears as much shear along t (t_1) as friction lets it.
+/// A network under pressure whose first joint has no bond left and carries as much shear along t (t_1) as friction lets
+/// it.
 template <int dim>
 struct OneJointAtItsLimit
 {

@@ -1,4 +1,4 @@
-// Class II control: a specimen led by its lateral strain past its peak, beside one led by its platens.
+// Class II control: a specimen controlled by its lateral strain past its peak, beside one controlled by its platens.
 
 #include "results/evaluation.h"
 #include "tests/unit/small_specimen.h"

@@ -242,7 +242,7 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   EXPECT_EQ(point.fields(), std::vector<double>(7, 0.0));
   EXPECT_TRUE(point.cracks_of_last_step().empty());
 
-  // Cracks that are accepted are told, once.
+  // Cracks are reported once they are accepted, and only once.
   point.trial(strain);
   const std::size_t n_events = point.relax(strain);
   point.accept(strain);

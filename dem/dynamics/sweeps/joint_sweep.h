@@ -34,7 +34,7 @@ struct SweepMemory
   /// The least strengths of each joint's bonds [Pa]. Where not all of them hold, the tensile one is below every stress, and
   /// the cohesion is one of two marks.
   PackedRows weakest;
-  /// No bond holds, no element has a shear stress, and the face is open: it bears nothing until it closes.
+  /// No bond holds, no element has a shear stress, and the face is open: it carries nothing until it closes.
   static constexpr double stands_open = std::numeric_limits<double>::infinity();
   static constexpr double in_pieces = -stands_open;
 

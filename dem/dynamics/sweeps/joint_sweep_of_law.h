@@ -12,7 +12,7 @@
 #include <vector>
 
 // Packs handed to functions go by way of memory, which takes half as long again as the work: the sweep is made of one piece.
-// Under the address sanitizer, which looks at every access, that piece takes minutes to compile.
+// Under the address sanitizer, which checks every access, that piece takes minutes to compile.
 #ifdef __SANITIZE_ADDRESS__
 #define FELDSPAR_OF_ONE_PIECE
 #else
@@ -81,7 +81,7 @@ struct StoredSegments
   const Face<Real>& face;
   const FaceBefore<dim, Real>& before;
   std::vector<Break>& breaks;
-  Mask some_changed{false}; ///< broke, or remembers now what the motion of its face does not tell
+  Mask some_changed{false}; ///< broke, or has stored now what the motion of its face does not tell
   Mask some_bear{false};    ///< are bonded, or have a shear stress
 
   static constexpr std::size_t n_rows = JointTables<dim>::n_segment_rows;

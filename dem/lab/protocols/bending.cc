@@ -18,9 +18,9 @@ namespace feldspar
 namespace
 {
 /// A smooth plate about a place along the first axis, where grains of the body lie against it, bedded, so that the body does
-/// not tilt on the grain that protrudes furthest until others bear. It pivots, so that its force acts at this place. In the
-/// plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the thickness. Loose
-/// grains, which would sink into the body, do not decide where it lies.
+/// not tilt on the grain that protrudes furthest until others carry load. It pivots, so that its force acts at this
+/// place. In the plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the
+/// thickness. Loose grains, which would sink into the body, do not decide where it lies.
 template <int dim>
 Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const double place, const double side)
 {
