@@ -25,8 +25,8 @@ using LinkGradient = Eigen::Matrix<double, n_motions<dim>, 2 * n_motions<dim>>;
 template <int dim>
 using LinkStrainGradient = Eigen::Matrix<double, n_motions<dim>, n_voigt<dim>>;
 
-/// Two grains joined by a face, or, without a face, near enough that they may come to touch: then a single element in
-/// the middle that carries no tension and no moment.
+/// Two grains joined by a face, or, without a face, near enough that they may come into contact: then a single element
+/// in the middle that carries no tension and no moment.
 template <int dim>
 struct Link
 {

@@ -110,7 +110,7 @@ MovingSegment<dim> moving_segment(const Network<dim>& network, const ActiveLink<
                                   const std::uint32_t i)
 {
   const Link<dim>& link = network.links()[active.link];
-  // A pair without a face touches at a point: no slope, no moment.
+  // A pair without a face is in contact at a point: no slope, no moment.
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
   const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
   const auto rows = element_rows(element, link.half_length);

@@ -26,7 +26,7 @@ struct FirstBreak
   double factor; ///< of the direction; infinity if nothing breaks along it
   std::uint32_t segment;
   bool in_tension;
-  double touch; ///< factor at which a pair without a face comes to touch; no response is linear beyond it
+  double touch; ///< factor at which a pair without a face comes into contact; no response is linear beyond it
 };
 
 template <int dim>
@@ -48,7 +48,7 @@ public:
   /// The mean over the joints of normal stiffness times length of the branch [N].
   double mean_normal_stiffness() const { return mean_stiffness; }
 
-  /// Joints first, then pairs that may come to touch.
+  /// Joints first, then pairs that may come into contact.
   const std::vector<Link<dim>>& links() const { return all_links; }
   const std::vector<FaceElement<dim>>& elements() const { return face; }
   /// Along which a link crosses from box to box, over sides that are not open; [n_links].
@@ -85,7 +85,7 @@ public:
   Unknowns apply_bonded(const Unknowns& unknowns) const;
   /// Nearly its inverse.
   const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
-  /// The same with every pair that may come to touch touching: no state is stiffer.
+  /// The same with every pair that may come into contact closed: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
   /// With other stiffnesses of its links, and a small stiffness of loose grains.
   FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double regularising_share,
@@ -155,6 +155,6 @@ private:
   };
   std::vector<Bound> bounds;
   std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
-  double touching_strain;                ///< norm below which no such pair can come to touch
+  double touching_strain;                ///< norm below which no such pair can come into contact
 };
 } // namespace feldspar

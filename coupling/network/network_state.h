@@ -45,7 +45,7 @@ struct NetworkState
   Voigt<dim> stress = Voigt<dim>::Zero();     ///< [Pa]
   bool intact = true;                         ///< and linear
   std::vector<double> motions;                ///< of all grains; empty while intact
-  std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
+  std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they are in contact
   std::vector<SoftenedSegment<dim>> softened; ///< ascending
   /// The shear stress of every segment, by a law that is not linear while it holds [Pa]; empty at rest and otherwise.
   std::vector<std::array<double, dim - 1>> contact_shear;

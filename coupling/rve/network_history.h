@@ -56,7 +56,7 @@ public:
 
   /// Conditions of the boundary on the pairs that can carry them.
   const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return bearing; }
-  /// The network's factor with every pair touching, under these conditions.
+  /// The network's factor with every pair in contact, under these conditions.
   const FactorisedNetwork<dim>& factorised_stiffest() const;
 
   /// Forces with the grains at a position, by the straight way from the last event. The memory of an earlier balance can
@@ -73,7 +73,7 @@ public:
   /// To be called after bonds of its links have been changed.
   void release_loose_pairs();
 
-  /// Makes this the last event: positions and shear stresses are kept, pairs that touch become active.
+  /// Makes this the last event: positions and shear stresses are kept, pairs in contact become active.
   void keep(const Configuration<dim>& present);
 
 private:

@@ -153,7 +153,7 @@ void Dynamics<dim>::start()
   index_joints();
   find_contacts();
   check();
-  zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
+  zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where surfaces meet
   update_contacts(0.0, 0.0);
   check();
   choose_time_step();
@@ -195,7 +195,7 @@ bool Dynamics<dim>::regroup_joints()
   return responds_as_one && !body.periodic && joint_groups.regroup(body.joints);
 }
 
-/// The grains of a joint that has lost its face may touch again. Returns whether joints have gone.
+/// The grains of a joint that has lost its face may come into contact again. Returns whether joints have gone.
 template <int dim>
 bool Dynamics<dim>::remove_lost_contacts()
 {
@@ -210,14 +210,14 @@ bool Dynamics<dim>::remove_lost_contacts()
         {
           Touch<dim> touch = make_touch(body, joints.grain_1[j], joints.grain_2[j]);
           touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
-          // The energy that the face stored and the touch does not is released in sliding off.
+          // The energy that the face stored and the contact does not is released in sliding off.
           const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
           ledger.slip_of_lost_contacts +=
             joints.slip_energy[j] + joint_energy(joints, j) - 0.5 * touch.stiffness.normal * overlap * overlap;
           touches.add(touch);
         }
     }
-  // Their grains may have rolled into each other while the sides were open: they touch from where they stand.
+  // Their grains may have rolled into each other while the sides were open: they are in contact from where they stand.
   for (const auto& [ends, energy] : remove_ended_smooth_joints(body))
     {
       ledger.slip_of_lost_contacts += energy;

@@ -28,8 +28,8 @@ namespace feldspar
 /// Explicit dynamics of a specimen: central differences with velocities at half steps, local non-viscous damping
 /// (Cundall 1987) and contacts that come and go; docs/theory.md §2. One step costs two sweeps, over contacts, with
 /// the sums of their forces, and over grains; sums run in a fixed order, so that results do not depend on the number of
-/// threads. The integrator owns the touches, the walls, the grips, the images and the energy ledger and says when each
-/// has its turn; how they do it stands with them.
+/// threads. The integrator owns the contacts without a face, the walls, the grips, the images and the energy ledger and
+/// says when each has its turn; how they do it stands with them.
 template <int dim>
 class Dynamics
 {

@@ -194,8 +194,8 @@ void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touc
     sum_over_joints(body, order, first_left + begin, first_left + end);
   });
 
-  // To each grain come its touches by their numbers, whether it is grains or touches that are gone through. Only grains can be
-  // shared out to threads.
+  // To each grain come its contacts by their numbers, whether it is grains or contacts that are gone through. Only
+  // grains can be shared out to threads.
   constexpr std::size_t grains_per_touch = 8;
   if (stays_on_this_thread(n_grains) || grains_per_touch * touches.touching().size() < n_grains)
     {

@@ -51,7 +51,8 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
     const auto a = arms(touch.frame.distance, touch.half_radius_difference);
     add(grain, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
   };
-  // To each grain come its joints and then its touches by their numbers, whether it is grains or touches that are gone through.
+  // To each grain come its joints and then its contacts by their numbers, whether it is grains or contacts that are
+  // gone through.
   const bool by_touches = groups.empty() && stays_on_this_thread(n_own);
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = std::uint32_t(begin); i < end; ++i)

@@ -171,7 +171,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         else if (way_is_known) // which both may go
           apart_until[k] = way_gone + 0.5 * (std::sqrt(squared) - (1.0 + share_for_rounding) * look.zero_distance);
         if (!was_touching && !look.touching)
-          continue; // as it was; most of those that are kept in mind never touch
+          continue; // as it was; most of those that are kept in mind never come into contact
         if (was_touching != look.touching)
           say(contact_changed);
         Touch<dim>& touch = touches[k];
@@ -221,7 +221,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
     return contact_made;
   touching_ones_are_known = true;
   n_touching = 0;
-  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which touch cannot be foretold
+  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which are in contact cannot be foretold
     {
       touching_ones[n_touching] = std::uint32_t(k);
       n_touching += looks[k].touching ? 1 : 0;

@@ -273,7 +273,7 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body)
           const double overlap = touch.zero_distance - distance;
           if (touch.overlap == 0.0 && overlap > 0.0)
             contact_made = true;
-          // A grain that begins to touch, or a smooth wall, gathers no shear.
+          // A grain that comes into contact, or a smooth wall, gathers no shear.
           std::array<double, dim - 1> slip{};
           if (wall.friction > 0.0 && touch.overlap > 0.0)
             slip = slip_on_wall(grains, wall, i, distance, dt);

@@ -118,10 +118,10 @@ public:
     for (Wall& wall : walls)
       wall.position += dt * wall.velocity;
   }
-  /// Presses the grains, whose forces and couples it adds to; whether one has come to touch.
+  /// Presses the grains, whose forces and couples it adds to; returns whether one has come into contact.
   bool press(double dt, Specimen<dim>& body);
 
-  /// `sum` with what the touches store and have dissipated.
+  /// `sum` with what the contacts store and have dissipated.
   Energies added_to(Energies sum, const Specimen<dim>& body) const;
 
   template <typename Archive>

@@ -62,7 +62,7 @@ struct SmoothSides
   SmoothJointParameters among(const SmoothJointParameters& all) const;
 };
 
-/// A crack without width whose sides touch: the joints across it are unbonded, or smooth.
+/// A crack without width whose sides are in contact: the joints across it are unbonded, or smooth.
 struct ClosedFlaw
 {
   static constexpr std::string_view name = "closed flaw";

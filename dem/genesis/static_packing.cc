@@ -43,7 +43,7 @@ struct Neighbour
 {
   std::uint32_t grain;
   std::uint32_t box; ///< number of the shift to the box in which it lies
-  double stiffness;  ///< of the touch, radii as drawn [N/m]
+  double stiffness;  ///< of the contact, radii as drawn [N/m]
 };
 
 /// Over grains and contacts, the growth of the radii included.
@@ -215,9 +215,9 @@ void Descent<dim>::find_neighbours()
   for (std::size_t i = 0; i < n; ++i)
     first[i + 1] += first[i];
   neighbours.resize(2 * pairs.size());
-  // The inertia of a grain equals the stiffness of all its neighbours that could touch: (u_1 - u_2)² ≤ 2 (u_1² + u_2²)
-  // then bounds the stiffness of any motion by twice its inertia, and steps up to √2 are stable. A wall counts half,
-  // because it does not move.
+  // The inertia of a grain equals the stiffness of all its neighbours that could come into contact: (u_1 - u_2)² ≤ 2
+  // (u_1² + u_2²) then bounds the stiffness of any motion by twice its inertia, and steps up to √2 are stable. A wall
+  // counts half, because it does not move.
   for (std::size_t i = 0; i < n; ++i)
     {
       const double radius = grains[i].back();

@@ -18,12 +18,13 @@ std::vector<bool> grains_of_body(const Specimen<dim>& specimen);
 template <int dim>
 void check_fills_its_box(const Specimen<dim>& specimen);
 
-/// Throws InputError where no grains that are joined, or touch, lead from one end of the last axis to the other.
+/// Throws InputError where no grains that are joined, or in contact, lead from one end of the last axis to the other.
 template <int dim>
 void check_leads_from_end_to_end(const Specimen<dim>& specimen);
 
-/// Stands a wall at rest in the test; where no grain of the body touches it, as much nearer as it takes. Throws InputError
-/// where that is more than half of a mean radius. `name`: of the wall in this message. Returns its number.
+/// Stands a wall at rest in the test; where no grain of the body is in contact with it, as much nearer as it takes.
+/// Throws InputError where that is more than half of a mean radius. `name`: of the wall in this message. Returns its
+/// number.
 template <int dim>
 std::size_t stand_wall(SetUpTest<dim>& test, Wall wall, std::string_view name);
 } // namespace feldspar

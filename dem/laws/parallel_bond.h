@@ -93,7 +93,7 @@ struct ParallelBond : CarriedPlane<dim>
   /// The contact beside the bond presses and slides, and does not pull.
   static constexpr bool linear_while_bonded = false;
   static constexpr bool has_equilibria = true;
-  /// Grains whose bond has broken roll and slide about each other as long as they touch.
+  /// Grains whose bond has broken roll and slide about each other as long as they are in contact.
   static constexpr bool face_can_slide_off = false;
 
   template <typename Real>

@@ -32,7 +32,7 @@ struct Specimen
   Grains<dim> grains;
   Joints<dim> joints;
   std::vector<SmoothJoint<dim>> smooth_joints; ///< by their grains; where one stands no joint of the law does
-  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, they never touch
+  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, never in contact
   std::vector<std::uint32_t> groups;           ///< the mineral grain or clump that each grain is a part of; or empty
   bool groups_are_rigid = false;               ///< they are clumps: each moves as one body; numbered without gaps
   SpecimenReport report;

@@ -143,8 +143,8 @@ void read_calibrated_rock(const std::string& content, const fs::path& folder)
   calibration::unknowns(input.calibration);
 }
 
-/// Rows of grains that touch, in a box of some 10 x 12 mm, each with a face to its neighbours: a genesis, or more grains, would
-/// take most of the time under a sanitizer.
+/// Rows of grains in contact, in a box of some 10 x 12 mm, each with a face to its neighbours: a genesis, or more
+/// grains, would take most of the time under a sanitizer.
 template <int dim>
 Specimen<dim> lattice()
 {

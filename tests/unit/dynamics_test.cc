@@ -240,7 +240,7 @@ TEST(Dynamics, AWallThatComesFromFarDoesNotPassThroughAGrain)
 
 TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
 {
-  // Pulled apart by more than the face's length and pushed back: the second touch is the linear law's, at R1 + R2.
+  // Pulled apart by more than the face's length and pushed back: the second contact is the linear law's, at R1 + R2.
   const double radius = 1e-3;
   auto specimen = placed_specimen({radius, radius}, {{{0.5, 0.5 + 2.0 * radius}, {0.5, 0.5}}});
   FlatJointParameters wanted;

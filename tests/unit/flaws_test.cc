@@ -330,8 +330,8 @@ TEST(Plates, ThrowOutNoGrainThatComesFromBeside)
 
 TEST(Plates, OnABedBearEveryGrainAsItLies)
 {
-  // One grain touches the plate, one lies within the bed, one above it; all with the same stiffness. The plate sinks by
-  // more than contacts are looked for, comes back, and rises by less than the third grain's gap.
+  // One grain is in contact with the plate, one lies within the bed, one above it; all with the same stiffness. The
+  // plate sinks by more than contacts are looked for, comes back, and rises by less than the third grain's gap.
   Specimen<2> specimen = placed_specimen({0.1, 0.1, 0.1}, {{{0.2, 0.5, 0.8}, {0.1, 0.14, 0.17}}});
   Dynamics<2> dynamics(specimen, {}, ZeroForce::as_placed);
   const std::size_t wall = dynamics.add_wall({.axis = 1, .side = 1.0, .velocity = -10.0, .bed = 0.05});

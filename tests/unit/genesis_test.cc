@@ -378,7 +378,7 @@ TEST(Genesis, APeriodicPackingHasItsStressAndNoWalls)
 
 TEST(Genesis, ACellOfTwoGrainsMeetsSeveralImagesOfOnePair)
 {
-  // Two equal discs on a square lattice turned by 45°: each touches four images of the other.
+  // Two equal discs on a square lattice turned by 45°: each is in contact with four images of the other.
   Specimen<2> specimen;
   specimen.size = {2.0, 2.0};
   specimen.periodic = true;

@@ -158,7 +158,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(JointLawBoundary, Dimensions);
 
-/// Grains in a row along x that just touch; more than two packs of joints and some over.
+/// Grains in a row along x that are just in contact; more than two packs of joints and some over.
 template <int dim>
 Specimen<dim> row_of_grains(const ElasticBondParameters& wanted)
 {

@@ -307,7 +307,7 @@ TEST(Curve, ARowThatIsBrokenOffIsGoneOnWithToTheSameBits)
     }
 }
 
-// A grain that touches nothing is no part of the body: the strain of the body is the same with it and without it. A gauge
+// A grain without a contact is no part of the body: the strain of the body is the same with it and without it. A gauge
 // that counted it would be off by its share of the moment of the positions times the difference of its motion, here 1.4 %
 // of the axial strain.
 TEST(StrainGauge, DoesNotSeeALooseGrain)

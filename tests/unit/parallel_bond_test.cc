@@ -31,7 +31,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(ParallelBondPair, Dimensions);
 
-/// Pairs along x, far from each other, that just touch.
+/// Pairs along x, far from each other, that are just in contact.
 template <int dim>
 Specimen<dim> pairs(const ParallelBondParameters& wanted = test_bonds())
 {

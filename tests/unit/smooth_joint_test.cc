@@ -172,7 +172,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(SmoothPair, Dimensions);
 
-/// Two unequal grains that touch, and a plane across them that does not lie square to their branch.
+/// Two unequal grains in contact, and a plane across them that does not lie square to their branch.
 template <int dim>
 Specimen<dim> pair_on_a_plane(const SmoothJointParameters& wanted, const bool bonded)
 {
@@ -293,7 +293,8 @@ TYPED_TEST(SmoothPair, ThatRollsOpenTouchesFromWhereItsGrainsStand)
   auto specimen = pair_on_a_plane<dim>(wanted, false);
   // Both spin so that the sides roll apart by some 0.6 × 1000 rad/s × 1.6 mm each second, while grain 2 comes nearer by
   // 0.1 m/s. The joint ends when the sides are a sum of radii apart, after some 2 ms; the grains overlap by 0.2 mm then.
-  // A touch that began at the sum of radii would store ½ k (0.2 mm)² at once, a million times the energy of the motion.
+  // A contact that began at the sum of radii would store ½ k (0.2 mm)² at once, a million times the energy of the
+  // motion.
   specimen.grains.spin.at(dim == 2 ? 0 : 1).assign(2, dim == 2 ? -1000.0 : 1000.0);
   Dynamics<dim> dynamics(specimen, {0.0, 0.05}, ZeroForce::as_placed);
   dynamics.push(1, -0.1 * Vector<dim>::Unit(0));

@@ -58,7 +58,7 @@ TEST(FaceElements, OfTheLineFillItsSecondMoment)
     }
 }
 
-/// Two grains that touch, jointed, along a direction that is no axis.
+/// Two grains in contact, jointed, along a direction that is no axis.
 Specimen<3> pair_of_grains(const double radius_1, const double radius_2, const FlatJointParameters& wanted)
 {
   const Vector<3> direction = Vector<3>(2.0, -1.0, 2.0) / 3.0;

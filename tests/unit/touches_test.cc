@@ -1,4 +1,4 @@
-// Grains that cannot have come to touch are not computed; no touch is missed by it.
+// Grains that cannot have come into contact are not computed; no contact is missed by it.
 
 #include "dem/dynamics/touches.h"
 
@@ -16,7 +16,7 @@ namespace feldspar
 {
 namespace
 {
-/// A touch that is computed in each step is the reference.
+/// A contact that is computed in each step is the reference.
 template <int dim>
 void expect_that_no_touch_is_missed(const std::size_t n_across)
 {

@@ -39,7 +39,7 @@ struct OneJointAtItsLimit
   NetworkState<dim> pressed() const
   {
     NetworkState<dim> state;
-    state.strain.template head<dim>().setConstant(-1e-4); // so little that no pair without a face comes to touch
+    state.strain.template head<dim>().setConstant(-1e-4); // so little that no pair without a face comes into contact
     state.intact = false;
     state.motions.assign(std::size_t(network.n_unknowns() - n_voigt<dim>), 0.0);
     return state;

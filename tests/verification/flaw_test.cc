@@ -220,8 +220,9 @@ TEST(ASmoothPlane, SlipsUnderConfinementAsJaegerSays)
 
 TEST(ASmoothPlane, BearsWhatLongerSidePlatesPutOnItsHalves)
 {
-  // A rigid side plate holds its force, σ_3 H, wherever it touches. Once the halves have slid by what the plates had pressed
-  // them together, some micrometres, each touches one plate only. The force meets the plane over W tan β of the height.
+  // A rigid side plate holds its force, σ_3 H, wherever it is in contact. Once the halves have slid by what the plates
+  // had pressed them together, some micrometres, each touches one plate only. The force meets the plane over W tan β of
+  // the height.
   const double friction_angle = 30.0 * degree;
   const double pressure = 10e6;
   const double width = 0.020;
