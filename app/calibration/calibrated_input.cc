@@ -29,7 +29,7 @@ double kept(const double a, const double b, const double new_a)
   return a > 0.0 ? without_round_off(b * new_a / a) : b;
 }
 
-/// To four figures.
+/// Rounds a value to four figures of its unit.
 double to_figures(const double value, const double unit)
 {
   return parse_number(fmt::format("{:.3e}", value / unit)) * unit;

@@ -19,6 +19,6 @@ Input with_parameters(const Input& input, const MicroParameters& parameters);
 /// of any text.
 std::string as_prm(const Input& input, const std::string& comment);
 
-/// To four figures in the units of as_prm(), so that a reader sees all of them and the file gives the same rock.
+/// Rounds to four figures in the units of as_prm(), so that a reader sees all of them and the file gives the same rock.
 MicroParameters rounded(const MicroParameters& parameters);
 } // namespace feldspar::calibration

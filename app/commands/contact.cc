@@ -105,7 +105,7 @@ std::string csv_header(const std::size_t n_segments)
   return header + '\n';
 }
 
-/// From one row of the path to the next; the contact plane stays where it is.
+/// Motion of the face from one row of the path to the next; the contact plane stays where it is.
 template <int dim>
 FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std::vector<double>& now)
 {

@@ -121,7 +121,7 @@ auto go_path(const Begin& begin, const Checkpoints& checkpoints, const Show& sho
   return run;
 }
 
-/// From x towards y, in space from z towards x.
+/// Rotation of the cell from x towards y, in space from z towards x.
 template <int dim>
 Tensor<dim> turn_of_cell(const double angle)
 {

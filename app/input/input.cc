@@ -231,7 +231,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
-  // Also catches a slip of the unit before it fills the memory.
+  // This check also catches a slip of the unit before it fills the memory.
   constexpr double most_grains = 1e7;
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)
     throw values.error("Specimen", "Minimum radius",

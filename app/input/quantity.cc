@@ -113,7 +113,7 @@ std::mutex& units_mutex()
   return mutex;
 }
 
-/// Under the lock.
+/// Parses a unit; to be called under the lock.
 Owner<ut_unit> parse_unit(const std::string_view text)
 {
   const CLocale c_locale;

@@ -11,9 +11,9 @@ struct Interrupted : std::exception
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has it ignored) or SIGUSR1
-/// (which mpirun passes on without ending the run itself) only asks the run to end; the second ends it at once.
-/// `acknowledged`: at once by a line on standard error.
+/// Watches for interrupts: from now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has
+/// it ignored) or SIGUSR1 (which mpirun passes on without ending the run itself) only asks the run to end; the second
+/// ends it at once. `acknowledged`: at once by a line on standard error.
 void watch_for_interrupt(bool acknowledged);
 
 /// Returns whether the run was asked to end.

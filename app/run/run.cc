@@ -34,7 +34,7 @@ void tell_failure(const std::string& failure, const std::filesystem::path& folde
                printable(folder.string()));
 }
 
-/// From wherever the run stands.
+/// Continues from wherever the run stands.
 int go_on(const RunCommand& command, const Run& run)
 {
   const Processes& processes = command.processes;
