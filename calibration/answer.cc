@@ -180,7 +180,7 @@ Determination determination_of(const double share)
                                 : Determination::not_determined;
 }
 
-/// In the unit of tables, to three figures.
+/// Value in the unit of tables, to three figures.
 std::string shown(const ParameterAnswer& answer, const double value)
 {
   return fmt::format("{:.3g}", value / answer.unit_size);

@@ -8,7 +8,7 @@
 /// Designs and sensitivities, by OpenTURNS.
 namespace feldspar::calibration
 {
-/// In the unit cube, a coordinate each.
+/// Point of the unit cube, a coordinate each.
 using UnitPoint = std::vector<double>;
 
 /// The first n points of the Sobol sequence under a random shift (Cranley and Patterson 1976); [n][dimension].

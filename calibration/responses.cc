@@ -16,7 +16,7 @@ namespace feldspar::calibration
 {
 namespace
 {
-/// In the table of properties.
+/// Name of the figure in the table of properties.
 std::string_view name(const ElasticFigure which)
 {
   return which == ElasticFigure::tangent ? "tangent" : which == ElasticFigure::initial ? "initial" : "secant";
