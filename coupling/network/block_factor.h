@@ -32,7 +32,7 @@ public:
   double diagonal(std::size_t grain, int motion) const;
   void set_diagonal(std::size_t grain, int motion, double value);
 
-  /// From the matrix to its factor; once.
+  /// Turns the matrix into its factor; once.
   void factorise();
 
   /// x of A x = b, nearly; [n_motions * n_grains], grain by grain.

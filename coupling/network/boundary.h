@@ -28,6 +28,6 @@ struct Boundary
   bool operator==(const Boundary&) const = default;
 };
 
-/// In words: periodic, "weakly periodic, 4 pieces", "edge, x free".
+/// Name of a boundary in words: periodic, "weakly periodic, 4 pieces", "edge, x free".
 std::string name(const Boundary& boundary);
 } // namespace feldspar

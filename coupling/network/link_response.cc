@@ -181,7 +181,7 @@ void add_bonded(const MovingSegment<dim>& of, const JointStiffness<dim>& stiffne
   sum.stored_energy += 0.5 * motion.dot(stiffness * motion);
 }
 
-/// Without a bond: one return map from the last event, first as if nothing slid.
+/// Adds a segment without a bond: one return map from the last event, first as if nothing slid.
 template <int dim>
 void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, const double thickness,
                   LinkResponse<dim>& sum, SegmentResponse<dim>& segment)
@@ -241,8 +241,8 @@ void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, 
   sum.derivative += area * shear_rows.transpose() * shear_rate;
 }
 
-/// With a bond that has softened, and softens no further before the next event: between bonded and unbonded, and elastic in
-/// shear.
+/// Adds a segment with a bond that has softened, and softens no further before the next event: between bonded and
+/// unbonded, and elastic in shear.
 template <int dim>
 void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonded_stiffness,
                   const SegmentHistory<dim>& old, const double thickness, LinkResponse<dim>& sum,

@@ -12,8 +12,8 @@ template <int dim>
 struct SegmentHistory
 {
   bool bonded = true;
-  /// Without a bond, or with one that has softened; of a parallel bond, whether it holds or not, the shear force of its contact
-  /// over its area [Pa].
+  /// Shear stress without a bond, or with one that has softened; of a parallel bond, whether it holds or not, the shear
+  /// force of its contact over its area [Pa].
   std::array<double, dim - 1> shear_stress{};
   Memory more{}; ///< of a bond that holds
 

@@ -56,7 +56,7 @@ BondStress bond_stress(const Vector<dim>& stress)
   return {stress[0], stress[0], stress.template tail<dim - 1>().norm()};
 }
 
-/// In space the elements of a face lie by its own tangent.
+/// Axes of a joint; in space the elements of a face lie by its own tangent.
 template <int dim>
 Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
 {

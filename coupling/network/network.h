@@ -51,13 +51,13 @@ public:
   /// Joints first, then pairs that may come into contact.
   const std::vector<Link<dim>>& links() const { return all_links; }
   const std::vector<FaceElement<dim>>& elements() const { return face; }
-  /// Along which a link crosses from box to box, over sides that are not open; [n_links].
+  /// Boxes over which a link crosses sides that are not open, axis by axis; [n_links].
   const std::vector<std::array<int, dim>>& boxes_crossed() const { return boxes; }
   const std::vector<Vector<dim>>& positions() const { return centres; }
   const std::vector<double>& radii() const { return grain_radii; }
   const Tensor<dim>& cell() const { return edges; }
   const Boundary& boundary() const { return its_boundary; }
-  /// On the motions of the grains beside the affine ones.
+  /// Conditions on the motions of the grains beside the affine ones.
   const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return boundary_conditions; }
 
   const AnyJointLaw<dim>& law() const { return joint_law; }
@@ -83,11 +83,11 @@ public:
 
   /// The network with all bonds intact, K x.
   Unknowns apply_bonded(const Unknowns& unknowns) const;
-  /// Nearly its inverse.
+  /// Factor that is nearly the inverse of this network.
   const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
   /// The same with every pair that may come into contact closed: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
-  /// With other stiffnesses of its links, and a small stiffness of loose grains.
+  /// Factor with other stiffnesses of the links, and a small stiffness of loose grains.
   FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double regularising_share,
                                    std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {

@@ -28,7 +28,7 @@ struct SoftenedSegment
   Memory more;
 };
 
-/// Since the RVE was at rest [J], each summed on its own.
+/// Works since the RVE was at rest [J], each summed on its own.
 struct NetworkWork
 {
   double boundary = 0.0; ///< ∫ V σ : dε

@@ -13,7 +13,7 @@ struct StiffnessBounds
   Stiffness<dim> affine;            ///< [Pa]
 };
 
-/// With all bonds intact, of the specimen turned by a rotation.
+/// Bounds with all bonds intact, of the specimen turned by a rotation.
 template <int dim>
 StiffnessBounds<dim> stiffness_bounds(const Specimen<dim>& specimen,
                                       const Tensor<dim>& rotation = Tensor<dim>::Identity())

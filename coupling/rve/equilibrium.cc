@@ -59,7 +59,7 @@ const Configuration<dim>& Equilibrium<dim>::here() const
   return present;
 }
 
-/// At the last event.
+/// Begins again at the last event.
 template <int dim>
 void Equilibrium<dim>::begin_again()
 {

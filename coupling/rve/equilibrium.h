@@ -25,7 +25,7 @@ struct LinkForces
   std::vector<Motion<dim>> values;  ///< in each link's own axes, a pull between its grains positive [N, N m]; [n_links]
   std::vector<LinkTurn<dim>> turns; ///< [n_links]; empty in small strains
 
-  /// On grain 1 of a link, along the axes of the network [N].
+  /// Force on grain 1 of a link, along the axes of the network [N].
   Vector<dim> force(const Link<dim>& link, const std::size_t k) const
   {
     Vector<dim> own = values[k].template head<dim>();
@@ -43,7 +43,8 @@ class Equilibrium
 public:
   Equilibrium(const Network<dim>& network, const NetworkState<dim>& state, const EquilibriumParameters& parameters);
 
-  /// To be called before it relaxes or breaks anything: an intact network takes the kinematics that were asked for.
+  /// Leaves the response of the intact network; to be called before it relaxes or breaks anything. An intact network
+  /// then takes the kinematics that were asked for.
   void leave_intact_response();
 
   /// Begins the search at the position of a state found from the last event, instead of at that event.
@@ -92,7 +93,7 @@ public:
   const Unknowns& unknowns() const { return present.position; }
   unsigned int n_iterations() const { return iterations; }
 
-  /// With bonds and open, stick and slip states frozen as they are [Pa].
+  /// Tangent with bonds and open, stick and slip states frozen as they are [Pa].
   Stiffness<dim> tangent() { return solver.tangent(history, here().balance); }
   /// A number for those states, and for how far a face is closed to a thousandth: where it is the same, so is the tangent.
   std::uint64_t states_of_tangent() const { return feldspar::states_of_tangent(history, here().balance); }

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-/// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
+/// Transition from grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
 /// Forces of the links of a network in small strains, at one of its states.

@@ -43,7 +43,7 @@ public:
 
   const Network<dim>& network() const { return of; }
   bool is_finite() const { return finite; }
-  /// Called once an intact network is to break.
+  /// Switches to finite kinematics; called once an intact network is to break.
   void become_finite();
   /// Motion of a link since rest, with the grains at a position.
   Motion<dim> motion(std::uint32_t link, const Unknowns& at) const;
@@ -70,7 +70,7 @@ public:
   /// may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);
 
-  /// To be called after bonds of its links have been changed.
+  /// Releases loose pairs; to be called after bonds of its links have been changed.
   void release_loose_pairs();
 
   /// Makes this the last event: positions and shear stresses are kept, pairs in contact become active.

@@ -144,7 +144,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
     with.gives_up = gives_up;
     return with;
   };
-  // To the next mark of its own kind, also from where a break was found between two.
+  // An increment goes to the next mark of its own kind, also from where a break was found between two.
   const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
   std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
   next_is_short = false;

@@ -74,7 +74,7 @@ template <int dim>
 class PathRun
 {
 public:
-  /// From rest, or from a state of this network.
+  /// Begins from rest, or from a state of this network.
   PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> legs, const PathParameters& parameters,
           const std::optional<NetworkState<dim>>& begin = std::nullopt);
 

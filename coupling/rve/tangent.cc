@@ -159,7 +159,7 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
       return conjugate_gradients(apply, precondition, right, 0.0, most_iterations, least);
     }).topRows(n_own);
   const UnitUnknowns<dim> forces = apply_tangent(history, at, units);
-  // Without Eigen's blocks, whose size is that of the processor's cache.
+  // The product does without Eigen's blocks, whose size is that of the processor's cache.
   const Stiffness<dim> result =
     units.template leftCols<n>().transpose().lazyProduct(forces.template leftCols<n>()) / network.volume();
   return result.template selfadjointView<Eigen::Upper>(); // to the last bit

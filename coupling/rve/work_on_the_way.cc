@@ -13,7 +13,7 @@ constexpr double work_tolerance = 1e-3;   // of a link: over what is moved on th
 constexpr double least_work = 1e-8;       // of all links together: below this share of what is stored nothing is halved
 constexpr unsigned int most_halvings = 9; // of a way
 
-/// From the last event, for grains and strain apart.
+/// Way of the network from the last event, for grains and strain apart.
 class Way
 {
 public:

@@ -66,7 +66,7 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
           strain_to_rve.transpose() * tried.tangent->value * strain_to_rve};
 }
 
-/// From where Newton's method was last.
+/// Searches an equilibrium from where Newton's method was last.
 template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
                                    const std::function<bool()>& leaves) const
@@ -285,7 +285,7 @@ Tensor<dim> random_turn(Random& random)
     }
 }
 
-/// From r, θ, z to x, y, z.
+/// Rotation from r, θ, z to x, y, z.
 template <int dim>
 Tensor<dim> local_axes(const fem::PointPlace& place)
 {

@@ -16,7 +16,7 @@ constexpr double width_beyond = 1e-3;
 constexpr double stress_beyond = 1e-4;
 constexpr double time_beyond = 1e-9;
 
-/// From one value towards another, by a step at most.
+/// Value on the way from one value towards another, by a step at most.
 double towards(const double from, const double to, const double step)
 {
   return from + std::clamp(to - from, -step, step);
