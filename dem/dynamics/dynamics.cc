@@ -289,7 +289,7 @@ Circumstances Dynamics<dim>::circumstances() const
     fastest = std::max(fastest, std::abs(wall.velocity));
   for (std::size_t g = 0; g < grips.size(); ++g)
     fastest = std::max(fastest, grips.velocity(g).norm());
-  // At the start the contacts have not been looked for.
+  // Contacts have not been searched for at the start.
   const double largest =
     started ? largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set) : 0.0;
   return {steps, dt, dt * std::sqrt(largest), fastest,

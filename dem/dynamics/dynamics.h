@@ -90,7 +90,8 @@ public:
   /// Sum of contact forces on a grip's grains [N].
   Vector<dim> grip_force(const std::size_t grip) const { return grips.force(grip, bodies()); }
 
-  /// Since the start; kinetic energy and works centred at the current time, so that they balance (theory.md §2.3).
+  /// Energies since the start; kinetic energy and works centred at the current time, so that they balance (theory.md
+  /// §2.3).
   Energies energies() const;
   /// Mean unbalanced force of the free grains over the mean contact force; 0 without contacts.
   double unbalanced_force_ratio() const;
@@ -100,8 +101,8 @@ public:
   Tensor<dim> mean_stress() const;
   /// The stress of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
   std::vector<Tensor<dim>> grain_stresses() const;
-  /// In a periodic body the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
-  /// where forces balance.
+  /// Mean stress of a periodic body from the contacts across the sides of the cell alone: the mean of the tractions. It
+  /// equals the other mean where forces balance.
   Tensor<dim> boundary_stress() const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
   double force_across(double height) const;

@@ -56,7 +56,7 @@ struct LoadInSpace
   }
 };
 
-/// On the grain at a place of the order.
+/// Load on the grain at a place of the order.
 template <int dim>
 Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
 {

@@ -28,7 +28,7 @@ public:
   {
     return grain < own_grains ? grain : images[grain - own_grains].owner;
   }
-  /// From the owner of a grain to the grain [m].
+  /// Displacement from the owner of a grain to the grain [m].
   Vector<dim> way_to(const std::uint32_t grain) const
   {
     return grain < own_grains ? Vector<dim>::Zero().eval() : shift(images[grain - own_grains], edges);

@@ -22,7 +22,7 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   resize<dim>(k, n_bodies);
   Components<n_rotations<dim>> k_turning;
   resize<n_rotations<dim>>(k_turning, n_bodies);
-  // At `arm` from the centre of a grain along the normal; negative: against it.
+  // Adds a contact at `arm` from the centre of a grain along the normal; negative: against it.
   const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
                        const double arm, const double k_bending, const double k_twist) {
     std::uint32_t i = grain;

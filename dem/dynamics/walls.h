@@ -37,7 +37,7 @@ struct Wall
   double middle() const { return 0.5 * (extent[0] + extent[1]); }
 };
 
-/// Along which a plate may end: the last axis, or the first for one that lies across the last.
+/// Axis along which a plate may end: the last axis, or the first for one that lies across the last.
 template <int dim>
 int extent_axis(const Wall& wall)
 {
@@ -51,7 +51,7 @@ Wall round_wall(const Specimen<dim>& specimen)
   return {.side = -1.0, .position = 0.5 * specimen.size[0], .round = true};
 }
 
-/// Along which the coordinate of a wall grows.
+/// Direction in which the coordinate of a wall grows.
 template <int dim>
 Vector<dim> wall_direction(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
 /// Coordinate of a grain across the wall [m].

@@ -30,7 +30,7 @@ struct PolygonHole
   std::vector<Vector<2>> corners; ///< three at least [m]
 };
 
-/// In space only.
+/// Hole in space only.
 struct SphereHole
 {
   static constexpr std::string_view name = "sphere";

@@ -46,7 +46,7 @@ struct Neighbour
   double stiffness;  ///< of the contact, radii as drawn [N/m]
 };
 
-/// Over grains and contacts, the growth of the radii included.
+/// Sums over grains and contacts, the growth of the radii included.
 struct Sums
 {
   double power = 0.0;      ///< force times velocity

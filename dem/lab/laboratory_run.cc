@@ -152,7 +152,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     stage_walk.begin(moment());
 }
 
-/// Along the last axis, tension positive.
+/// Strain along the last axis, tension positive.
 template <int dim>
 double LabTest<dim>::axial_strain() const
 {

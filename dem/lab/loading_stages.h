@@ -14,7 +14,8 @@ struct LoadingStage
 {
   std::optional<double> axial_strain = {}; ///< at its end
   std::optional<double> axial_stress = {}; ///< at its end; of a hold: throughout [Pa]
-  /// At its end, of the gauge since the seating; the platens bring the specimen there. A widening is negative.
+  /// Lateral strain at its end, of the gauge since the seating; the platens bring the specimen there. A widening is
+  /// negative.
   std::optional<double> lateral_strain = {};
   std::optional<double> duration = {};    ///< of a hold; none: it ends at its strain or stress [s]
   double confining_pressure = 0.0;        ///< at its end [Pa]

@@ -66,7 +66,7 @@ private:
   Real fall;     ///< k_n w [Pa]
 };
 
-/// Between the response with the bond and that without: (s.3).
+/// Value between the response with the bond and that without: (s.3).
 template <typename Real>
 Real between(const Real& damage, const Real& bonded, const Real& unbonded)
 {

@@ -14,7 +14,7 @@ enum class Coring
   sides_only  ///< packed between the walls of its ends and periodic sideways, then cut at the sides
 };
 
-/// Without an entry, in three dimensions.
+/// Porosity without an entry, in three dimensions.
 inline constexpr double porosity_in_space = 0.36;
 
 /// The body of grains to be made (or read).

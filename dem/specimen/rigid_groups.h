@@ -46,7 +46,7 @@ public:
   /// The group that a grain is a part of.
   std::uint32_t body_of(const std::uint32_t grain) const { return of[grain]; }
 
-  /// They move as grains do: mass, motion, forces. Their radii are those of discs of their volumes.
+  /// Bodies move as grains do: mass, motion, forces. Their radii are those of discs of their volumes.
   Grains<dim> bodies;
 
   /// An impulse m Δv at the centre of a member [m/s]: pushes its group and turns it.

@@ -38,7 +38,7 @@ struct Specimen
   SpecimenReport report;
   std::vector<Flaw<dim>> flaws; ///< that have been put in
 
-  /// Along an axis; where it does not, the body has ends.
+  /// Returns whether the specimen repeats itself along an axis; where it does not, the body has ends.
   bool repeats(const int axis) const { return periodic && !(walled_ends && axis == dim - 1); }
 
   /// The edges of the cell as columns [m]: those of the box; along walled ends so long that no image comes near the body.

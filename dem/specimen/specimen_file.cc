@@ -280,7 +280,7 @@ void require(const bool holds, const char* otherwise)
     throw InputError(otherwise);
 }
 
-/// In [low, high]; false for what is not a number.
+/// Returns whether a value lies in [low, high]; false for what is not a number.
 bool lies(const double value, const double low, const double high) { return value >= low && value <= high; }
 
 template <typename Values>

@@ -79,7 +79,7 @@ struct JointTables
   PackedRow half_radius_difference{state, Row::half_radius_difference}; ///< ½(R1 - R2) [m]
   PackedRow rest_distance{state, Row::rest_distance}; ///< centre distance at which the gap is zero [m]
 
-  /// From grain 1 to grain 2.
+  /// Normal from grain 1 to grain 2.
   PackedComponents<dim> normal = packed_components<dim>(state, Row::normal);
   /// t_1 in space, carried with the contact plane; t_2 = n × t_1.
   PackedComponents<n_tangents> tangent = packed_components<n_tangents>(state, Row::tangent);
@@ -105,11 +105,11 @@ struct JointTables
   static constexpr std::size_t first_couple_1 = dim;
   static constexpr std::size_t first_couple_2 = first_couple_1 + n_rotations<dim>;
 
-  /// On grain 2 [N].
+  /// Force on grain 2 [N].
   PackedComponents<dim, 1> force = packed_components<dim>(response, 0);
-  /// On grain 1 [N m].
+  /// Couple on grain 1 [N m].
   PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(response, first_couple_1);
-  /// On grain 2 [N m].
+  /// Couple on grain 2 [N m].
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(response, first_couple_2);
 };
 

@@ -27,7 +27,7 @@ public:
   bool regroup(Joints<dim>& joints);
 
 private:
-  /// In the order in which they are put.
+  /// Kinds of joints in the order in which they are put.
   enum Bonds : std::uint8_t
   {
     all,

@@ -161,7 +161,7 @@ std::vector<EndedSmoothJoint> remove_ended_smooth_joints(Specimen<dim>& body)
     const double radius_1 = grains.radius[joint.grain_1];
     const double radius_2 = grains.radius[joint.grain_2];
     const double reach = radius_1 + radius_2;
-    // Along a flaw the sides stay smooth however far they have slid; the opening alone ends it.
+    // Sides along a flaw stay smooth however far they have slid; the opening alone ends it.
     const bool is_lost = (at<dim>(grains.position, joint.grain_2) - at<dim>(grains.position, joint.grain_1)).norm() >
                            reach + std::min(radius_1, radius_2) &&
                          !std::binary_search(body.kept_apart.begin(), body.kept_apart.end(), joint.ends());

@@ -75,8 +75,8 @@ void start_bending(Dynamics<dim>& dynamics, const double span, const double spee
   const double middle = 0.5 * dynamics.specimen().size[0];
   for (std::uint32_t i = 0; i < grains.size(); ++i)
     {
-      // From the lower roller over half the span: the deflection of a simple beam under a load in its middle; straight
-      // beyond the roller.
+      // The motion from the lower roller over half the span is the deflection of a simple beam under a load in its
+      // middle; straight beyond the roller.
       const double s = 1.0 - std::abs(grains.position[0][i] - middle) / (0.5 * span);
       const double share = s > 0.0 ? 0.5 * s * (3.0 - s * s) : 1.5 * s;
       dynamics.push(i, -share * speed * Vector<dim>::Unit(dim - 1));

@@ -10,8 +10,8 @@ namespace feldspar
 {
 namespace
 {
-/// Between the grips: they hold the width of the plate, which changes K by 1.5 % at most from this length on, in the solid
-/// of tests/verification/cracked_plate_test.cc.
+/// Length between the grips over the width. The grips hold the width of the plate, which changes K by 1.5 % at most
+/// from this length on, in the solid of tests/verification/cracked_plate_test.cc.
 constexpr double least_length_over_width = 1.2;
 
 /// K_I / (σ √(πa)) of a crack of the length 2 a in the middle of a plate of the width W, by 2 a / W: Feddersen's root of the
