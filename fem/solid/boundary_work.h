@@ -10,7 +10,7 @@
 /// changed their structure. Between two vertices forces and displacements are taken to go in proportion (trapezoidal rule).
 namespace feldspar::fem
 {
-/// Since the solid was at rest [J]; in the plane per metre of thickness.
+/// Works since the solid was at rest [J]; in the plane per metre of thickness.
 struct BoundaryWork
 {
   double reactions = 0.0; ///< of what holds displacements, times their travel

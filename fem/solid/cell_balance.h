@@ -47,8 +47,8 @@ private:
   std::vector<std::size_t> along_curve;    ///< the cells of this rank in its order
   std::vector<unsigned int> rank_at_first; ///< of each cell of this rank
   double cost_of_moving = 0.01;            ///< the last time, at first a guess [s]
-  /// Since the last balance, what all points of this rank took in each round, and thereof those of each rank's first
-  /// cells [s].
+  /// Times since the last balance that all points of this rank took in each round, and thereof those of each rank's
+  /// first cells [s].
   std::vector<double> rounds;
   std::vector<double> rounds_at_first;
   std::vector<double> seconds_noted; ///< of each cell of this rank, up to the last round

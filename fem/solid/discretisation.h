@@ -60,9 +60,9 @@ struct Discretisation
   NodalVector ghosted_vector() const { return NodalVector(owned, relevant, communicator()); }
 
   using Integrand = std::function<double(const dealii::Tensor<1, dim>&, const dealii::Tensor<1, dim>&)>;
-  /// Over a boundary, of a function of the displacement and the outer normal. Collective.
+  /// Integral over a boundary, of a function of the displacement and the outer normal. Collective.
   double integral(const std::string& boundary, const NodalVector& displacement, const Integrand& integrand) const;
-  /// Between the boundary at rest and as it is displaced, outwards positive [m³]. Collective.
+  /// Volume between the boundary at rest and as it is displaced, outwards positive [m³]. Collective.
   double swept_volume(const std::string& boundary, const NodalVector& displacement) const;
 
   const SampleMesh<dim>& mesh;

@@ -29,7 +29,7 @@ public:
     SolidState<material_dim> state; ///< in equilibrium if it converged
   };
 
-  /// From an accepted state with the pressures that are wanted. Collective.
+  /// Searches from an accepted state with the pressures that are wanted. Collective.
   Outcome run(SolidConstraints constraints, const SolidState<material_dim>& start);
 
 private:

@@ -44,10 +44,10 @@ public:
   /// reject().
   Balance rebalance();
 
-  /// From the next solve on.
+  /// Limits the events, from the next solve on.
   void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
 
-  /// Against a boundary [Pa]; zero where none has been applied.
+  /// Pressure against a boundary [Pa]; zero where none has been applied.
   double pressure(const std::string& boundary) const;
 
   /// Turns the force that holds a displacement of a boundary into a pressure on it, so that a free plate may take over
@@ -58,12 +58,12 @@ public:
   /// the plane per metre of thickness; in r-z around the whole circle.
   double reaction(const std::string& boundary, unsigned int component) const;
 
-  /// On the way from rest to here.
+  /// Work on the way from rest to here.
   const BoundaryWork& boundary_work() const { return accepted->work; }
 
   /// Mean over the boundary [m].
   double mean_displacement(const std::string& boundary, unsigned int component) const;
-  /// Between the boundary at rest and as it is displaced, outwards positive [m³].
+  /// Volume between the boundary at rest and as it is displaced, outwards positive [m³].
   double swept_volume(const std::string& boundary) const;
 
   /// The area of a boundary [m²].
@@ -80,13 +80,13 @@ public:
   const std::vector<std::string>& field_names() const { return material.field_names; }
   MPI_Comm communicator() const { return elements.communicator(); }
 
-  /// On all ranks.
+  /// Number of points on all ranks.
   std::uint64_t n_points() const { return elements.n_cells() * n_points_per_cell(); }
 
   // The points of this rank, in the order of its cells, n_points_per_cell() each.
   unsigned int n_points_per_cell() const { return elements.n_points_per_cell(); }
   const MaterialPoints<material_dim>& material_points() const { return points.materials; }
-  /// Among all points; the same for any number of ranks.
+  /// Number of a point among all points; the same for any number of ranks.
   std::uint64_t number_of_point(const std::size_t i) const
   {
     return places()[i].cell_number * n_points_per_cell() + places()[i].quadrature_point;
