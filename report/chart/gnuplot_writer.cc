@@ -307,8 +307,8 @@ int further_height(const Chart& chart, const int width)
 
 std::string gnuplot_text(const std::string_view text)
 {
-  // Between single quotes gnuplot reads only the quote itself as anything but text. Doubling it is not enough: of
-  // three in a row the second ends the string. So the typographic one stands for it.
+  // Gnuplot reads everything between single quotes as text, except the quote itself. Doubling it is not enough: of
+  // three in a row the second ends the string. Therefore the typographic quote stands for it.
   std::string result = "'";
   for (const char c : printable(text))
     {

@@ -107,7 +107,7 @@ data describe(const Table& table)
   data result = data::type::object;
   result.set("id", "table_" + table.name);
   result.set("caption", table.caption);
-  // In the page itself: a link into its folder would be lost where it is mailed.
+  // The table is in the page itself: a link into its folder would be lost where it is mailed.
   result.set("csv", "data:text/csv;charset=utf-8;base64," + base64(as_csv(table)));
   result.set("file", table.name + ".csv");
   result.set("header", list(header));
@@ -240,7 +240,7 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   return result;
 }
 
-/// With pictures, and with PDFs of them, of so many bytes at most.
+/// Renders a page with pictures, and with PDFs of them, of so many bytes at most.
 std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room,
                      const std::size_t room_for_pdf)
 {

@@ -84,10 +84,10 @@ struct EnvelopePlot
     points.push_back(std::move(marks));
   }
 
-  /// Between two confinements [Pa].
+  /// Adds a curve between two confinements [Pa].
   void add_curve(const std::function<double(double)>& sigma_1, const double begin, const double end, ChartSeries looks)
   {
-    // At its beginning the bracket is 0, or just below it.
+    // The bracket is 0, or just below it, at the beginning of the curve.
     for (const double sigma_3 : abscissas(begin + 1e-12 * std::abs(begin), end))
       if (const double value = sigma_1(sigma_3); std::isfinite(value))
         looks.points.push_back({sigma_3 / mega, value / mega});
@@ -242,7 +242,7 @@ std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
   return fits;
 }
 
-/// In the colour of their series.
+/// Adds the fits in the colour of their series.
 void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const std::string& of_colour)
 {
   for (const auto& [fit, label, width, its_dashes, is_intact] : drawn_fits(envelopes))

@@ -37,7 +37,7 @@ struct Picture
   std::string live() const;
 };
 
-/// Who waits for pictures.
+/// Observer that waits for pictures.
 struct DrawingWatch
 {
   /// Asked again and again: whether no more are to be drawn.

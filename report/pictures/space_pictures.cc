@@ -49,7 +49,7 @@ struct Box
         }
   }
 
-  /// With room for what bulges, not for what flew away.
+  /// Returns whether a point is shown: with room for grains that bulge, not for those that flew away.
   bool shows(const std::array<double, 3>& point) const
   {
     for (std::size_t c = 0; c < 3; ++c)

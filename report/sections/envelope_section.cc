@@ -59,7 +59,8 @@ bool is_undetermined(const Estimate& parameter)
   return parameter.half_width.value && *parameter.half_width.value >= std::abs(parameter.value);
 }
 
-/// Without freedom there is nothing to be judged, and parameters that the points leave open are not admissible.
+/// Verdict on a fit. Without freedom there is nothing to be judged, and parameters that the points leave open are not
+/// admissible.
 std::string verdict_on(const FitQuality& quality, const std::vector<Estimate>& parameters, const std::string& otherwise)
 {
   if (quality.degrees_of_freedom == 0)

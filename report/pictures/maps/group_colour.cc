@@ -52,7 +52,7 @@ std::map<std::uint32_t, std::set<std::uint32_t>> neighbours_of(const std::vector
 
 std::vector<unsigned int> group_colours(const std::vector<GrainPicture>& grains)
 {
-  // In the order of number each takes the first tone that fewest of its neighbours have.
+  // Groups in the order of number take the first tone that fewest of their neighbours have.
   std::map<std::uint32_t, std::size_t> tone;
   for (const auto& [group, beside] : neighbours_of(grains))
     {

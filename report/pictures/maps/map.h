@@ -101,6 +101,6 @@ struct MapStage
 /// Crack initiation and peak, where there are any, and the end.
 std::vector<MapStage> map_stages(const TestRecord& record);
 
-/// At which stages: "at the peak and at the end".
+/// Stages in words: "at the peak and at the end".
 std::string in_words(const std::vector<MapStage>& all);
 } // namespace feldspar
