@@ -113,7 +113,7 @@ struct IndexedTime
   std::map<std::string, Place> fields;
 };
 
-/// In their order, one at least.
+/// Times in an index in their order, one at least.
 std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
   const Xml xml = XmlReader::read(index);

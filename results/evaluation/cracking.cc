@@ -22,7 +22,7 @@ std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
   return std::size_t(row - branch.rows.begin());
 }
 
-/// In a grain-based model, cracks on grain boundaries.
+/// Number of cracks on grain boundaries, in a grain-based model.
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
   const auto& cracks = branch.record.cracks;

@@ -105,7 +105,7 @@ std::string table(const std::vector<Row>& rows)
   return result;
 }
 
-/// With the tension point, and more points than parameters; null if there is none.
+/// Fit with the tension point and more points than parameters; null if there is none.
 const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const HoekBrownForm form)
 {
   for (const auto& pair : envelopes.hoek_brown)

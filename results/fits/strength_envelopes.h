@@ -65,6 +65,7 @@ std::vector<FitRecord> records(const StrengthEnvelopes& envelopes);
 /// For a terminal: parameters, R², RMS, fitted against measured strengths, and the remark.
 std::string as_text(const StrengthEnvelopes& envelopes);
 
-/// In words: what is admissible, and why the paper's form says more than the measured uniaxial strength, if it does.
+/// Remark in words: what is admissible, and why the paper's form says more than the measured uniaxial strength, if it
+/// does.
 std::string remark(const StrengthEnvelopes& envelopes);
 } // namespace feldspar

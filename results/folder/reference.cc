@@ -83,7 +83,7 @@ std::optional<Property> property_of(const std::string_view name, const std::vect
   return std::nullopt;
 }
 
-/// In the list of what a reference may give.
+/// Keys of other tests in the list of what a reference may give.
 std::string keys_of_others(const std::vector<TestKind>& kinds)
 {
   std::string keys;
@@ -232,7 +232,7 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
   return points;
 }
 
-/// From two, the range in which 95 % of further tests would lie holds nearly every rock.
+/// Fewest tests for a range. From two, the range in which 95 % of further tests would lie holds nearly every rock.
 constexpr std::size_t fewest_for_a_range = 3;
 
 /// Means of the single tests under the names of mean strengths, where those are not given themselves.

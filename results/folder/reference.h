@@ -56,7 +56,7 @@ struct ReferenceSource
   std::vector<EnvelopePoint> triaxial; ///< single tests, also unconfined ones
   StrengthEnvelopes fitted;            ///< to its strengths
 
-  /// In units of `scale`; none if it is not there.
+  /// Value of a key in units of `scale`; none if it is not there.
   std::optional<ReferenceValue> find(const std::string& key, double scale = 1.0) const;
   /// Strengths of the source under confinement by rising pressure: the single tests, and `strength_at_5_MPa` and so on
   /// where there are none [Pa].

@@ -15,7 +15,7 @@
 /// them apart, because walls take joints.
 namespace feldspar
 {
-/// Over the specimens, or the representative volumes, of a series.
+/// Means over the specimens, or the representative volumes, of a series.
 struct BodyFigures
 {
   std::string label;

@@ -27,7 +27,7 @@ struct Provenance
   std::string processor;
   unsigned int n_threads = 1;
 
-  /// With its unit; empty where the input is not known or has no such entry.
+  /// Value of an entry with its unit; empty where the input is not known or has no such entry.
   std::string value_of(const std::string& section, const std::string& entry) const;
 };
 
@@ -55,7 +55,7 @@ struct FinishedTest
 
 bool any_has_flaws(const std::vector<FinishedTest>& tests);
 
-/// With the figures read off its record.
+/// A finished test, with the figures read off its record.
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
                       std::vector<VariantSetting> settings = {});
 } // namespace feldspar

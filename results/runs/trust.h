@@ -73,7 +73,7 @@ struct RockTests
   TestsOfRock tests;
 };
 
-/// In the order in which the rocks come.
+/// Tests of each rock, in the order in which the rocks come.
 std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests);
 
 /// The checks for a terminal: of each measure its worst value, the bound, and how many tests are out of it.
