@@ -172,7 +172,7 @@ public:
     });
   }
 
-  /// None where it is not given.
+  /// Value of at least 0; none where it is not given.
   std::optional<double> from_zero(const std::string_view word, const Dimension* const dimension) const
   {
     if (!has(word))
@@ -260,7 +260,7 @@ Shape read_slot(const Quantities& given)
 constexpr std::array<std::string_view, 7> words_of_smooth_sides{
   "normal-stiffness", "shear-stiffness", "friction", "dilation", "tensile-strength", "cohesion", "friction-angle"};
 
-/// None of a flaw whose joints keep their law.
+/// Smooth sides of a flaw; none if its joints keep their law.
 std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
 {
   if (!given.says("smooth"))

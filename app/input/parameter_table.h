@@ -39,7 +39,7 @@ std::vector<std::string_view> section_names();
 /// The entries of a section in the order of the table; none if there is no such section.
 std::vector<std::string_view> entry_names(std::string_view section);
 
-/// Null if there is none of that name.
+/// Parameter of that name; null if there is none.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
 
 /// Returns whether a flaw or mineral grains put smooth joints into the rock.

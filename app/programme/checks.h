@@ -47,9 +47,9 @@ void check_cell(const Specimen<dim>& specimen, std::string_view needed_by);
 /// Refuses what an RVE cannot take that stands where it stood in its sample.
 void check_rve_out_of_sample(const Input& input);
 
-/// For `feldspar lab`.
+/// Checks an input of `feldspar lab`.
 void check_laboratory_input(const Input& input, const std::filesystem::path& input_file);
 
-/// For `feldspar rve`.
+/// Checks an input of `feldspar rve`.
 void check_rve_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar

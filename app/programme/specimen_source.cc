@@ -32,7 +32,7 @@ std::string rock(const Input& input)
   return text;
 }
 
-/// Each by the values that all variants on it share.
+/// Names of rocks, each by the values that all variants on it share.
 std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
                                         const std::vector<std::vector<std::size_t>>& of_rock)
 {

@@ -14,7 +14,7 @@ class StageLength
 public:
   StageLength(const TestParameters& parameters, double modulus_of_body);
 
-  /// Each row of its curve, from the first one on.
+  /// Takes each row of its curve, from the first one on.
   void follow(const CurveSample& row);
 
   double gone() const;
