@@ -94,7 +94,8 @@ public:
     return FactorisedNetwork<dim>(all_links, number_of_grains, std::move(conditions), stiffness_of,
                                   regularising_share * stiffness_scale);
   }
-  /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
+  /// Forces of each motion times the mean stiffness of its kind; strains give none. They are a scale for motions that
+  /// have no stiffness of their own.
   Unknowns regularising_forces(const Unknowns& unknowns) const;
 
   // The intact response: while all segments hold and no pair comes into contact, everything is linear in the strain.
@@ -104,7 +105,7 @@ public:
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
   /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
-  /// For a law whose bonds carry the normal and shear stress of their segment, as all do now.
+  /// Response to unit strains, for a law whose bonds carry the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
   /// Returns whether under a linear law no pair without a face can come into contact at this strain: with all bonds

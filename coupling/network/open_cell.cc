@@ -32,7 +32,7 @@ std::array<int, dim> difference(std::array<int, dim> boxes, const std::array<int
   return boxes;
 }
 
-/// For each joint over an open side the image that it holds, out of two: first those that most joints can hold.
+/// Image that each joint over an open side holds, out of two: first those that most joints can hold.
 template <int dim>
 std::map<std::size_t, PeriodicImage<dim>> images_held(
   const std::map<std::size_t, std::array<PeriodicImage<dim>, 2>>& candidates)

@@ -18,7 +18,7 @@ double opening_at(const Network<dim>& network, const NetworkHistory<dim>& histor
   return element_rows(network.elements()[i], network.links()[link].half_length).row(0) * history.motion(link, position);
 }
 
-/// Nothing, of one that has not.
+/// History of a segment that has softened; null if it has not.
 template <int dim>
 const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, const std::uint32_t link,
                                             const std::uint32_t i)

@@ -63,7 +63,7 @@ public:
   virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
   virtual Energies energies() const = 0;                      ///< NaN where the material does not know them
   virtual std::uint64_t n_damaged_points() const = 0;
-  /// None where the point is another rank's. Throws InputError where it has no grains.
+  /// RVE of a point; none where the point is another rank's. Throws InputError where it has no grains.
   virtual std::optional<std::variant<SampleRve<2>, SampleRve<3>>> rve(std::uint64_t point) const = 0;
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
