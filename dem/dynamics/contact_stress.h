@@ -22,7 +22,7 @@ template <int dim>
 std::vector<Tensor<dim>> grain_stresses(const Specimen<dim>& body, const Touches<dim>& touches,
                                         const Walls<dim>& walls);
 
-/// For a periodic body, the same from the contacts across the sides of the cell alone.
+/// Mean stress of a periodic body from the contacts across the sides of the cell alone.
 template <int dim>
 Tensor<dim> boundary_stress(const Specimen<dim>& body, const Touches<dim>& touches, const Images<dim>& images);
 

@@ -47,7 +47,7 @@ public:
   /// Sets off at the first row of the curve.
   void begin(const StageMoment& now);
 
-  /// Asked before each step.
+  /// Demand of the present stage; to be called before each step.
   StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;
   /// Returns whether the lateral strain controls a stage of the table: moments must then have it.

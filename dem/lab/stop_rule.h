@@ -16,7 +16,7 @@ struct StopRule
   {
   }
 
-  /// For a body that swings at first: its test does not end before a bond has broken, except at a wanted strain.
+  /// True for a body that swings at first: its test does not end before a bond has broken, except at a wanted strain.
   bool needs_crack = false;
 
   /// Takes the next row.

@@ -177,7 +177,7 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     law.stored_energy(face, elements, 0.0, rotation, state_of)
     } -> std::same_as<double>;
 
-  // For the time step: no state of the face is stiffer.
+  // Springs for the time step: no state of the face is stiffer.
   {
     law.stiffest(face)
     } -> std::same_as<FaceSprings>;
