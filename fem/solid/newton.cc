@@ -174,7 +174,7 @@ auto NewtonSearch<dim, material_dim>::over_points(const Work& work) -> Round
   return round;
 }
 
-/// False where a point of any rank has no response.
+/// Updates the points; returns false where a point of any rank has no response.
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::update_points()
 {
@@ -222,7 +222,7 @@ double NewtonSearch<dim, material_dim>::correct(const NodalVector& correction)
   return 0.0;
 }
 
-/// Empty where there is none.
+/// Returns the next correction; empty where there is none.
 template <int dim, int material_dim>
 std::optional<NodalVector> NewtonSearch<dim, material_dim>::next_correction(const SolidConstraints& constraints,
                                                                             const bool boundary_moves)

@@ -36,8 +36,9 @@ struct SolidParameters
   /// Called after each iteration and cascade, on every rank. An exception of it ends the solve; the accepted state
   /// stays.
   std::function<void(const NewtonReport&)> watch = [](const NewtonReport&) {};
-  /// Asked before each point, by any thread of any rank: a round over the points of a large sample takes long. Where it says
-  /// so, or a point throws GivenUp, the round is left and `watch` called on every rank, which is to throw. Empty: never.
+  /// Called before each point, by any thread of any rank: a round over the points of a large sample takes long. Where
+  /// it returns true, or a point throws GivenUp, the round is left and `watch` called on every rank, which is to throw.
+  /// Empty: never.
   std::function<bool()> gives_up = {};
 };
 } // namespace feldspar::fem

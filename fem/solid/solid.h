@@ -35,8 +35,8 @@ public:
 
   /// The state of the cells of this rank.
   StoredSolid stored() const;
-  /// Each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of another mesh;
-  /// the solid is then unusable.
+  /// Restores each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of
+  /// another mesh; the solid is then unusable.
   void restore(const StoredSolid& stored);
 
   /// Distributes the cells to the ranks anew, by the time each took, if the loss of the present distribution would have
@@ -108,7 +108,7 @@ private:
   SolidPoints<material_dim> points;
   CellBalance<dim> balance;
 
-  /// Made anew, never assigned, where cells move: PETSc assigns only where ranks have as many entries of both.
+  /// State made anew, never assigned, where cells move: PETSc assigns only where ranks have as many entries of both.
   std::optional<SolidState<material_dim>> accepted;
   std::optional<SolidState<material_dim>> tried; ///< since the last solve()
 

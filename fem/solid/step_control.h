@@ -50,7 +50,7 @@ public:
       size = std::min(1.5 * size, largest);
   }
 
-  /// False when the step cannot be cut any more; then it stays as it is.
+  /// Cuts the step. Returns false when it cannot be cut any more; then it stays as it is.
   bool cut()
   {
     n_in_a_row = 0;
