@@ -315,7 +315,7 @@ Pictures envelope_pictures(const SeriesAmong& of)
     "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
     plotted.chart())};
-  // Near the uniaxial test, where the forms differ.
+  // A picture near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3() > 0.0)
     pictures.push_back(
       envelope_picture("envelope_near_uniaxial" + ending, "The same near the uniaxial and the tension test",

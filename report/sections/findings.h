@@ -44,7 +44,7 @@ struct Findings
   /// A block that says which series pictures show, and `others`, a sentence; empty where all are there.
   std::vector<PageBlock> remark_on_pictures(const std::string& others) const;
 
-  /// Nothing of a single series, else something that tells the files of the n-th apart.
+  /// Text that tells the files of the n-th series apart; empty for a single series.
   std::string ending_of_files(std::size_t n) const;
 
   /// The heading of what belongs to the n-th of several series; an empty block of a single one.

@@ -30,7 +30,7 @@ void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, 
   add_mean(chart, std::move(mean), deviations);
 }
 
-/// Zero in every row.
+/// Returns whether a value is zero in every row.
 template <typename Value>
 bool is_nowhere(const SeriesGroup& of, const Value& value)
 {

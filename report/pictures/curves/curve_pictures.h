@@ -55,8 +55,8 @@ struct GroupPictures
   std::vector<Picture> pictures;
 };
 
-/// For each test of the programme: stress against axial, lateral and volumetric strain, the count of cracks, the
-/// partition of the energy and the crack rate, each over all series. Means as lines, standard deviations as bands,
+/// Pictures of each test of the programme: stress against axial, lateral and volumetric strain, the count of cracks,
+/// the partition of the energy and the crack rate, each over all series. Means as lines, standard deviations as bands,
 /// single tests thin behind them.
 std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all);
 } // namespace feldspar
