@@ -92,7 +92,7 @@ struct TestCase
 /// The name used in result files: the kind, and of a confined test the pressure.
 std::string name(const TestCase& test);
 
-/// Each kind, and each confined one under each of the pressures [Pa], in this order.
+/// Test cases: each kind, and each confined one under each of the pressures [Pa], in this order.
 std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements);
 
 /// Returns whether one of the kinds takes a confining pressure.

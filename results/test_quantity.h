@@ -115,7 +115,7 @@ struct TestQuantity
   using Member = std::variant<Figure TestResults::*, double TestResults::*, std::uint64_t TestResults::*,
                               double TestRecord::*, double SpecimenReport::*, std::uint64_t SpecimenReport::*,
                               double RunBookkeeping::*, std::uint64_t RunBookkeeping::*>;
-  /// None of a number that the test counts or knows itself.
+  /// Evaluation of a quantity; none of a number that the test counts or knows itself.
   using Evaluation = std::variant<std::monostate, Figure (*)(const RisingBranch&), Figure (*)(const TestRecord&)>;
 
   Member member;
