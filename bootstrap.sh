@@ -104,8 +104,8 @@ check_format()
   git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
 }
 
-# Of laboratory/ and dem/, by the units that build/asan joined, and the files that it did not join as one more: file by file takes six times as
-# long, nearly all of it for headers that the files share.
+# Checks the lint of laboratory/ and dem/, by the units that build/asan joined, and the files that it did not join as one
+# more: file by file takes six times as long, nearly all of it for headers that the files share.
 check_lint()
 {
   say "checking the lint"
@@ -117,7 +117,7 @@ check_lint()
       --checks=-bugprone-suspicious-include
 }
 
-# Of what build/asan leaves out.
+# Reads with clang the units that build/asan leaves out.
 check_other_compiler()
 {
   say "reading the rest with clang"

@@ -41,7 +41,8 @@ std::vector<std::string> names_of_commands_with_input()
 
 constexpr std::size_t longest_line = 2000; // of standard error, whatever it repeats
 
-/// On standard error in one printable line, without an exception, should it lie on the disk that is full.
+/// Prints on standard error in one printable line, without an exception if standard error lies on the disk that is
+/// full.
 void say(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -188,7 +189,7 @@ private:
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
   }
 
-  /// On this command; null: on the program.
+  /// Prints the help on this command; null: on the program.
   void print_help(const CLI::App* const command) const
   {
     print_result(
@@ -230,7 +231,7 @@ private:
     });
   }
 
-  /// With what a user would type.
+  /// Adds examples as a user would type them.
   void add_examples()
   {
     for (const auto& [command, example] :
@@ -312,8 +313,8 @@ private:
   std::function<int()> chosen;
 };
 
-/// Where a standard stream is closed, the first file to be opened would take its number, and what is printed would go
-/// into it.
+/// Opens standard streams that are closed: the first file to be opened would take the number of such a stream, and what
+/// is printed would go into it.
 void open_standard_streams()
 {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

@@ -23,7 +23,7 @@ void transfer_flag(Archive& archive, const std::string& name, bool& flag)
   flag = stored != 0;
 }
 
-/// As they lie in memory, for processes of the same program.
+/// Bytes of the values as they lie in memory, for processes of the same program.
 template <typename T>
 std::string bytes_of(const std::vector<T>& values)
 {

@@ -57,7 +57,8 @@ struct EntryFlags
 {
   bool varies = false;           ///< may take one value after the other (section Variants)
   bool of_specimen = false;      ///< a part of the specimen's identity: genesis reads it
-  std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. Of other bodies it must keep its default
+  std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. In other bodies the entry keeps its
+                                 ///< default
   std::string_view needs = {};   ///< such a body in words, for the error
   bool basic = false;            ///< needed in a first study: the reference shows it before the others
 };

@@ -7,7 +7,7 @@
 
 /// The seal of a file: its length and a checksum (FNV-1a, 64 bits) after its content. HDF5 ignores bytes behind its own
 /// end, so that a sealed file remains one for every other program; unlike the checksums of HDF5's arrays the seal covers
-/// attributes and the library's own tables, whose damage HDF5 may answer with a crash.
+/// attributes and the library's own tables, whose damage HDF5 may react to with a crash.
 namespace feldspar
 {
 /// Occurs in the content of every sealed file, so that a file which lost its seal is not taken for one that had none.

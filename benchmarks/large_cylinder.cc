@@ -34,7 +34,7 @@ long peak_memory_kB()
   return usage.ru_maxrss;
 }
 
-/// Of one step of what calls check() at each [s]; it is left after n_steps.
+/// Time of one step of work that calls check() at each step [s]; the work is left after n_steps.
 template <typename Work>
 double seconds_of_a_step(const Work& work)
 {

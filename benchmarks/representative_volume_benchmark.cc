@@ -6,7 +6,7 @@
 #include <memory>
 
 /// A representative volume of Table 1, some 400 discs or 600 spheres, on one core: what an update costs before and after its
-/// first crack, and what a copy remembers.
+/// first crack, and what a copy keeps.
 namespace feldspar
 {
 namespace

@@ -16,13 +16,13 @@ namespace feldspar::calibration
 {
 namespace
 {
-/// In the table of properties.
+/// Name of the figure in the table of properties.
 std::string_view name(const ElasticFigure which)
 {
   return which == ElasticFigure::tangent ? "tangent" : which == ElasticFigure::initial ? "initial" : "secant";
 }
 
-/// Of the test of one case.
+/// Function that takes a figure from the test of one case.
 std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(const TestCase& of,
                                                                               Figure TestResults::*which)
 {
@@ -58,7 +58,7 @@ bool gives_rock_constant(const std::vector<TestCase>& programme)
   return has(false) && has(true);
 }
 
-/// How far the mean of the rock may lie from the figure of the reference, and by what.
+/// Sets how far the mean of the rock may lie from the figure of the reference, and the source of this deviation.
 void set_deviation(Target& target, const ReferenceValue& given, const double tolerance)
 {
   if (given.standard_deviation && given.n)

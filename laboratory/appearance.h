@@ -84,6 +84,6 @@ struct TestAppearance
   std::vector<PointRve> rves;      ///< representative volumes of a few points
 };
 
-/// None without grains.
+/// Fragments of the grains; none without grains.
 std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, int dimension);
 } // namespace feldspar

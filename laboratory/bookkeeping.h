@@ -14,14 +14,14 @@ struct SolverWork
   double seconds_in_points = 0.0; ///< of one core
 };
 
-/// How evenly the processes (ranks) of a test were at work in the representative volumes of its points; one is as long
-/// as the mean.
+/// Balance of the work of the processes (ranks) of a test in the representative volumes of its points; even if the
+/// longest is as long as the mean.
 struct RankBalance
 {
   double mean = 0.0;            ///< of one rank on one core, up to the last step [s]
   double longest = 0.0;         ///< sum over the rounds in which all wait for the longest [s]
   double longest_unmoved = 0.0; ///< the same had no point moved to another rank
-  unsigned int n_moves = 0;     ///< times that points were dealt out anew
+  unsigned int n_moves = 0;     ///< times that points were distributed anew
 };
 
 /// The effort of a test: of no meaning for the rock.

@@ -19,7 +19,7 @@ struct Channel
 
 inline constexpr Channel axial_stress{&CurveSample::axial_stress, "axial stress"};
 
-/// Which maximum of the measured stress is the strength.
+/// Rule by which one maximum of the measured stress is the strength.
 enum class PeakRule
 {
   highest,
@@ -92,12 +92,12 @@ struct TestCase
 /// The name used in result files: the kind, and of a confined test the pressure.
 std::string name(const TestCase& test);
 
-/// Each kind, and each confined one under each of the pressures [Pa], in this order.
+/// Test cases: each kind, and each confined one under each of the pressures [Pa], in this order.
 std::vector<TestCase> test_cases(const std::vector<TestKind>& kinds, const std::vector<double>& confinements);
 
-/// Whether one of them takes a confining pressure.
+/// Returns whether one of the kinds takes a confining pressure.
 bool any_takes_confining_pressure(const std::vector<TestKind>& kinds);
 
-/// Their names, separated by commas.
+/// Names of the kinds, separated by commas.
 std::string names(const std::vector<TestKind>& kinds);
 } // namespace feldspar

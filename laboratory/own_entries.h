@@ -8,7 +8,7 @@
 /// Entries of the parameters that some protocols alone have.
 namespace feldspar
 {
-/// They stand in section Tests with those of all tests.
+/// Entries of one kind of test as they stand in section Tests with those of all tests.
 template <typename Own>
 std::vector<Entry<TestParameters>> within_tests(const std::vector<Entry<Own>>& entries)
 {

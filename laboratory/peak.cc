@@ -16,8 +16,8 @@ constexpr double round_off = 1e-9;     // a plateau peaks where it begins
 constexpr double level_within = 0.01;  // of the highest stress
 constexpr double fall_of_level = 0.05; // more is a fall, if less than the least one wanted
 
-/// A plane that slides, or a solid that yields, bears its strength to the end: any row may be the highest by a little, the
-/// last one too.
+/// A plane that slides, or a solid that yields, carries its strength to the end: any row may be the highest by a
+/// little, the last one too.
 bool keeps_its_strength(const TestRecord& record)
 {
   if (!record.kind.pressure_acts_across && record.body != TestBody::finite_elements)

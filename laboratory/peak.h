@@ -37,16 +37,18 @@ public:
   double strain() const { return strain_at_highest; }
   const PeakDemands& demands() const { return wanted; }
 
-  /// Whether a body bears the stress; less may be that of waves where nothing holds it.
+  /// Returns whether a body carries the stress; a smaller one may be that of waves where nothing holds it.
   bool is_borne() const { return highest_deviator > 0.0 && highest_deviator >= wanted.least_stress; }
   bool is_too_early() const { return time_of_highest < wanted.least_time; }
   bool has_fallen() const { return lowest_since < (1.0 - wanted.least_fall) * highest_deviator; }
-  /// Whether the curve leads above its highest stress: the straight line through the last tenth of its way would pass it by
-  /// 1 %, before the strain has grown by as much as lies between a peak and the end of a test.
+  /// Returns whether the curve leads above its highest stress: the straight line through the last tenth of its way
+  /// would exceed it by 1 %, before the strain has grown by as much as lies between a peak and the end of a test.
   bool is_rising() const;
-  /// Whether the last row lies where the curve has fallen to, but for a tenth of its fall: a test that ends in a fall.
+  /// Returns whether the last row lies where the curve has fallen to, but for a tenth of its fall: a test that ends in
+  /// a fall.
   bool is_at_its_lowest() const;
-  /// Whether the curve has stayed level, as long as a test goes on after its peak: a body that yields, or slides.
+  /// Returns whether the curve has stayed level for as long as a test goes on after its peak: the body yields, or
+  /// slides.
   bool is_level() const;
 
 private:
@@ -82,6 +84,7 @@ double mobilised(const TestRecord& record, const CurveSample& row);
 /// Share of its strength that a plane must carry at a row to count as sliding at its strength there.
 inline constexpr double share_of_strength = 0.99;
 
-/// Whether the stress of a test led by a table of stages was rising towards a higher one when it ended.
+/// Returns whether the stress of a test was rising towards a higher one when it ended, where a table of stages
+/// prescribed it.
 bool ends_rising(const TestRecord& record);
 } // namespace feldspar

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0. Its
-/// looks and its effort are elsewhere: laboratory/test_outcome.h.
+/// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0.
+/// The looks and the effort of a test are elsewhere: laboratory/test_outcome.h.
 namespace feldspar
 {
 enum class CrackKind
@@ -43,7 +43,7 @@ struct Fragments
   double largest_share; ///< of the grains' volume
 };
 
-/// By which a test with a notch gives the toughness of the rock.
+/// Factors by which a test with a notch gives the toughness of the rock.
 struct NotchGeometry
 {
   double intensity_over_stress; ///< K_I at the notch over the measured stress [√m]
@@ -72,7 +72,7 @@ struct TestRecord
   /// σ_2, compression positive, where it is held at another value than the confining pressure [Pa].
   std::optional<double> intermediate_stress = std::nullopt;
   bool has_servo = false; ///< which holds it; else it is applied as it is
-  /// By which it grows with the opening of the sheared plane, where it does [Pa/m].
+  /// Growth of the confining pressure per opening of the sheared plane, where it grows [Pa/m].
   std::optional<double> normal_stiffness = std::nullopt;
   std::uint64_t seed = 0;
   double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
@@ -83,7 +83,7 @@ struct TestRecord
   std::optional<Fragments> fragments; ///< none without grains
   double bulk_density = 0.0;          ///< [kg/m³]
   PeakDemands peak_demands = {};      ///< on its highest stress
-  /// How far its walls were brought to the grains before it began; the farthest of them [m].
+  /// Distance by which the walls were brought to the grains before the test began; that of the farthest wall [m].
   double way_to_grains = 0.0;
   std::vector<StageRecord> stages; ///< that were begun, of a test that follows a table
   /// The notch of a bending test; none without.

@@ -4,7 +4,7 @@
 
 namespace feldspar
 {
-/// How the specimen came out.
+/// Figures of a specimen as it came out of genesis.
 struct SpecimenReport
 {
   std::uint64_t n_grains = 0;

@@ -8,7 +8,7 @@ namespace feldspar
 {
 namespace
 {
-/// Whether the stress leads above its highest in the rows of a stage.
+/// Returns whether the stress leads above its highest in the rows of a stage.
 bool is_rising(const std::vector<CurveSample>& curve, const std::uint64_t first_row, const TestParameters& wanted)
 {
   PeakWatch watch({.sign = -1.0}, 0.0, {.end_over_peak_strain = wanted.stop_strain_over_peak_strain});
@@ -56,7 +56,8 @@ StageDemand StageWalk::demand(const StageMoment& now)
     result.held_stress = running.axial_stress;
   else if (running.lateral_strain)
     {
-      // What a fracture has run ahead by is let be but for this: to undo it all would unload the specimen.
+      // Widening by which a fracture has run ahead is kept but for this strain: to undo all of it would unload the
+      // specimen.
       constexpr double most = 1e-4;
       const double ahead = start.lateral_strain - now.lateral_strain - rate_of(running) * (now.time - start.time);
       widening_let_be = std::clamp(widening_let_be, ahead - most, ahead + most);

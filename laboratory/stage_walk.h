@@ -15,13 +15,13 @@
 
 namespace feldspar
 {
-/// Where a test stands; compression positive.
+/// State of a test at one moment; compression positive.
 struct StageMoment
 {
   double time; ///< of the dynamics [s]
   double axial_strain;
   double axial_stress;         ///< mean of both ends [Pa]
-  double lateral_strain = 0.0; ///< of the gauge, where a stage of the table is led by it
+  double lateral_strain = 0.0; ///< of the gauge, where a stage of the table prescribes it
 };
 
 /// The demand of a stage at one moment.
@@ -47,10 +47,10 @@ public:
   /// Sets off at the first row of the curve.
   void begin(const StageMoment& now);
 
-  /// Asked before each step.
+  /// Demand of the present stage; to be called before each step.
   StageDemand demand(const StageMoment& now);
   bool is_at_end_of_stage(const StageMoment& now) const;
-  /// Whether the lateral strain leads a stage of the table: moments must then have it.
+  /// Returns whether the lateral strain controls a stage of the table: moments must then have it.
   bool needs_lateral_strain() const;
   bool is_led_by_lateral_strain() const { return stage().lateral_strain.has_value(); }
   /// The magnitude of the strain rate of the present stage [1/s].
@@ -59,12 +59,12 @@ public:
   const LoadingStage& stage() const { return stages[begun.size() - 1]; }
   const StageMoment& start_of_stage() const { return start; }
 
-  /// Once a row has been added to the curve: ends the stage where it has got to its target or never will, and begins the
-  /// next. Whether that was the last one.
+  /// Called once a row has been added to the curve: ends the stage where it has reached its target or never will, and
+  /// begins the next. Returns whether that was the last one.
   bool is_over(const std::vector<CurveSample>& curve, const StageMoment& now);
 
   const std::vector<StageRecord>& records() const { return begun; }
-  /// Which stage could not be reached, and why; empty if all were.
+  /// Message on the stage that could not be reached, and why; empty if all were.
   const std::string& ended_early() const { return early; }
 
   /// Into or out of a checkpoint. Throws InputError where that is of another table.
@@ -114,6 +114,6 @@ private:
   StageMoment start{};         ///< of the stage that runs
   double highest_stress = 0.0; ///< of its rows so far [Pa]
   double strain_at_highest = 0.0;
-  double widening_let_be = 0.0; ///< of a stage led by the lateral strain, beyond what its rate has come to
+  double widening_let_be = 0.0; ///< of a stage that prescribes the lateral strain, beyond what its rate has come to
 };
 } // namespace feldspar

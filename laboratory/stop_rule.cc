@@ -34,7 +34,7 @@ bool StopRule::is_met_by(const CurveSample& row, const TestParameters& wanted) c
   const bool is_far_beyond_peak = strain >= ratio * peak.strain() && row.time >= ratio * peak.demands().least_time;
   if (wanted.stop_stress_over_peak)
     {
-      // After its first fall a disc may bear more than before and never fall to that share.
+      // After its first fall a disc may carry more than before and never fall to that share.
       const bool may_rise_again = kind.peak_rule == PeakRule::first_before_a_fall && !wanted.stop_strain;
       return peak.has_fallen() && (kind.deviator(row, pressure) <= *wanted.stop_stress_over_peak * peak.highest() ||
                                    (may_rise_again && is_far_beyond_peak));

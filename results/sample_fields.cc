@@ -113,7 +113,7 @@ struct IndexedTime
   std::map<std::string, Place> fields;
 };
 
-/// In their order, one at least.
+/// Times in an index in their order, one at least.
 std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
   const Xml xml = XmlReader::read(index);
@@ -158,7 +158,7 @@ SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& o
   });
   if (one.fields.empty())
     throw InputError("there is no field in it");
-  // Of each node, those of cells too; all in one file.
+  // Values of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
   read_foreign_hdf5(folder / one.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
     for (const auto& [name, place] : one.fields)

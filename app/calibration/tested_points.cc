@@ -32,7 +32,7 @@ double expected_end(const TestCase& test, const Input& rock)
   return expected_last_strain(expected_strain_at_peak(test, rock).value_or(0.0), rock.tests);
 }
 
-/// Of several points at a time, by the strains that their tests have come to.
+/// Progress of several points at a time, by the strains that their tests have come to.
 class PointBoard
 {
 public:
@@ -77,7 +77,7 @@ private:
   std::mutex showing;
   std::vector<double> costs;  ///< of the tests of a point, by the time that is simulated [s]
   std::vector<double> points; ///< what has been spent on each
-  double left = 0.0;          ///< in all, but for points that were taken up
+  double left = 0.0;          ///< in all, but for points that were resumed
   std::size_t n_tests;
   std::size_t n_done = 0;
 };
@@ -160,7 +160,7 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
               }
             catch (const InputError&)
               {
-                // These parameters cannot bear the test, such as its confinement: a point without that figure.
+                // These parameters cannot withstand the test, such as its confinement: a point without that figure.
               }
             board.update(k, j, 1.0);
           }

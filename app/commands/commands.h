@@ -22,7 +22,7 @@ int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);
 
-/// What `feldspar contact` writes: the response of the joint to its path, as CSV. Throws InputError.
+/// Returns the output of `feldspar contact`: the response of the joint to its path, as CSV. Throws InputError.
 std::string contact_response(const Input& input, const std::filesystem::path& input_file);
 
 struct ReportOptions

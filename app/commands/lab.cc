@@ -168,7 +168,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
     bodies.push_back(specimen.report);
   append(missing, beside_reference_body(input, bodies));
   write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), run.quiet);
-  // Of what was interrupted while it was drawn the pictures are still to be made.
+  // Pictures are still to be made if the run was interrupted while it drew them.
   return {was_interrupted || interrupted(),
           failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }

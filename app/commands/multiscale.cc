@@ -117,7 +117,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     append(remarks, beside_reference_body(input, bodies));
     write_log(run.folder, describe_run(input, rocks, tests, envelopes, remarks), run.quiet);
   });
-  // Of what was interrupted while it was drawn the pictures are still to be made.
+  // Pictures are still to be made if the run was interrupted while it drew them.
   return {ranks::any(was_interrupted || interrupted()),
           failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }

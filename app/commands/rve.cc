@@ -84,7 +84,7 @@ std::string describe(const PathSample<dim>& sample)
 template <int dim>
 using Listener = std::function<void(double progress, const PathSample<dim>& sample)>;
 
-/// What was begun when the run is asked to end is begun anew by the one that takes it up.
+/// Advances a run. A resumed run repeats the step that was interrupted.
 template <int dim>
 void advance(PathRun<dim>& run)
 {
@@ -121,7 +121,7 @@ auto go_path(const Begin& begin, const Checkpoints& checkpoints, const Show& sho
   return run;
 }
 
-/// From x towards y, in space from z towards x.
+/// Rotation of the cell from x towards y, in space from z towards x.
 template <int dim>
 Tensor<dim> turn_of_cell(const double angle)
 {

@@ -44,7 +44,7 @@ const Dimension& dimension_of(const Measure measure)
     }
 }
 
-/// With `unit` (led by a space, or empty) behind each number.
+/// Text of a range with `unit` (preceded by a space, or empty) behind each number.
 std::string text_of(const Range& range, const std::string_view unit)
 {
   if (range.upper == ranges::infinity)
@@ -58,7 +58,7 @@ std::string demand_of(const Range& range, const std::string_view unit)
   return fmt::format("must {} {}", range.upper == ranges::infinity ? "be" : "lie in", text_of(range, unit));
 }
 
-/// In SI. `demand`: said where the value lies out of its range.
+/// Reads a number in SI. `demand` is the message where the value lies out of its range.
 double read_number(const std::string_view text, const Measure measure, const std::string_view unit, const Range& range,
                    const std::string& demand)
 {

@@ -57,7 +57,7 @@ void check_fractions(const Input& input, const GivenEntries& values)
   });
 }
 
-/// What an entry of a section that is not of use has against it.
+/// Reason why an entry of a section that is not of use is refused.
 std::string refusal_of(const std::string_view section, const std::set<std::string>& laws)
 {
   if (section == "Smooth joint")
@@ -134,8 +134,9 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
       check(sides->among(input.smooth_joint), "Flaws", "Shapes");
 }
 
-/// Boundaries without a bond are said, not forgotten: the defaults of section Smooth joint are those of open flaws, and a
-/// rock of such boundaries falls apart. Of a bond both strengths are said, as the other one would be zero.
+/// Boundaries without a bond must be given by the user: the defaults of section Smooth joint are those of open flaws,
+/// and a rock of such boundaries falls apart. For a bond both strengths must be given, because the other one would be
+/// zero.
 void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
   const auto is_said = [&](const std::string& entry) {
@@ -230,7 +231,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
-  // Also catches a slip of the unit before it fills the memory.
+  // This check also catches a slip of the unit before it fills the memory.
   constexpr double most_grains = 1e7;
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)
     throw values.error("Specimen", "Minimum radius",
@@ -245,7 +246,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
-/// Of a specimen out of a file the size is not known yet; putting them in checks them again.
+/// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
   if (!input.specimen.specimen_file.empty())

@@ -33,7 +33,7 @@ struct ContactParameters
   std::string path_file;  ///< CSV of the displacements
 };
 
-/// How an RVE is led along its path.
+/// Method by which an RVE follows its path.
 enum class PathSolver
 {
   event_by_event,
@@ -116,7 +116,7 @@ struct Variant
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {},
                  const std::vector<std::string>& settings = {});
 
-/// How many grains genesis will pack.
+/// Number of grains that genesis will pack.
 double expected_grains(const SpecimenParameters& specimen);
 
 /// One for each combination of the values of the variants' entries, or the input itself. Throws InputError.

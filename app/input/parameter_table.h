@@ -39,10 +39,10 @@ std::vector<std::string_view> section_names();
 /// The entries of a section in the order of the table; none if there is no such section.
 std::vector<std::string_view> entry_names(std::string_view section);
 
-/// Null if there is none of that name.
+/// Parameter of that name; null if there is none.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
 
-/// Whether a flaw or mineral grains put smooth joints into the rock.
+/// Returns whether a flaw or mineral grains put smooth joints into the rock.
 bool has_smooth_joints(const Input& input);
 
 /// False for the sections of joint laws other than the input's own, and of smooth joints where there are none.

@@ -33,8 +33,8 @@ std::size_t count_digits(const std::string_view text)
   return n;
 }
 
-/// Whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one too.
-/// Factors and origins (`MPa.3`, `since 1990`), which UDUNITS would apply without a word, are none.
+/// Returns whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one
+/// too. Factors and origins (`MPa.3`, `since 1990`), which UDUNITS would apply without a word, are none.
 bool is_unit_expression(std::string_view text)
 {
   if (text.starts_with("1/"))
@@ -113,7 +113,7 @@ std::mutex& units_mutex()
   return mutex;
 }
 
-/// Under the lock.
+/// Parses a unit; to be called under the lock.
 Owner<ut_unit> parse_unit(const std::string_view text)
 {
   const CLocale c_locale;

@@ -7,7 +7,8 @@
 #include <vector>
 
 /// Numbers and quantities as the user writes them: `0.5`, `22 MPa`, `5, 10, 20 MPa`. The decimal sign is a point in
-/// every locale. What is not of this form throws InputError, whose text says what was found and shows the right form.
+/// every locale. A text that is not of this form throws InputError, whose text says what was found and shows the right
+/// form.
 namespace feldspar
 {
 /// The kind of a quantity.

@@ -160,7 +160,7 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
       }
     reference_body(input);
   });
-  // A file of a path is told by its own name.
+  // A file of a path is reported by its own name.
   for (const Variant& variant : all_variants)
     if (variant.input.specimen.dimension == 2)
       path_legs<2>(variant.input.strain_path);

@@ -111,7 +111,7 @@ std::vector<TestOrder<dim>> orders_of(const std::vector<PlannedTest<dim>>& plann
   return orders;
 }
 
-/// Of a test that could not be made.
+/// Outcome of a test that could not be run.
 template <int dim>
 TestOutcome failure(const PlannedTest<dim>& planned, const std::string& why)
 {

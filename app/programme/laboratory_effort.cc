@@ -26,7 +26,7 @@ namespace
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
 constexpr double bytes_of_program = 4e7;
-/// Of a step: with the cracks of a test past its peak (benchmarks/README.md).
+/// Time of a joint and step, with the cracks of a test past its peak (benchmarks/README.md).
 constexpr double seconds_of_joint_and_step(const int dimension) { return dimension == 2 ? 2e-8 : 5e-8; }
 
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)

@@ -32,7 +32,7 @@ std::vector<std::uint64_t> packing_seeds(const Input& input)
   return seeds;
 }
 
-/// Where the specimens of the RVEs lie; runs of 0.2.0 have them in `volumes`.
+/// Folder of the specimens of the RVEs; runs of 0.2.0 have them in `volumes`.
 std::filesystem::path folder_of_rves(const std::filesystem::path& folder)
 {
   const std::filesystem::path earlier = folder / "volumes";
@@ -132,7 +132,8 @@ std::vector<SpecimenReport> Rock::reports() const
 
 namespace
 {
-/// An RVE bears any pressure, even one that presses its grains into each other so far that the result means nothing.
+/// An RVE withstands any pressure, even one that presses its grains into each other so far that the result means
+/// nothing.
 template <int dim>
 void check_confinement(const double pressure, const char* const entry, const Network<dim>& network)
 {
@@ -231,7 +232,7 @@ FinishedTest run_test(const PlannedSample& planned, const Input& input, const st
       was_interrupted = true;
       write_state();
     }
-  catch (const InputError& error) // a confinement it cannot bear; other tests may
+  catch (const InputError& error) // a confinement it cannot withstand; other tests may
     {
       failure = error.what();
     }

@@ -20,7 +20,7 @@ struct ChosenPoint
   std::uint64_t number; ///< of the point
 };
 
-/// From the cracks, which the first rank has.
+/// Chooses points from the cracks, which the first rank has.
 std::vector<ChosenPoint> chosen(const TestRecord& record, const std::uint64_t n_points)
 {
   std::map<std::uint64_t, std::size_t> n_broken;
@@ -70,7 +70,7 @@ void transfer(Archive& archive, SampleRve<dim>& rve, std::uint64_t& realisation,
   feldspar::transfer(archive, rve.state);
 }
 
-/// From the rank that has it to the first.
+/// Brings an RVE from the rank that has it to the first.
 template <int dim>
 std::optional<SampleRve<dim>> brought(const SampleTest& test, const Packings<dim>& packings, const std::uint64_t number)
 {

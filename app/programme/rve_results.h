@@ -33,7 +33,7 @@ template <int dim>
 void write_results(const Provenance& provenance, const std::vector<FinishedRve<dim>>& rves,
                    const std::filesystem::path& folder);
 
-/// For a terminal: the homogenised constants and how the path went.
+/// Text for a terminal: the homogenised constants and how the path went.
 template <int dim>
 std::string describe(const FinishedRve<dim>& rve);
 } // namespace feldspar

@@ -32,7 +32,7 @@ std::string rock(const Input& input)
   return text;
 }
 
-/// Each by the values that all variants on it share.
+/// Names of rocks, each by the values that all variants on it share.
 std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
                                         const std::vector<std::vector<std::size_t>>& of_rock)
 {
@@ -90,7 +90,7 @@ private:
   struct Entry
   {
     GenesisEffort expected;
-    std::uint64_t n_steps = 0; ///< of its own thread, which alone looks at it
+    std::uint64_t n_steps = 0; ///< of its own thread, which alone reads it
     double share = 0.0;
     bool finished = false;
   };

@@ -28,10 +28,10 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
                                              const std::vector<SpecimenOrder>& orders,
                                              const std::filesystem::path& folder, Progress& progress);
 
-/// For a terminal: what genesis has to report.
+/// Text for a terminal: the report of genesis.
 std::string describe(const SpecimenReport& report);
 
-/// For a terminal: what was put in, one line each kind; empty for intact rock.
+/// Text for a terminal: the flaws that were put in, one line each kind; empty for intact rock.
 template <int dim>
 std::string describe(const std::vector<Flaw<dim>>& flaws);
 } // namespace feldspar

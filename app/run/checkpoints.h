@@ -65,7 +65,7 @@ auto last_good(const std::vector<std::filesystem::path>& checkpoints, const Begi
 class Checkpoints
 {
 public:
-  /// `identity`: of the program, the input and the part; a checkpoint of another one is not taken up.
+  /// `identity`: of the program, the input and the part; a checkpoint of another one is not resumed from.
   Checkpoints(const std::filesystem::path& folder, const std::string& name, std::string its_identity)
     : newest(folder / (name + ".h5"))
     , one_before(folder / (name + ".previous.h5"))

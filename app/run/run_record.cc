@@ -45,8 +45,8 @@ struct Contents
   int code_of_failure;
 };
 
-/// The checksum of all that tells which rock and tests a resumed run goes on with. Whether it is complete, and how its files
-/// are named, changes no result.
+/// The checksum of all that tells which rock and tests a resumed run goes on with. It leaves out whether the list is
+/// complete and how its files are named, because these change no result.
 std::string checksum_of(const Contents& contents)
 {
   Fingerprint print;

@@ -53,8 +53,8 @@ void ProgressBoard::finish(const std::size_t k)
   draw();
 }
 
-/// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess; 0 where
-/// there is none.
+/// Strain at the peak of a test: its own once the curve has left it; else that of a finished test of the same kind and
+/// pressure, or a guess; 0 where there is none.
 double ProgressBoard::strain_at_peak(const Entry& entry) const
 {
   if (entry.peak.strain() > 0.0 && (entry.peak.has_fallen() || entry.finished))

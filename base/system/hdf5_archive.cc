@@ -90,7 +90,7 @@ std::string copy_by_child(const std::filesystem::path& file, const std::string& 
 {
   const std::uint64_t size = std::filesystem::file_size(file);
   constexpr std::uint64_t megabyte = std::uint64_t(1) << 20;
-  // With much to spare: a second reads some 500 MB.
+  // Limits with much to spare: a second reads some 500 MB.
   const ProcessLimits limits{2 + size / (10 * megabyte), 256 * megabyte + 16 * size};
   return made_by_child(
     "the HDF5 library", limits,

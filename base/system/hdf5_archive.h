@@ -37,7 +37,7 @@ const H5::PredType& stored_type()
     }
 }
 
-/// Without the time at which an array was made: equal results have equal files.
+/// Leaves out the time at which an array was made: equal results have equal files.
 inline void forget_times(const H5::DSetCreatPropList& of_array) { H5Pset_obj_track_times(of_array.getId(), false); }
 
 class Hdf5Writer
@@ -62,7 +62,8 @@ public:
     group.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, stored);
   }
 
-  /// With a checksum: what a disk or a broken write changed is seen when it is read. `n_columns` values make a row.
+  /// Writes an array with a checksum: a change by a disk or a broken write is seen when it is read. `n_columns` values
+  /// make a row.
   template <typename T>
   void array(const std::string& name, std::vector<T>& values, const std::size_t n_columns = 1)
   {
@@ -127,7 +128,7 @@ public:
       Hdf5Writer(*copy).text(name, stored);
   }
 
-  /// How many values an array has.
+  /// Returns the number of values of an array.
   std::size_t size_of(const std::string& name) const { return size_of(name, group.openDataSet(name)); }
 
   template <typename T>

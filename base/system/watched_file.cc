@@ -27,7 +27,7 @@ struct WatchedFile
   haddr_t end_of_file;
 };
 
-/// How a WatchedFile is opened.
+/// Descriptor and place for the error with which a WatchedFile is opened.
 struct WatchedAccess
 {
   int descriptor;

@@ -22,7 +22,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
+constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come into contact, over the mean radius
 constexpr double largest_residual = 1e-8;  // of the intact solutions, over the forces under unit strains
 constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
 // An open body may also turn; its tractions stop that, and what regularises must not drown in the difference.
@@ -49,14 +49,14 @@ Tensor<3> contact_axes(const Vector<3>& normal)
   return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
 }
 
-/// Of normal and shear stress.
+/// Bond stress that belongs to a normal and shear stress.
 template <int dim>
 BondStress bond_stress(const Vector<dim>& stress)
 {
   return {stress[0], stress[0], stress.template tail<dim - 1>().norm()};
 }
 
-/// In space the elements of a face lie by its own tangent.
+/// Axes of a joint; in space the elements of a face lie by its own tangent.
 template <int dim>
 Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
 {
@@ -141,7 +141,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   boundary_conditions = std::make_shared<const BoundaryConditions<dim>>(open.conditions(specimen).that_bear(
     all_links, number_of_joints, number_of_grains, [](std::uint32_t) { return true; }));
 
-  // Pairs that may come to touch.
+  // Pairs that may come into contact.
   const double reach = touch_search_ratio * specimen.grains.mean_radius();
   const auto images = images_within(specimen.grains, edges, reach);
   const auto all = with_images(specimen.grains, images, edges);
@@ -232,7 +232,7 @@ void Network<dim>::factorise_intact()
   factorised = factor_of(bonded);
 
   std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
-  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face is in contact
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
     stiffest.push_back(
       element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length)));

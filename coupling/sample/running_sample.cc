@@ -143,7 +143,7 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
       avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
       if (avalanche && may_widen() && !widens)
         {
-          // At a held width there may be none.
+          // There may be no avalanche at a held width.
           widens = true;
           avalanche = false;
           n_cuts_for_breaks = 0;

@@ -133,7 +133,7 @@ SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sam
   return {sides * box.side_length(0), box.side_length(dim - 1), largest, mesh.triangulation->n_global_active_cells()};
 }
 
-/// By their places alone. All ranks know all cells: none is refined.
+/// Cells of the weak seed by their places alone. All ranks know all cells: none is refined.
 template <int dim>
 std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
 {
@@ -317,7 +317,7 @@ private:
     return result;
   }
 
-  /// As seen in box(), with its lower corner as origin.
+  /// Position of a point in box(), with its lower corner as origin.
   std::array<double, 3> in_box(const std::size_t i) const
   {
     Vector<material_dim> result = position(i);
@@ -351,7 +351,7 @@ std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const Samp
   return std::make_unique<FiniteElementBody<dim, material_dim>>(sample, set_up, std::move(mesh), material);
 }
 
-/// Whose mesh has the dimension that the geometry needs.
+/// Makes the body with a mesh of the dimension that the geometry needs.
 template <int material_dim, class MaterialOf>
 std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                       const MaterialOf& material_of)
@@ -371,7 +371,7 @@ SampleSize measure(const SampleParameters& sample)
 
 namespace
 {
-/// As the quadrature of fem/solid has them.
+/// Number of points of a cell, as the quadrature of fem/solid has them.
 unsigned int n_points_of_cell(const SampleParameters& sample)
 {
   const unsigned int each_way = sample.reduced_quadrature ? sample.order : sample.order + 1;

@@ -14,7 +14,7 @@ enum class SampleGeometry
   cylinder      ///< of spheres, as a whole
 };
 
-/// Which RVEs of a sample are weaker than the others.
+/// Choice of the RVEs of a sample that are weaker than the others.
 enum class WeakSeed
 {
   none,
@@ -22,7 +22,7 @@ enum class WeakSeed
   element ///< of that row, the one outermost along x or r
 };
 
-/// In which the coordinates of a mesh file count.
+/// Unit of the coordinates of a mesh file.
 enum class MeshUnit
 {
   not_said, ///< metres, of a sample that fits a laboratory

@@ -15,7 +15,7 @@ std::string likely_reason(const Circumstances& now)
 {
   // Quasi-static loading goes a millionth of a radius in a step.
   constexpr double hasty = 1e-2;
-  // What lies below is stable whatever the contacts do.
+  // Ratio below which a step is stable whatever the contacts do.
   constexpr double near_the_edge = 0.95;
   if (const double way = now.loading_speed * now.dt / now.smallest_radius; way > hasty)
     return fmt::format("the loading goes {:.2g} radii of the smallest grain in a step; a lower rate would help", way);
@@ -59,7 +59,7 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
 
   std::optional<StrayGrain> beyond_wall;
   walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
-    // Not by where its centre stands: a cut specimen may begin with one just inside the wall.
+    // The overlap decides, not the position of the centre: a cut specimen may begin with a centre just inside the wall.
     if (!beyond_wall && touch.overlap > body.grains.radius[touch.grain])
       beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall", true};
   });

@@ -22,7 +22,7 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   resize<dim>(k, n_bodies);
   Components<n_rotations<dim>> k_turning;
   resize<n_rotations<dim>>(k_turning, n_bodies);
-  // At `arm` from the centre of a grain along the normal; negative: against it.
+  // Adds a contact at `arm` from the centre of a grain along the normal; negative: against it.
   const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
                        const double arm, const double k_bending, const double k_twist) {
     std::uint32_t i = grain;
@@ -51,7 +51,8 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
     const auto a = arms(touch.frame.distance, touch.half_radius_difference);
     add(grain, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
   };
-  // To each grain come its joints and then its touches by their numbers, whether it is grains or touches that are gone through.
+  // To each grain come its joints and then its contacts by their numbers, whether it is grains or contacts that are
+  // gone through.
   const bool by_touches = groups.empty() && stays_on_this_thread(n_own);
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = std::uint32_t(begin); i < end; ++i)

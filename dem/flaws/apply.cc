@@ -17,7 +17,7 @@ namespace feldspar
 {
 namespace
 {
-/// Grains that fall out of a hole's rim with it: as many hang together at most.
+/// Grains that fall out of a hole's rim with it: at most so many connected ones.
 constexpr std::uint32_t largest_crumb = 3;
 
 /// The coordinates of the plane of the pictures.
@@ -33,7 +33,7 @@ struct Effect
 {
   std::function<bool(const Vector<dim>&)> takes_out;
   std::function<bool(const Vector<dim>&, const Vector<dim>&)> cuts;
-  /// Of a closed flaw, where it cuts, the normal of its plane there.
+  /// Normal of the plane of a closed flaw where it cuts.
   std::function<Vector<dim>(const Vector<dim>&, const Vector<dim>&)> normal = {};
 };
 
@@ -156,7 +156,7 @@ std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& e
   return cut;
 }
 
-/// Which of the grains hang in the largest piece, by joints whether bonded or not; [n_grains].
+/// Returns which grains belong to the largest piece, connected by joints whether bonded or not; [n_grains].
 template <int dim>
 std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
 {
@@ -169,7 +169,7 @@ std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
   return within;
 }
 
-/// By joint: whether it stays.
+/// Removes joints; `dropped` says for each joint whether it is removed.
 template <int dim>
 void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
 {
@@ -182,7 +182,8 @@ void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
   specimen.report.coordination_number = 2.0 * double(specimen.n_joints()) / double(specimen.grains.size());
 }
 
-/// Takes grains and faces out; what hung together with the body and is left alone goes too where it is a crumb.
+/// Takes out grains and faces. A part that was connected with the body and is separated from it is taken out too where
+/// it is a crumb.
 template <int dim>
 void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_take_no_grain, Flaw<dim>& flaw)
 {
@@ -201,7 +202,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
 
   const std::size_t n_joints = specimen.joints.size();
   drop_joints(specimen, cut);
-  // The rest of the body: pieces without a face to the largest hang on nothing.
+  // The rest of the body: pieces without a face to the largest are held by nothing.
   Specimen<dim> rest = part_of(specimen, kept);
   std::vector<std::uint32_t> old_number;
   for (std::uint32_t i = 0; i < n_grains; ++i)
@@ -242,7 +243,7 @@ void unbond(Specimen<dim>& specimen, const Effect<dim>& effect, Flaw<dim>& flaw)
       }
 }
 
-/// Of the plane of a closed flaw within the specimen [m²].
+/// Area of the plane of a closed flaw within the specimen [m²].
 template <int dim>
 double area_of(const Shape& shape, const Specimen<dim>& specimen)
 {

@@ -39,7 +39,7 @@ void check(const Specimen<dim>& specimen, const double diameter)
                                  size_entry, 1e3 * diameter, 4e3 * specimen.report.mean_radius));
 }
 
-/// Of each grain those that it is joined to, by the numbers of the joints.
+/// Neighbours of each grain by its joints, in the order of the joints' numbers.
 template <int dim>
 std::vector<std::vector<std::uint32_t>> joined(const Specimen<dim>& specimen)
 {
@@ -83,8 +83,8 @@ void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
       belong_together = [cell](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; };
     }
 
-  // From the middle of each stamp, or any grain of a cell, along the joints: what hangs together only across another
-  // group stays apart.
+  // Groups grow from the middle of each stamp, or any grain of a cell, along the joints: grains that are connected only
+  // across another group stay apart.
   const auto others = joined(specimen);
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> group(n_grains, none);

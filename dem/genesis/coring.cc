@@ -19,7 +19,7 @@ namespace
 template <int dim>
 using Place = std::array<int, dim>;
 
-/// In which order the elements of a face follow each other when it is seen from its other grain: the normal is turned
+/// Order in which the elements of a face follow each other when it is seen from its other grain: the normal is turned
 /// round and t_1 kept in space, so that t_2 turns round; in the plane t turns round.
 template <int dim>
 std::vector<unsigned int> mirrored_elements(const std::vector<FaceElement<dim>>& elements)

@@ -131,7 +131,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
   if (specimen.round)
     dynamics.add_wall(round_wall(specimen));
 
-  // The first overlaps are as large as grains; let go, they would throw grains about: follow the forces step by step
+  // The first overlaps are as large as grains; released, they would throw grains about: follow the forces step by step
   // without gathering speed.
   constexpr unsigned int n_creeps = 300;
   for (unsigned int k = 0; k < n_creeps; ++k)
@@ -164,7 +164,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
       if (std::abs(error) <= stress_tolerance)
         continue; // only time is missing
       // Near jamming the stress of a packing rises by about its contact modulus per unit of relative radius; one that
-      // does not touch yet grows faster.
+      // is not in contact yet grows faster.
       const double growth = stress < 0.05 * target ? std::max(5e-4, 2.0 * wanted.packing_stress_ratio)
                                                    : std::clamp((target - stress) / modulus, -5e-3, 5e-3);
       scale_radii(dynamics, 1.0 + growth);

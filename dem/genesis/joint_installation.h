@@ -19,7 +19,7 @@
 #include <tuple>
 #include <vector>
 
-/// Installation of joints, written over the law; docs/theory.md §3. Of every law's parameters it reads modulus,
+/// Installation of joints, written over the law; docs/theory.md §3. It reads from every law's parameters modulus,
 /// stiffness_ratio, radius_multiplier, bond_friction_angle, installation_gap_ratio, coordination_number,
 /// gapped_fraction, slit_fraction and initial_gap as FlatJointParameters has them; the law divides the faces and draws
 /// the strengths.
@@ -64,8 +64,8 @@ std::vector<PairGap<dim>> pair_gaps(
   return gaps;
 }
 
-/// How many of the pairs, sorted by gap, get a joint. A gap below which exactly so many lie is what bisection on the
-/// gap would find.
+/// Number of pairs, sorted by gap, that get a joint. Bisection on the gap would find a gap below which exactly so many
+/// pairs lie.
 template <int dim, typename Parameters>
 std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted, const std::size_t n_grains,
                             const double mean_radius, const std::string& section)
@@ -189,7 +189,7 @@ void install_joints(
         }
     }
 
-  // Slit and gapped joints are drawn from all by lot.
+  // Slit and gapped joints are drawn from all at random.
   std::vector<std::size_t> lot(n);
   std::iota(lot.begin(), lot.end(), std::size_t(0));
   Random(specimen.seed, RandomStream::bonds).shuffle(lot);

@@ -152,7 +152,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     stage_walk.begin(moment());
 }
 
-/// Along the last axis, tension positive.
+/// Strain along the last axis, tension positive.
 template <int dim>
 double LabTest<dim>::axial_strain() const
 {
@@ -316,8 +316,8 @@ Snapshot LabTest<dim>::snapshot() const
   return now;
 }
 
-/// How long the curve will be is not known: when there are too many, every second one goes. The last one comes when the
-/// test is finished.
+/// Takes a snapshot. The length of the curve is not known beforehand: when there are too many snapshots, every second
+/// one is removed. The last one is taken when the test is finished.
 template <int dim>
 void LabTest<dim>::take_snapshot()
 {
@@ -357,7 +357,7 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
       result.appearance.flaws.push_back(std::move(picture));
     }
 
-  // Where numbers went wrong, the grains stand as they last stood right.
+  // Grains are given as they last stood right if numbers went wrong.
   const bool went_wrong = !record.failure.empty();
   if (went_wrong && snapshots.empty())
     return result;

@@ -6,7 +6,7 @@
 /// input in the plane; in space an input without a porosity means 0.36.
 namespace feldspar
 {
-/// Whether a specimen is cut out of a body that repeats itself; docs/theory.md §3.
+/// Choice whether a specimen is cut out of a periodic body; docs/theory.md §3.
 enum class Coring
 {
   none,       ///< packed between walls
@@ -14,7 +14,7 @@ enum class Coring
   sides_only  ///< packed between the walls of its ends and periodic sideways, then cut at the sides
 };
 
-/// Without an entry, in three dimensions.
+/// Porosity without an entry, in three dimensions.
 inline constexpr double porosity_in_space = 0.36;
 
 /// The body of grains to be made (or read).

@@ -32,13 +32,13 @@ struct Specimen
   Grains<dim> grains;
   Joints<dim> joints;
   std::vector<SmoothJoint<dim>> smooth_joints; ///< by their grains; where one stands no joint of the law does
-  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, they never touch
+  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, never in contact
   std::vector<std::uint32_t> groups;           ///< the mineral grain or clump that each grain is a part of; or empty
   bool groups_are_rigid = false;               ///< they are clumps: each moves as one body; numbered without gaps
   SpecimenReport report;
   std::vector<Flaw<dim>> flaws; ///< that have been put in
 
-  /// Along an axis; where it does not, the body has ends.
+  /// Returns whether the specimen repeats itself along an axis; where it does not, the body has ends.
   bool repeats(const int axis) const { return periodic && !(walled_ends && axis == dim - 1); }
 
   /// The edges of the cell as columns [m]: those of the box; along walled ends so long that no image comes near the body.

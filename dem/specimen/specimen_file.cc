@@ -93,7 +93,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
     }
 }
 
-/// As transfer_flaws(): nothing of a specimen without any.
+/// Transfers the smooth joints; like transfer_flaws(), it stores nothing of a specimen without any.
 template <int dim, typename Archive>
 void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
 {
@@ -280,7 +280,7 @@ void require(const bool holds, const char* otherwise)
     throw InputError(otherwise);
 }
 
-/// In [low, high]; false for what is not a number.
+/// Returns whether a value lies in [low, high]; false for what is not a number.
 bool lies(const double value, const double low, const double high) { return value >= low && value <= high; }
 
 template <typename Values>

@@ -123,7 +123,7 @@ void take_date_out(const std::filesystem::path& pdf)
   file.write(of_no_day.data(), std::streamsize(of_no_day.size()));
 }
 
-/// Whether each of the programs that draw has hung.
+/// Flag of each of the two programs that draw: it did not end in time.
 using Hung = std::array<std::atomic<bool>, 2>;
 
 std::string draw_one(const Picture& picture, const std::filesystem::path& folder,

@@ -17,7 +17,7 @@ namespace
 {
 using namespace text;
 
-/// Where the representative volumes (RVEs) that are drawn stand, with what broke in them.
+/// Positions of the representative volumes (RVEs) that are drawn, with what broke in them.
 std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
 {
   if (test.appearance.rves.empty())

@@ -99,7 +99,8 @@ PageSection verdict_section(const Findings& findings)
                       {}};
   if (findings.has_many())
     section.blocks.push_back(verdict_of_many(findings));
-  // What keeps all models from being compared is said once: of one model in its headline, of several below them.
+  // A problem that keeps all models from being compared is said once: for one model in its headline, for several below
+  // them.
   const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
                                       [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;

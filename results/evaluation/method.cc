@@ -1,6 +1,6 @@
 #include "results/evaluation/rising_branch.h"
 
-/// How near the test was to being quasi-static, and how well the confinement was held.
+/// Measures of how near the test was to being quasi-static, and how well the confinement was held.
 namespace feldspar::evaluation
 {
 namespace
@@ -62,7 +62,7 @@ Figure p_wave_transits_to_peak(const RisingBranch& branch)
     return unknown("the wave speed needs the initial modulus and Poisson's ratio");
   const double nu = *of_ratio.value;
   const double modulus = *of_modulus.value;
-  // Of a thin plate in the plane, of the bulk in space.
+  // Stiffness of a thin plate in the plane, of the bulk in space.
   const double stiffness =
     record.dimension() == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
   const double wave_speed = std::sqrt(stiffness / record.bulk_density);

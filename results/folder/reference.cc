@@ -39,7 +39,7 @@ constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
 
-/// Of `strength_at_5_MPa` and the like, the pressure [MPa]; none of another name.
+/// Pressure [MPa] in `strength_at_5_MPa` and the like; none in another name.
 std::optional<double> pressure_in(const std::string_view name, const std::string_view beginning,
                                   const std::string_view ending)
 {
@@ -61,7 +61,7 @@ bool is_true_triaxial(const std::string_view name)
          pressure_in(name.substr(middle + 4), "_intermediate_", "_MPa_strength_MPa");
 }
 
-/// Of a test that gives no point of the envelope: direct_shear_5_MPa_strength_MPa.
+/// Returns whether this is the strength of a test that gives no point of the envelope: direct_shear_5_MPa_strength_MPa.
 bool is_strength_of(const TestKind& kind, const std::string_view name)
 {
   if (kind.envelope_role != EnvelopeRole::none)
@@ -83,7 +83,7 @@ std::optional<Property> property_of(const std::string_view name, const std::vect
   return std::nullopt;
 }
 
-/// In the list of what a reference may give.
+/// Keys of other tests in the list of what a reference may give.
 std::string keys_of_others(const std::vector<TestKind>& kinds)
 {
   std::string keys;
@@ -232,7 +232,7 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
   return points;
 }
 
-/// From two, the range in which 95 % of further tests would lie holds nearly every rock.
+/// Fewest tests for a range. From two, the range in which 95 % of further tests would lie holds nearly every rock.
 constexpr std::size_t fewest_for_a_range = 3;
 
 /// Means of the single tests under the names of mean strengths, where those are not given themselves.

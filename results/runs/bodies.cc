@@ -10,8 +10,9 @@ namespace feldspar
 {
 namespace
 {
-/// Of the larger gap. From 0.024 to 0.046 mean radii the compressive strength of the plane rock rises by a sixth
-/// (docs/multiscale-and-grains.md), so that a difference of this share moves it by a hundredth or two.
+/// Share of the larger gap within which two gaps are alike. From 0.024 to 0.046 mean radii the compressive strength of
+/// the plane rock rises by a sixth (docs/multiscale-and-grains.md), so that a difference of this share changes it by a
+/// hundredth or two.
 constexpr double alike_within = 0.05;
 
 std::string bulk(const BodyFigures& figures)

@@ -59,7 +59,7 @@ Value porosity_change(const FinishedTest& test)
   return std::abs(grains - grains / std::pow(specimen.radius_multiplier, test.record.dimension()));
 }
 
-/// Of the body; quantities of tests have theirs in their table.
+/// Measure of the body; quantities of tests have theirs in their table.
 struct BodyMeasure
 {
   TrustMeasure measure;
@@ -79,7 +79,7 @@ constexpr BodyMeasure measures_of_bodies[] = {
   {{"porosity_change", "difference of the porosity from that of the input", display::plain(3), at_most(0.02)},
    porosity_change}};
 
-/// Of a test in which nothing was done there are no energies.
+/// Value of a quantity of a test. A test without a step has no energies, and therefore no balance of them.
 Value measured(const TestQuantity& quantity, const FinishedTest& test)
 {
   const bool is_balance = quantity.member == TestQuantity::Member(&TestResults::energy_imbalance_over_work);
@@ -125,8 +125,8 @@ SeriesKind kind_of(const TestRecord& record)
   return record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
 }
 
-/// Whether a test ended so near to its peak that a higher one may lie beyond. A table of stages says itself where to end,
-/// and what slides along a plane bears the same from its peak on.
+/// Returns whether a test ended so near to its peak that a higher one may lie beyond. A table of stages defines its own
+/// end, and a body that slides along a plane carries the same stress from its peak on.
 bool ended_near_its_peak(const FinishedTest& test)
 {
   constexpr double least_fall = 0.05; // of the deviator
@@ -420,7 +420,7 @@ std::string as_text(const std::vector<TrustCheck>& checks)
 
 std::string trust_as_text(const std::vector<FinishedTest>& tests)
 {
-  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is told
+  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is reported
   const auto rocks = by_rock(tests);
   std::string text;
   if (rocks.size() > most_in_full)

@@ -170,7 +170,7 @@ TEST(Fault, AFileSystemThatIsReadOnlyIsSaidInOneLineByEachCommand)
   EXPECT_EQ(content(folder.path() / "whole/report.html"), page);
 }
 
-// It may come back: nothing is lost.
+// The folder may come back: nothing is lost.
 TEST(Fault, AFolderThatIsMovedDuringTheRunIsSaidInOneLineAndTakenUpWhereItIs)
 {
   const TemporaryFolder folder;

@@ -146,7 +146,7 @@ SpecimenParameters cylinder(const double porosity)
   return wanted;
 }
 
-/// By the gauge in the middle, of a uniaxial compression that breaks nothing.
+/// Initial modulus by the gauge in the middle, of a uniaxial compression that breaks nothing.
 double initial_modulus(const Specimen<3>& specimen)
 {
   TestParameters wanted;
@@ -175,7 +175,8 @@ TEST(Core, HasTheRockUpToItsSides)
   EXPECT_TRUE(core.round);
   for (std::size_t i = 0; i < core.grains.size(); ++i)
     ASSERT_LT(core.distance_from_axis(at<3>(core.grains.position, i)), 0.005);
-  // As many grains as lie in the cylinder by their centres: its share of the box, within the scatter of the few there.
+  // Grains of the core are those whose centres lie in the cylinder: its share of the box, within the scatter of the few
+  // there.
   EXPECT_NEAR(core.report.porosity, cell.report.porosity, 0.03);
 
   const auto beside_the_side = [](const Specimen<3>& specimen) {
@@ -237,7 +238,7 @@ TYPED_TEST(Cores, CutAtTheSidesOnlyHasTheEndsOfAWalledSpecimen)
       EXPECT_EQ(core.cell(), walled.cell());
       EXPECT_GT(core.report.n_cut_joints, 0u);
       const double flush = 0.01 * core.report.mean_radius;
-      // How many grains a face touches, and how far the farthest stands out of it.
+      // Number of grains that touch a face, and the distance by which the farthest stands out of it.
       const auto at_faces = [&](const Specimen<dim>& specimen, const int axis) {
         std::size_t n = 0;
         double farthest = 0.0;

@@ -60,7 +60,7 @@ std::set<std::string> anchors(const fs::path& page)
   return found;
 }
 
-/// What stands in the first group of every match.
+/// First group of every match.
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern)
 {
   std::vector<std::string> found;

@@ -133,7 +133,7 @@ TEST(Flaws, AnEllipseTurnsWithItsAngle)
 
 TEST(Flaws, APolygonTakesOutWhatTheSameDiscWould)
 {
-  // Of 200 corners: the area of such a polygon is that of the disc within 2e-4.
+  // Polygon of 200 corners: its area is that of the disc within 2e-4.
   PolygonHole polygon;
   for (int k = 0; k < 200; ++k)
     polygon.corners.emplace_back(0.006 + 0.003 * std::cos(std::numbers::pi * k / 100.0),
@@ -330,8 +330,8 @@ TEST(Plates, ThrowOutNoGrainThatComesFromBeside)
 
 TEST(Plates, OnABedBearEveryGrainAsItLies)
 {
-  // One grain touches the plate, one lies within the bed, one above it; all with the same stiffness. The plate sinks by
-  // more than contacts are looked for, comes back, and rises by less than the third grain's gap.
+  // One grain is in contact with the plate, one lies within the bed, one above it; all with the same stiffness. The
+  // plate sinks by more than contacts are looked for, comes back, and rises by less than the third grain's gap.
   Specimen<2> specimen = placed_specimen({0.1, 0.1, 0.1}, {{{0.2, 0.5, 0.8}, {0.1, 0.14, 0.17}}});
   Dynamics<2> dynamics(specimen, {}, ZeroForce::as_placed);
   const std::size_t wall = dynamics.add_wall({.axis = 1, .side = 1.0, .velocity = -10.0, .bed = 0.05});
@@ -432,7 +432,7 @@ void expect_forces_of_a_lever()
   Wall plate{.axis = axis, .side = -1.0, .position = 0.6, .velocity = -1e-3, .pivots = true, .bed = 0.03};
   plate.extent = {0.0, 1.0};
   const std::size_t wall = dynamics.add_wall(plate);
-  // Of positions of order 1.
+  // Round-off of positions of order 1.
   const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * Walls<dim>::stiffness(specimen, 0.1);
   dynamics.step(); // sees the plate where it was
   for (int k = 0; k < 40; ++k)
@@ -445,7 +445,7 @@ void expect_forces_of_a_lever()
       ASSERT_EQ(dynamics.specimen().grains.force[0][0], 0.0);
     }
   EXPECT_NE(dynamics.wall(wall).tilt, 0.0);
-  // What the plate did is what its contacts store and the grains' motion; the pivot does no work.
+  // Work of the plate is stored in its contacts and in the grains' motion; the pivot does no work.
   EXPECT_LT(dynamics.energies().imbalance_over_work(), 0.01);
 }
 
@@ -666,8 +666,8 @@ void expect_breaks_from_its_crack(const TestOutcome& outcome, const Vector<dim>&
   const TestResults results = evaluate(record);
   ASSERT_TRUE(results.fracture_toughness.value) << results.fracture_toughness.reason;
   ASSERT_TRUE(results.fracture_energy.value) << results.fracture_energy.reason;
-  // What the grips do is ∫ σ dε times the section times the length between them. The dynamics add force times way up step
-  // by step; the rows of the curve take a hundredth of the strain at the peak each.
+  // Work of the grips is ∫ σ dε times the section times the length between them. The dynamics add force times way up
+  // step by step; the rows of the curve take a hundredth of the strain at the peak each.
   double work = 0.0;
   for (std::size_t k = 1; k < record.curve.size(); ++k)
     work += 0.5 * (record.curve[k].axial_stress + record.curve[k - 1].axial_stress) *

@@ -71,7 +71,7 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
           couple[c][second] += touch.on_grains.couple_2[c];
         }
     }
-  // A few of them would be gone through touch by touch however large the body is.
+  // A few of them would be gone through contact by contact however large the body is.
   EXPECT_GT(8 * touches.touching().size(), n_own);
   EXPECT_GT(n_across_the_side, 10u);
   for (int c = 0; c < dim; ++c)
@@ -87,7 +87,8 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
   EXPECT_GT(largest_couple, 0.0);
 }
 
-// Small bodies are gone through touch by touch, large ones grain by grain: each grain gets the same sum, to the last bit.
+// Small bodies are gone through contact by contact, large ones grain by grain: each grain gets the same sum, to the
+// last bit.
 TEST(ForceSum, OfTouchesGoesByTheirNumbersInSmallBodiesAndInLarge)
 {
   ASSERT_TRUE(stays_on_this_thread(400) && stays_on_this_thread(343));

@@ -146,8 +146,9 @@ TEST(Genesis, SaysWhichCoordinationNumbersCanBeHad)
     }
 }
 
-// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to end. Of
-// 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks between its parts.
+// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to
+// end. For 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks
+// between its parts.
 TEST(Genesis, CanBeEndedWithinAStep)
 {
   struct Ended
@@ -286,7 +287,7 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
   EXPECT_NE(
     words(PackingFile(apart + "0 0.002 0.001\n0.01 0.002 0.001\n")).find(":3: overlaps the grain of line 2 by 0.002"),
     std::string::npos);
-  // Its own image, 10 mm away.
+  // Overlap of a grain with its own image, 10 mm away.
   EXPECT_NE(
     words(PackingFile("0.005 0.005 0.0052\n0.005 0.005 0.001\n")).find(":1: overlaps its own image by 0.0004 m"),
     std::string::npos);
@@ -317,7 +318,7 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleInSpaceToo)
   EXPECT_EQ(PackingFile(inside + "0.009 0.005 0.005 0.001\n").refusal<3>("cylinder"), "");
 }
 
-// As many pairs as grains squared, if they were listed before one is refused.
+// Pairs would be as many as grains squared, if they were listed before one is refused.
 TEST(PackingImport, OfGrainsAllAtOnePlaceIsRefusedAtOnce)
 {
   std::string lines;
@@ -377,7 +378,7 @@ TEST(Genesis, APeriodicPackingHasItsStressAndNoWalls)
 
 TEST(Genesis, ACellOfTwoGrainsMeetsSeveralImagesOfOnePair)
 {
-  // Two equal discs on a square lattice turned by 45°: each touches four images of the other.
+  // Two equal discs on a square lattice turned by 45°: each is in contact with four images of the other.
   Specimen<2> specimen;
   specimen.size = {2.0, 2.0};
   specimen.periodic = true;

@@ -84,7 +84,7 @@ const std::vector<std::string> rooms_of_the_command = {"app/processes",   "app/i
 /// Folders that may include any room, but for those named.
 const std::vector<std::string> above_all = {"app", "benchmarks", "tests"};
 
-/// What only these rooms may see of deal.II.
+/// Rooms that may include headers of deal.II; no others may.
 const std::vector<std::string> rooms_of_finite_elements = {"fem", "coupling/sample", "app/processes", "tests",
                                                            "benchmarks"};
 

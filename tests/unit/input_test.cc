@@ -455,7 +455,8 @@ TEST(Input, EveryEntryOfCoresReachesItsMember)
   EXPECT_EQ(input.specimen.cells_along, 4u);
 }
 
-// What has no sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the plane.
+// A body without sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the
+// plane.
 TEST(Input, CoresAreRefusedWhereTheyCannotBe)
 {
   const auto refused = [](const std::string& entries) {
@@ -587,7 +588,7 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
 {
   EXPECT_EQ(error_of_entry("Parallel bond", "Cohesion = 3 MPa"),
             "a.prm:2: Parallel bond/Cohesion = 3 MPa: is of another joint law; Specimen/Joint law is flat joint");
-  // Its default too: what stands in a file is to have an effect.
+  // The default of another law is refused too: an entry in a file is to have an effect.
   EXPECT_EQ(error_of("a.prm", "subsection Flat joint\nset Segments = 4\nend\n"
                               "subsection Specimen\nset Joint law = parallel bond\nend"),
             "a.prm:2: Flat joint/Segments = 4: is of another joint law; Specimen/Joint law is parallel bond");
@@ -629,7 +630,7 @@ TEST(Input, AVariantThatSetsAnEntryOfAnotherJointLawIsRefusedByName)
     varied("flat joint; parallel bond || 2; 3", in_step),
     "a.prm:3: Variants/Values = flat joint; parallel bond || 2; 3: Flat joint/Segments = 3: is of another joint "
     "law; Specimen/Joint law is parallel bond; give it 4 in such a variant");
-  // What the input has without variants says nothing new of the parallel bond.
+  // The value that the input has without variants says nothing new of the parallel bond.
   EXPECT_EQ(varied("flat joint; flat joint; parallel bond || 2; 3; 4", in_step), "");
 
   const TemporaryFolder folder;
@@ -764,7 +765,7 @@ end
 )";
   const auto entries = scan_prm("joints.prm", std::string(joints));
   EXPECT_EQ(entries.size(), entry_names("Softening flat joint").size() + 1);
-  // Those of space have no use in the plane, where they must be left out.
+  // Entries of space have no use in the plane, where they must be left out.
   std::string in_plane(joints);
   for (const std::string line : {"  set Rings = 1\n", "  set Sectors = 6\n"})
     in_plane.erase(in_plane.find(line), line.size());
@@ -1043,7 +1044,7 @@ TEST(Input, TheInstallationGapFollowsFromOneEntry)
     read_input(folder.write("a.prm", "subsection Flat joint\nset Coordination number = 4.2\nend"));
   EXPECT_EQ(by_number.flat_joint.installation_gap_ratio, std::nullopt);
   EXPECT_EQ(by_number.flat_joint.coordination_number, 4.2);
-  // What files of before the gap was the default say, and `best.prm` of calibrations.
+  // Entries in files from before the gap was the default, and in `best.prm` of calibrations.
   EXPECT_EQ(error_of("a.prm", "subsection Flat joint\n"
                               "set Installation gap ratio = none\nset Coordination number = 4.2\nend"),
             "");

@@ -1,4 +1,4 @@
-// Specimens of joint laws other than the flat joint: time step, energies, threads, files and a test taken up again.
+// Specimens of joint laws other than the flat joint: time step, energies, threads, files and a resumed test.
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"

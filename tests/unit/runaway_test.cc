@@ -58,7 +58,7 @@ TEST(Runaway, IsToldByGrainStepAndReason)
       EXPECT_NE(words.find(" in step "), std::string::npos) << words;
       EXPECT_EQ(words.find('\n'), std::string::npos) << words;
     }
-  // What is in nobody's way shows who it is.
+  // A grain in nobody's way is named itself.
   const std::string thrown = end_after([](Grains<2>& grains) { grains.velocity[0][7] = 1e9; });
   EXPECT_NE(thrown.find("grain "), std::string::npos);
   // A grain in free flight does its own radius in a step at 2 km/s and more, and is not disturbed below.
@@ -108,8 +108,8 @@ TestOutcome run(LabTest<dim> test, const std::size_t most_rows)
   return test.finish(!test.has_ended());
 }
 
-// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the stiffest
-// grain, by which the step is chosen. What is allowed as safety, 1, is thus stable even without damping.
+// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the
+// stiffest grain, by which the step is chosen. The largest safety allowed, 1, is thus stable even without damping.
 TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
 {
   const auto pressed_with = [](const double safety) {

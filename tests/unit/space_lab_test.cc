@@ -96,7 +96,7 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
   EXPECT_EQ(pulled.n_shear_cracks, 0u);
   EXPECT_LT(crushed.energy_imbalance, 0.01);
   EXPECT_GT(*crushed.youngs_modulus_initial.value, 10e9);
-  // What the pictures need: of every grain, from the start to the end.
+  // Data that the pictures need: of every grain, from the start to the end.
   ASSERT_GT(snapshots.size(), 4u);
   EXPECT_EQ(snapshots.front().position[2], specimen.grains.position[2]);
   std::size_t n_broken = 0;
@@ -240,7 +240,7 @@ TEST(BrazilianDisc, OfASquareSpecimenIsHeldByItsOutermostGrains)
         }
 }
 
-// What a test that cannot be made would have been made on stands in its record.
+// The record of a test that cannot be made has the body on which the test would have been made.
 TEST(BodySize, IsThatOfTheBodyThatIsCut)
 {
   const std::vector<std::string> all{"brazilian", "three_point_bending", "semicircular_bending"};
@@ -267,7 +267,7 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
   EXPECT_NEAR(beam[2], 12e-3 / 4.4, 1e-15);
 }
 
-// A roller that bore one sphere would let the half disc tilt about it; one that pivots bears on two at least.
+// A roller that rested on one sphere would let the half disc tilt about it; one that pivots rests on two at least.
 TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
 {
   const auto specimen = granite_in_space("box", 0.012, 0.012);

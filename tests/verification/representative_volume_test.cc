@@ -75,7 +75,7 @@ double dissipated(const PathRecord<2>& record)
   return work.slip + work.released + work.settled;
 }
 
-/// What holds at every sample, whatever breaks, slides or closes.
+/// Expects the balances that hold at every sample, whatever breaks, slides or closes.
 template <int dim>
 void expect_balances(const PathRecord<dim>& record)
 {
@@ -179,7 +179,8 @@ TEST(Granite, BalancesHoldInCompressionWithFreeSides)
 
 TEST(GraniteInSpace, CoordinationAndStiffnessAreThoseOfIndependentPrograms)
 {
-  // Of one cell of 400; the mean of three of 800, gap by gap, is a study: benchmarks/networks_in_space.cc.
+  // Coordination number of one cell of 400; the mean of three of 800, gap by gap, is a study:
+  // benchmarks/networks_in_space.cc.
   const Specimen<3> specimen = granite_in_space(1, 0.0116);
   const Network<3> network(specimen);
   EXPECT_GT(network.n_grains(), 390u);

@@ -25,7 +25,8 @@ namespace
 /// the few grains that stand out crushes those and nothing else.
 constexpr double loaded_half_angle = 10.0 * std::numbers::pi / 180.0;
 
-/// Of the disc: as wide as the specimen, or as a core lies on its side; in space of the length that is wanted.
+/// Size of the disc: as wide as the specimen, or as a core that lies on its side; in space of the length that is
+/// wanted.
 template <int dim>
 Vector<dim> disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
@@ -63,12 +64,12 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
                                  "specimen wider or the grains smaller (Specimen/Minimum radius)",
                                  1e3 * diameter));
 
-  // Its porosity stays that of the specimen: the gaps at its ragged rim are none of the rock.
+  // Porosity of the disc stays that of the specimen: the gaps at its ragged rim are none of the rock.
   return shifted<dim>(part_of(specimen, kept), -corner, size);
 }
 
-/// As it lies between the platens: of a core on its side, of a plane box with its longer side upright. Where a wall touches
-/// the rim of the disc few grains lie wholly within it, which is where the disc is to be loaded.
+/// Specimen as it lies between the platens: a core on its side, a plane box with its longer side upright. Where a wall
+/// touches the rim of the disc few grains lie wholly within it, and there the disc is to be loaded.
 template <int dim>
 Specimen<dim> placed(const Specimen<dim>& specimen)
 {

@@ -18,7 +18,7 @@ struct TensionParameters
 /// The entries of TensionParameters.
 std::vector<Entry<TestParameters>> tension_entries();
 
-/// Between the grips [m].
+/// Length between the grips [m].
 template <int dim>
 double free_length(const Specimen<dim>& specimen, const TestParameters& wanted)
 {

@@ -81,8 +81,8 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
     if (presses && !first.duration)
       start_steadily(state, -first.strain_rate.value_or(own.strain_rate), about);
   };
-  // The widening answers the platens after some half of a wave's travel. Mending in it less than a sixth of what is missed
-  // leaves the loop stable even where a broken specimen widens by several times what it is shortened.
+  // The widening responds to the platens after some half of a wave's travel. Mending in it less than a sixth of what is
+  // missed leaves the loop stable even where a broken specimen widens by several times what it is shortened.
   const double closing_per_widening = 0.3 * wave_speed(specimen) / height; // [1/s]
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);

@@ -23,7 +23,8 @@ double shape_factor(const double notch_ratio)
   return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * notch_ratio + (1.071 + 34.401 * s) * notch_ratio * notch_ratio;
 }
 
-/// Of the half disc, as long as wide and half as high; a core lies on its side, so that the half disc is cut across it.
+/// Size of the half disc, as long as wide and half as high; a core lies on its side, so that the half disc is cut
+/// across it.
 template <int dim>
 Vector<dim> half_disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
