@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/body.h"
+#include "base/parameter_id.h"
 
 #include <cstddef>
 #include <functional>
@@ -132,6 +133,7 @@ struct Entry
   std::variant<Number, OptionalNumber, Integer, File, Choice, Text> value;
   std::string_view meaning;
   EntryFlags flags;
+  std::optional<ParameterId> id = {}; ///< of the member that it fills; none of a text, which fills several
 };
 
 /// Makers of entries, one for each kind.
@@ -142,7 +144,7 @@ Entry<P> quantity(const std::string_view name, double P::*const member, const Me
                   const std::string_view unit, const Range& range, const std::string_view meaning,
                   const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags};
+  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
@@ -157,7 +159,7 @@ Entry<P> optional_quantity(const std::string_view name, std::optional<double> P:
                            const std::string_view unit, const Range& range, const std::string_view meaning,
                            const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags};
+  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
@@ -171,14 +173,14 @@ template <typename P>
 Entry<P> integer(const std::string_view name, unsigned int P::*const member, const Range& range,
                  const std::string_view meaning, const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Integer{member, range}, meaning, flags};
+  return {name, typename Entry<P>::Integer{member, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
 Entry<P> file(const std::string_view name, std::string P::*const member, const std::string_view meaning,
               const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::File{member}, meaning, flags};
+  return {name, typename Entry<P>::File{member}, meaning, flags, id_of_member(member)};
 }
 
 /// `options`: what is written, and the value it stands for.
@@ -197,7 +199,7 @@ Entry<P> choice(const std::string_view name, T P::*const member,
       ++k;
     return k;
   };
-  return {name, std::move(value), meaning, flags};
+  return {name, std::move(value), meaning, flags, id_of_member(member)};
 }
 } // namespace entry
 
@@ -232,6 +234,6 @@ Entry<Whole> within(const Entry<Parameters>& entry, const Get& get, const At& at
                                  [=](const Whole& whole) { return form.write(get(whole)); }};
     }, // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): what std::function holds is its own
     entry.value);
-  return {entry.name, std::move(value), entry.meaning, entry.flags};
+  return {entry.name, std::move(value), entry.meaning, entry.flags, entry.id};
 }
 } // namespace feldspar

@@ -119,7 +119,7 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
   if (!has_smooth_joints(input))
     return;
   const bool of_minerals = input.mineral_grains.mean_size.has_value();
-  if (input.specimen.shape == "periodic")
+  if (input.specimen.shape == BodyShape::periodic)
     throw values.error(
       of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic, and a representative "
@@ -164,11 +164,11 @@ void check_clumps(const Input& input, const GivenEntries& values)
   if (!input.clumps.diameter)
     return;
   const auto refuse = [&](const std::string& why) { throw values.error("Clumps", "Diameter", why); };
-  if (input.specimen.shape == "periodic")
+  if (input.specimen.shape == BodyShape::periodic)
     refuse(
       "clumps are in a box, and Specimen/Shape is periodic: a representative volume takes none, set Diameter = none; "
       "a laboratory test takes them with Shape = box");
-  if (input.specimen.dimension != 2 || input.specimen.shape != "box")
+  if (input.specimen.dimension != 2 || input.specimen.shape != BodyShape::box)
     refuse(
       "clumps are of the plane and in a box, for laboratory tests: set Specimen/Dimension = 2 and Specimen/Shape = "
       "box");
@@ -208,9 +208,9 @@ void complete_variants(Input& input, const GivenEntries& values)
 void check_specimen(const Input& input, const GivenEntries& values)
 {
   const SpecimenParameters& specimen = input.specimen;
-  if (specimen.shape == "cylinder" && specimen.dimension != 3)
+  if (specimen.shape == BodyShape::cylinder && specimen.dimension != 3)
     throw values.error("Specimen", "Shape", "needs Dimension = 3");
-  if (specimen.is_cored() && specimen.shape == "periodic")
+  if (specimen.is_cored() && specimen.shape == BodyShape::periodic)
     throw values.error("Specimen", "Coring",
                        "a periodic cell has no sides to be cut free; set Shape = box or cylinder");
   if (specimen.is_cored() && !specimen.packing_file.empty())
@@ -318,7 +318,7 @@ double expected_grains(const SpecimenParameters& specimen)
   // The means of r² and r³ of radii spread uniformly from r to ρ r are r²(1+ρ+ρ²)/3 and r³(1+ρ)(1+ρ²)/4.
   const double r = specimen.minimum_radius;
   const double ratio = specimen.radius_ratio;
-  const double cylinder_over_box = specimen.shape == "cylinder" && !specimen.is_cored() ? 0.25 * std::numbers::pi : 1.0;
+  const double cylinder_over_box = specimen.shape_when_packed() == BodyShape::cylinder ? 0.25 * std::numbers::pi : 1.0;
   if (specimen.dimension == 2)
     {
       const double of_grain = std::numbers::pi * r * r * (1.0 + ratio + ratio * ratio) / 3.0;

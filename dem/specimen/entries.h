@@ -26,7 +26,8 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   return {
     entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
                   "2: discs in the plane, one metre thick; 3: spheres", basic_of_body),
-    entry::choice("Shape", &P::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
+    entry::choice("Shape", &P::shape,
+                  {{"box", BodyShape::box}, {"cylinder", BodyShape::cylinder}, {"periodic", BodyShape::periodic}},
                   "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
                   "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
                   basic_of_body),

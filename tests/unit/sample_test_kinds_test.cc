@@ -19,7 +19,7 @@ TEST(SampleTest, RefusesAKindThatDoesNotSayItRunsOnFiniteElements)
     }
   catch (const InputError& error)
     {
-      EXPECT_EQ(error.what(), std::string("Tests/List: torsion: the sample stands between platens; it makes "
+      EXPECT_EQ(error.what(), std::string("TestKind: torsion: the sample stands between platens; it makes "
                                           "direct_tension, uniaxial_compression, triaxial_compression, own_loading"));
     }
 }
