@@ -53,14 +53,25 @@ inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
 inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
 } // namespace ranges
 
+/// What an entry asks of another one.
+struct Demand
+{
+  std::string_view of_value;             ///< only of this value of its own; empty: of any but the default
+  std::string_view other;                ///< Section/Entry
+  std::vector<std::string_view> allowed; ///< values of the other one; none: its default
+  std::string_view otherwise;            ///< the error: what is wrong, what to do
+};
+
 /// Further properties of an entry.
 struct EntryFlags
 {
-  bool varies = false;           ///< may take one value after the other (section Variants)
-  bool of_specimen = false;      ///< a part of the specimen's identity: genesis reads it
-  std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. Of other bodies it must keep its default
-  std::string_view needs = {};   ///< such a body in words, for the error
-  bool basic = false;            ///< needed in a first study: the reference shows it before the others
+  bool varies = false;            ///< may take one value after the other (section Variants)
+  bool of_specimen = false;       ///< a part of the specimen's identity: genesis reads it
+  std::vector<Body> bodies = {};  ///< that have a use for it; none named: all. Of other bodies it must keep its default
+  std::string_view needs = {};    ///< such a body in words, for the error
+  bool basic = false;             ///< needed in a first study: the reference shows it before the others
+  std::string_view in_space = {}; ///< the default in three dimensions; empty: that of the plane
+  std::vector<Demand> demands = {}; ///< on other entries; the first that is not met is the error
 };
 
 /// The place of a value within `Parameters`: a member, or one of a part of them.

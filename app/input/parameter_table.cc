@@ -16,6 +16,7 @@
 #include "dem/specimen/entries.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -122,6 +123,19 @@ std::string Parameter::default_text() const
   return write(defaults);
 }
 
+std::string Parameter::described() const
+{
+  std::string text(meaning);
+  for (std::size_t k = 0; k < flags.demands.size(); ++k)
+    if (const Demand& one = flags.demands[k];
+        std::none_of(flags.demands.begin() + std::ptrdiff_t(k) + 1, flags.demands.end(),
+                     [&](const Demand& stricter) { return stricter.other == one.other; }))
+      text += fmt::format("; {}{}{} {}{}{}", one.of_value, one.of_value.empty() ? "" : " ",
+                          one.allowed.empty() ? "excludes" : "needs", one.other, one.allowed.empty() ? "" : " = ",
+                          fmt::join(one.allowed, " or "));
+  return text;
+}
+
 const std::vector<Parameter>& parameter_table()
 {
   static const std::vector<Parameter> table = make_parameter_table();
@@ -158,6 +172,22 @@ const Parameter* find_parameter(const std::string_view name)
 {
   const std::size_t slash = std::min(name.find('/'), name.size());
   return find_parameter(name.substr(0, slash), name.substr(std::min(slash + 1, name.size())));
+}
+
+const Demand* unmet_demand(const Input& input, const Parameter& parameter)
+{
+  const auto& demands = parameter.flags.demands;
+  const std::string value = demands.empty() ? "" : parameter.write(input);
+  const auto unmet = std::find_if(demands.begin(), demands.end(), [&](const Demand& demand) {
+    if (demand.of_value.empty() ? value == parameter.default_text() : value != demand.of_value)
+      return false;
+    const Parameter& other = *find_parameter(demand.other);
+    const std::string found = other.write(input);
+    return demand.allowed.empty()
+             ? found != other.default_text()
+             : std::find(demand.allowed.begin(), demand.allowed.end(), found) == demand.allowed.end();
+  });
+  return unmet == demands.end() ? nullptr : &*unmet;
 }
 
 bool has_smooth_joints(const Input& input)

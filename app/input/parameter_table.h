@@ -25,6 +25,7 @@ struct Parameter
   std::function<std::string(const Input&)> write;     ///< as it would stand in an input file
   std::string name() const;                           ///< Section/Entry
   std::string default_text() const;
+  std::string described() const; ///< the meaning, and the demands on other entries
 };
 
 /// The text of an entry that is not used.
@@ -50,6 +51,9 @@ bool has_smooth_joints(const Input& input);
 
 /// False for the sections of joint laws other than the input's own, and of smooth joints where there are none.
 bool has_use_for(const Input& input, const Parameter& parameter);
+
+/// The first of its demands on other entries that this input does not meet; null if there is none.
+const Demand* unmet_demand(const Input& input, const Parameter& parameter);
 
 /// Section and entry of a parameter that a library names; of one that the input does not have its name in the code.
 InputPlace place_of(const ParameterId& id);
