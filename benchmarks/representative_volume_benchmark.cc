@@ -15,7 +15,7 @@ template <int dim>
 Specimen<dim> specimen()
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.0325 : 0.0133;
   wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;

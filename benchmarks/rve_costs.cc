@@ -26,7 +26,7 @@ double processor_time()
 std::shared_ptr<const Network<2>> network(const std::uint64_t seed)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.025;
   wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;

@@ -1,6 +1,7 @@
 #include "calibration/responses.h"
 
 #include "base/prefixes.h"
+#include "laboratory/named_entries.h"
 
 #include "base/append.h"
 #include "base/input_error.h"
@@ -165,12 +166,12 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
           std::string known;
           for (const Response& one : responses)
             known += (known.empty() ? "" : ", ") + one.name;
-          throw InputError(
-            fmt::format("Calibration/Targets: no test of Tests/List gives {}; they give {}", name, known));
+          throw InputError(fmt::format("{}: no test of {} gives {}; they give {}", input_entries::targets.text(),
+                                       input_entries::test_list.text(), name, known));
         }
       if (!given(*found))
-        throw InputError(
-          fmt::format("Calibration/Targets: the experiment of the reference file has no {}", found->reference_key));
+        throw InputError(fmt::format("{}: the experiment of the reference file has no {}",
+                                     input_entries::targets.text(), found->reference_key));
     }
   std::vector<Target> all;
   for (std::size_t j = 0; j < responses.size(); ++j)
@@ -188,7 +189,8 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
         all.push_back(target);
       }
   if (all.empty())
-    throw InputError("Report/Reference file: its experiment has none of the figures that the tests of Tests/List give");
+    throw InputError(fmt::format("{}: its experiment has none of the figures that the tests of {} give",
+                                 input_entries::reference_file.text(), input_entries::test_list.text()));
   return all;
 }
 } // namespace feldspar::calibration

@@ -1,5 +1,6 @@
 #include "laboratory/peak.h"
 
+#include "laboratory/named_entries.h"
 #include "laboratory/paired_moments.h"
 #include "laboratory/record.h"
 
@@ -45,13 +46,14 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
   if (!watch.is_borne())
     return fmt::format(
       "the highest stress, {:.3g} MPa, is below {:.3g} MPa, which waves can bring about in a body that "
-      "nothing holds (Tests/Least peak stress)",
-      highest, watch.demands().least_stress / 1e6);
+      "nothing holds ({})",
+      highest, watch.demands().least_stress / 1e6, input_entries::least_stress.text());
   if (watch.is_too_early())
     return fmt::format(
       "the highest stress, {:.3g} MPa, came after {:.3g} µs, when waves had not yet spread it over the "
-      "specimen, which takes {:.3g} µs (Tests/Least transits to peak); lower the strain rate",
-      highest, 1e6 * record.curve[watch.row()].time, 1e6 * watch.demands().least_time);
+      "specimen, which takes {:.3g} µs ({}); lower the strain rate",
+      highest, 1e6 * record.curve[watch.row()].time, 1e6 * watch.demands().least_time,
+      input_entries::least_transits.text());
   if (record.came_apart || keeps_its_strength(record) || watch.is_level())
     return "";
   const bool is_last = watch.row() + 1 == record.curve.size();
@@ -62,8 +64,8 @@ std::string objection(const TestRecord& record, const PeakWatch& watch)
   if (!watch.has_fallen())
     return fmt::format(
       "the stress never peaked: when the test ended it had not fallen by {:g} % from its highest, {:.4g} "
-      "MPa (Tests/Least fall after peak)",
-      100.0 * watch.demands().least_fall, highest);
+      "MPa ({})",
+      100.0 * watch.demands().least_fall, highest, input_entries::least_fall.text());
   return "";
 }
 } // namespace

@@ -36,7 +36,7 @@ Input cell_of(const Input& input)
 {
   constexpr double n_grains = 900.0; // the constants of a cell then scatter by about a per cent
   Input cell = input;
-  cell.specimen.shape = "periodic";
+  cell.specimen.shape = BodyShape::periodic;
   cell.specimen.coring = Coring::none; // a core is cut from such a cell
   cell.specimen.cells_across = 1;
   cell.specimen.cells_along = 1;

@@ -107,7 +107,7 @@ void share_out_tests(const Run& run, Progress& progress)
     std::vector<Specimen<dim>> specimens(orders.size());
     for (std::size_t k = 0; k < numbers.size(); ++k)
       specimens[numbers[k]] = std::move(read[k]);
-    if (std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.periodic; }))
+    if (std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
       run_programme(all_variants, orders, specimens, run.folder, progress, share);
     end_if_interrupted();
   });

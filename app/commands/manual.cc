@@ -109,7 +109,7 @@ std::string manual_page(const CLI::App& command_line)
       for (const Parameter& parameter : parameter_table())
         if (parameter.section == section)
           text += fmt::format(".TP\n\\fB{}\\fR\n{}.\nDefault {}{}; range {}.\n", in_roff(parameter.entry),
-                              in_roff(parameter.meaning), in_roff(parameter.default_text()),
+                              in_roff(parameter.described()), in_roff(parameter.default_text()),
                               parameter.unit.empty() ? "" : fmt::format("; in {}", in_roff(parameter.unit)),
                               in_roff(parameter.range));
     }

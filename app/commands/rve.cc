@@ -217,7 +217,7 @@ void share_out_paths(const Run& run, Progress& progress)
     for_each_job(own.size(), [&](const std::size_t k) {
       const PlannedPath& path = own[k];
       const auto cell = read_specimen<dim>(run.folder / (orders[path.specimen].name + ".h5"));
-      if (cell.periodic)
+      if (cell.is_periodic())
         run_rve<dim>(all_variants[path.variant], path.name, cell, run.folder,
                      [&](const double progress_of_path, const PathSample<dim>& sample) {
                        board.update(k, progress_of_path, path.name, describe(sample));

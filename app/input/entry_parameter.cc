@@ -177,7 +177,7 @@ ValueForm<std::size_t> form_of(const Entry<Input>::Choice& choice)
 
 Parameter parameter_of(const std::string_view section, const Entry<Input>& entry)
 {
-  Parameter parameter{section, entry.name, "", "", entry.meaning, entry.flags, {}, {}};
+  Parameter parameter{section, entry.name, "", "", entry.meaning, entry.flags, entry.id, {}, {}};
   std::visit(
     [&](const auto& value) {
       using Kind = std::decay_t<decltype(value)>;

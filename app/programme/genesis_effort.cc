@@ -114,7 +114,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
       const double n_iterations = plane ? 250.0 * std::pow(n, 0.36) : 900.0 * std::pow(n, 0.22);
       return {n, n_iterations, n * bytes_of_grain(specimen.dimension), n * n_iterations * (plane ? 4e-8 : 1.2e-7)};
     }
-  const double longer = specimen.shape == "periodic" || specimen.is_cored() ? 1.8 : 1.0;
+  const double longer = is_periodic(specimen.shape_when_packed()) ? 1.8 : 1.0;
   const double n_steps = longer * (plane ? 900.0 * std::pow(n, 0.45) : 2400.0 * std::pow(n, 0.38));
   const double seconds_of_grain_and_step = plane ? 4e-8 : 1.6e-7;
   return {n, n_steps, n * bytes_of_grain(specimen.dimension), n * n_steps * seconds_of_grain_and_step};

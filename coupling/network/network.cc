@@ -1,11 +1,12 @@
 #include "coupling/network/network.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "coupling/network/conjugate_gradients.h"
 #include "coupling/network/open_cell.h"
 #include "coupling/network/rigid_motions.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/specimen/neighbours.h"
+#include "dem/specimen/parameters.h"
 
 #include <Eigen/Geometry>
 
@@ -81,16 +82,23 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   , face(specimen.joints.elements)
   , grain_radii(specimen.grains.radius)
 {
-  if (!specimen.periodic)
-    throw InputError("Specimen/Shape: a representative volume needs a periodic specimen");
+  if (!specimen.is_periodic())
+    throw ParameterError(parameter_id<&SpecimenParameters::shape>(),
+                         "a representative volume needs a periodic specimen");
   if (!specimen.smooth_joints.empty())
-    throw InputError("Specimen/Specimen file: has smooth joints, which a representative volume cannot have");
+    throw ParameterError(parameter_id<&SpecimenParameters::specimen_file>(),
+                         "has smooth joints, which a representative volume cannot have");
   if (specimen.groups_are_rigid)
-    throw InputError("Specimen/Specimen file: has clumps, which a representative volume cannot have");
+    throw ParameterError(parameter_id<&SpecimenParameters::specimen_file>(),
+                         "has clumps, which a representative volume cannot have");
   if (number_of_joints == 0)
-    throw InputError(fmt::format("{}/Installation gap ratio: joins no two grains of the RVE, so that nothing holds "
-                                 "it; make it larger",
-                                 section_of(std::visit([](const auto& law) { return law.name; }, joint_law))));
+    throw ParameterError(std::visit(
+                           []<typename Law>(const Law&) {
+                             using Parameters = typename Law::Parameters;
+                             return parameter_id<&Parameters::installation_gap_ratio, Parameters>();
+                           },
+                           joint_law),
+                         "joins no two grains of the RVE, so that nothing holds it; make it larger");
   const auto& joints = specimen.joints;
   for (std::size_t i = 0; i < number_of_own_grains; ++i)
     centres.push_back(at<dim>(specimen.grains.position, i));

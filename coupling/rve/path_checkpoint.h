@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-/// Checkpoints of `feldspar rve`, whichever solver goes the path.
+/// Checkpoints of a strain path, whichever solver goes the path.
 namespace feldspar
 {
 void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,

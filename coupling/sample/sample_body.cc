@@ -1,6 +1,7 @@
 #include "coupling/sample/sample_body.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/ranks/communicator.h"
 #include "base/ranks/ranks.h"
 #include "coupling/sample/continua/continua.h"
@@ -74,9 +75,9 @@ void check_size(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample
   const double width = box.side_length(0);
   const double height = box.side_length(dim - 1);
   if (sample.mesh_unit == MeshUnit::not_said && std::max(width, height) > largest)
-    throw fem::MeshError(fmt::format("in metres the mesh is {:g} m wide and {:g} m high; if its coordinates are in "
-                                     "another unit, set Mesh unit = mm (or cm), if it is so large, Mesh unit = m",
-                                     width, height));
+    throw fem::MeshError(fmt::format("in metres the mesh is {0:g} m wide and {1:g} m high; if its coordinates are in "
+                                     "another unit, set {2} = mm (or cm), if it is so large, {2} = m",
+                                     width, height, entry_in_words(parameter_id<&SampleParameters::mesh_unit>())));
 }
 
 template <int dim>
@@ -116,9 +117,10 @@ fem::SampleMesh<dim> mesh_of(const SampleParameters& sample)
     }
   catch (const fem::MeshError& error)
     {
-      throw InputError(sample.mesh_file.empty()
-                         ? fmt::format("Sample/Elements across = {}: {}", sample.elements_across, error.what())
-                         : fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
+      throw sample.mesh_file.empty()
+        ? ParameterError(parameter_id<&SampleParameters::elements_across>(), fmt::format("{}", sample.elements_across),
+                         error.what())
+        : ParameterError(parameter_id<&SampleParameters::mesh_file>(), sample.mesh_file, error.what());
     }
 }
 
@@ -279,7 +281,7 @@ public:
     const std::any structure = solid.material_points()[i].structure();
     const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
     if (grains == nullptr)
-      throw InputError("Sample/Material: the points of this sample have no grains");
+      throw ParameterError(parameter_id<&SampleParameters::material>(), "the points of this sample have no grains");
     return SampleRve<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
   }
 

@@ -35,7 +35,7 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , watch(body.grains)
   , ledger(bodies().size())
 {
-  if (body.periodic)
+  if (body.is_periodic())
     for (std::size_t j = 0; j < body.joints.size(); ++j)
       if (const auto second = body.second_of(j); second.boxes != std::array<int, dim>{})
         body.joints.grain_2[j] = images.number_of(second, body.grains);
@@ -114,7 +114,7 @@ std::vector<Break> Dynamics<dim>::step()
   add_boundary_work(dt, 0.5);
   const double farthest_way = integrate();
   wall_set.move(dt);
-  if (body.periodic)
+  if (body.is_periodic())
     images.move(dt, body.grains);
   auto breaks = update_contacts(dt, farthest_way);
   add_boundary_work(dt, 0.5);
@@ -192,7 +192,7 @@ bool Dynamics<dim>::regroup_joints()
 {
   const bool responds_as_one = std::visit(
     [](const auto& law) { return RespondsAsOne<std::decay_t<decltype(law)>, dim, simd::Pack>; }, body.joints.law);
-  return responds_as_one && !body.periodic && joint_groups.regroup(body.joints);
+  return responds_as_one && !body.is_periodic() && joint_groups.regroup(body.joints);
 }
 
 /// The grains of a joint that has lost its face may come into contact again. Returns whether joints have gone.
@@ -240,7 +240,7 @@ template <int dim>
 void Dynamics<dim>::find_contacts()
 {
   check_motion(); // the search could not place what stands nowhere
-  if (body.periodic)
+  if (body.is_periodic())
     images.add_within(watch.skin(), body.grains);
   touches.search(body, images, joints_of, watch.skin(), zero_force, ledger, check);
   wall_set.search(body, images.n_own(), watch.skin(), zero_force, ledger);
@@ -304,7 +304,7 @@ double Dynamics<dim>::integrate()
   const double farthest_way = move_bodies(bodies(), n_bodies(), {previous_dt, dt, parameters.damping, gravity},
                                           grips.freedom(), ledger.damping_work);
   groups.carry_members(body.grains, dt);
-  return body.periodic || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
+  return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }
 
 template <int dim>

@@ -1,5 +1,8 @@
 #include "dem/dynamics/runaway.h"
 
+#include "base/parameter_id.h"
+#include "dem/dynamics/parameters.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,10 +25,11 @@ std::string likely_reason(const Circumstances& now)
   if (now.through_wall)
     return "the contacts of its grains are too soft for this load; a higher modulus of contacts and joints would help";
   if (now.share_of_stable_step > near_the_edge)
-    return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller Dynamics/Time step "
-                       "safety would help",
-                       now.share_of_stable_step);
-  return "forces have outgrown its contacts; a smaller Dynamics/Time step safety, more Damping or a lower rate may help";
+    return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller {} would help",
+                       now.share_of_stable_step, in_words(parameter_id<&DynamicsParameters::time_step_safety>()));
+  return fmt::format("forces have outgrown its contacts; a smaller {}, more {} or a lower rate may help",
+                     in_words(parameter_id<&DynamicsParameters::time_step_safety>()),
+                     entry_in_words(parameter_id<&DynamicsParameters::damping>()));
 }
 } // namespace
 

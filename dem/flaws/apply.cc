@@ -1,6 +1,7 @@
 #include "dem/flaws/apply.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
@@ -147,7 +148,7 @@ std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& e
       const Vector<dim> branch = (joints.rest_distance[j] + joints.opening[j]) * at<dim>(joints.normal, j);
       const Vector<dim> one = at<dim>(specimen.grains.position, joints.grain_1[j]);
       cut[j] = effect.cuts(one, one + branch);
-      if (specimen.periodic && !cut[j])
+      if (specimen.is_periodic() && !cut[j])
         {
           const Vector<dim> two = at<dim>(specimen.grains.position, joints.grain_2[j]);
           cut[j] = effect.cuts(two - branch, two);
@@ -261,7 +262,7 @@ template <int dim>
 void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>& effect, const SmoothSides& sides,
                  const SmoothJointParameters& all, Flaw<dim>& flaw)
 {
-  if (specimen.periodic)
+  if (specimen.is_periodic())
     throw InputError("has smooth joints, which a periodic specimen cannot have; leave out its word smooth");
   const SmoothJointParameters wanted = sides.among(all);
   if (const std::string what = objection(wanted); !what.empty())
@@ -278,7 +279,7 @@ void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>&
         places.push_back({j, effect.normal(one, two), joints.face_area(j)});
         sum += places.back().area;
       }
-  if (!specimen.round) // of a cylinder the faces keep their own areas
+  if (!specimen.is_round()) // of a cylinder the faces keep their own areas
     for (auto& place : places)
       place.area *= area_of(shape, specimen) / sum;
   flaw.n_joints = places.size();
@@ -319,7 +320,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
   if (shapes.empty())
     return;
   if (const std::string what = objection<dim>(shapes, specimen.size); !what.empty())
-    throw InputError("Flaws: " + what);
+    throw ParameterError(parameters_id<FlawParameters>(), what);
   for (std::size_t k = 0; k < shapes.size(); ++k)
     try
       {
@@ -344,7 +345,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
       }
     catch (const InputError& error)
       {
-        throw InputError(fmt::format("Flaws: {}: {}", title(shapes, k), error.what()));
+        throw ParameterError(parameters_id<FlawParameters>(), fmt::format("{}: {}", title(shapes, k), error.what()));
       }
   // Numbers of joints are places in lists; those of the ones taken out are free.
   number_joints(specimen);

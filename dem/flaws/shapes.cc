@@ -1,6 +1,8 @@
 #include "dem/flaws/shapes.h"
 
+#include "base/parameter_id.h"
 #include "base/random.h"
+#include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
 
@@ -219,7 +221,7 @@ std::string objection(const Shape& shape, const Vector<dim>& size)
 {
   const Vector<2> plane_size(size[0], size[dim - 1]);
   if (dim == 2 && (std::holds_alternative<SphereHole>(shape) || std::holds_alternative<DiscFlaw>(shape)))
-    return "lies in space; it needs Specimen/Dimension = 3";
+    return fmt::format("lies in space; it needs {} = 3", in_words(parameter_id<&SpecimenParameters::dimension>()));
   if constexpr (dim == 3)
     {
       if (const auto* hole = std::get_if<SphereHole>(&shape))

@@ -14,9 +14,9 @@ template <int dim>
 Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int, dim>& n_cells);
 
 /// Cuts a periodic cell at the faces of its box (one with walled ends at the sides only), and in space at the largest
-/// upright cylinder in it if `round`. Grains stay whole and belong to the body where their centres do; joints that lead
+/// upright cylinder in it for the shape of a cylinder. Grains stay whole and belong to the body where their centres do; joints that lead
 /// out of it are cut. Groups of grains that lose their last joint to the body are removed. The report has the
 /// coordination number, porosity and overlaps of what is left, and the installation gap of the cell.
 template <int dim>
-Specimen<dim> cored(const Specimen<dim>& cell, bool round);
+Specimen<dim> cored(const Specimen<dim>& cell, BodyShape shape);
 } // namespace feldspar

@@ -1,7 +1,7 @@
 #include "dem/genesis/static_packing.h"
 
-#include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/parameter_id.h"
 #include "dem/dynamics/walls.h"
 #include "dem/laws/face_elements.h"
 #include "dem/specimen/neighbours.h"
@@ -173,7 +173,7 @@ void Descent<dim>::find_neighbours()
       for (Place& grain : grains)
         grain[c] -= body.size[c] * std::floor(grain[c] / body.size[c]);
   const Grains<dim> own = result();
-  const auto images = body.periodic ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
+  const auto images = body.is_periodic() ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
   const Grains<dim> all = with_images(own, images, body.cell());
 
   std::map<std::array<int, dim>, std::uint32_t> number_of_box;
@@ -247,7 +247,7 @@ template <int dim>
 template <typename Visitor>
 void Descent<dim>::visit_walls(const Place& grain, const double reach, Visitor&& visit) const
 {
-  for (int axis = body.round ? dim - 1 : 0; axis < dim; ++axis)
+  for (int axis = body.is_round() ? dim - 1 : 0; axis < dim; ++axis)
     for (const double side : {1.0, -1.0})
       if (const double distance = side > 0.0 ? grain[axis] : body.size[axis] - grain[axis];
           !body.repeats(axis) && distance < reach)
@@ -256,7 +256,7 @@ void Descent<dim>::visit_walls(const Place& grain, const double reach, Visitor&&
           normal[axis] = side;
           visit(distance, normal);
         }
-  if (!body.round)
+  if (!body.is_round())
     return;
   const double x = grain[0] - 0.5 * body.size[0];
   const double y = grain[1] - 0.5 * body.size[0];
@@ -437,10 +437,15 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
           error <= packing_stress_tolerance)
         break;
       if (k == most_iterations)
-        throw InputError(fmt::format(
-          "Specimen: no packing at rest at a mean stress of {:.3g} Pa within {} iterations (reached {:.3g} Pa, forces "
-          "balanced to {:.2g}); another Porosity, Packing stress ratio or seed may do, or Packing relaxation = dynamics",
-          stress, most_iterations, packing.stress, packing.unbalanced_ratio));
+        throw ParameterError(
+          parameters_id<SpecimenParameters>(),
+          fmt::format(
+            "no packing at rest at a mean stress of {:.3g} Pa within {} iterations (reached {:.3g} Pa, forces "
+            "balanced to {:.2g}); another {}, {} or seed may do, or {} = dynamics",
+            stress, most_iterations, packing.stress, packing.unbalanced_ratio,
+            entry_in_words(parameter_id<&SpecimenParameters::porosity>()),
+            entry_in_words(parameter_id<&SpecimenParameters::packing_stress_ratio>()),
+            entry_in_words(parameter_id<&SpecimenParameters::packed_by_descent>())));
 
       double keep = 1.0;
       double kick = time_step;

@@ -1,5 +1,6 @@
 #include "dem/lab/laboratory_run.h"
 
+#include "base/parameter_id.h"
 #include "base/system/hdf5_archive.h"
 #include "dem/lab/cracks.h"
 #include "dem/lab/seating.h"
@@ -51,12 +52,12 @@ std::string what_bears_nothing(const TestRecord& record)
   if (record.notch)
     return fmt::format(
       "no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is "
-      "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
-      "radius)",
-      percent);
-  return fmt::format("the stress stayed below {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
+      "a few grains thick may fall aside: make it larger, or its grains smaller ({})",
+      percent, in_words(parameter_id<&SpecimenParameters::minimum_radius>()));
+  return fmt::format("the stress stayed below {:.3g} MPa ({}) up to a strain of {:.0f} %: nothing "
                      "holds the specimen, or it has no strength",
-                     record.peak_demands.least_stress / 1e6, percent);
+                     record.peak_demands.least_stress / 1e6,
+                     in_words(parameter_id<&TestParameters::least_peak_stress>()), percent);
 }
 
 template <int dim>
@@ -99,7 +100,7 @@ template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
-  gauge = StrainGauge<dim>(specimen.size, specimen.round, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
+  gauge = StrainGauge<dim>(specimen.size, specimen.shape, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
 }
 
 template <int dim>
@@ -139,9 +140,9 @@ void LabTest<dim>::seat(const std::function<void()>& check)
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
   if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
-    throw InputError(
-      "Tests/Loading table: lateral_strain cannot be measured: too few grains with joints in the middle of "
-      "the specimen; make it wider or the grains smaller");
+    throw ParameterError(parameter_id<&LoadingTable::file>(),
+                         "lateral_strain cannot be measured: too few grains with joints in the middle of "
+                         "the specimen; make it wider or the grains smaller");
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
   record.curve.push_back(sample());

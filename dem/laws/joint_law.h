@@ -19,7 +19,7 @@
 ///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
 ///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
 ///      {1} in the plane and {1, 1} in space.
-///   3. Its name in the list of joint_laws.h and in the choices of `Specimen/Joint law`.
+///   3. Its name in the list of joint_laws.h which the entries of a specimen offer.
 ///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
 /// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. How a face
@@ -45,14 +45,6 @@ struct ElementsOfOneFace
   template <typename Update>
   void set(unsigned int element, const Update& update);
 };
-
-/// The section of the input that holds a law's entries: the name of the law with a capital letter.
-inline std::string section_of(const std::string_view law_name)
-{
-  std::string section(law_name);
-  section.front() = char(section.front() - 'a' + 'A');
-  return section;
-}
 
 /// The state of an element, to which the law may add `std::array<Real, n_more> more`.
 template <typename State, int dim, typename Real>
@@ -143,7 +135,7 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
            typename Law::template State<double> (*state_of)(unsigned int), const ElementRows<dim> rows,
            const Motion<dim> motion)
 {
-  // The choice of `Specimen/Joint law`.
+  // The name, by which the input chooses it.
   {
     Law::name
     } -> std::convertible_to<std::string_view>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/body.h"
 #include "dem/laws/parameters.h"
 #include "dem/specimen/flaw.h"
 #include "dem/specimen/neighbours.h"
@@ -22,11 +23,10 @@ template <int dim>
 struct Specimen
 {
   Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
-  bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
-  bool walled_ends = false;               ///< of a periodic body while it is packed: along the last axis it does not
-  bool round = false;                     ///< a cylinder about the last axis, in space; the box is around it
-  double thickness = 1.0;                 ///< of the plane [m]
-  double bulk_density = 0.0;              ///< [kg/m³]
+  BodyShape shape =
+    BodyShape::box;          ///< of a cylinder the box is around it; in a periodic body a joint may lead to an image
+  double thickness = 1.0;    ///< of the plane [m]
+  double bulk_density = 0.0; ///< [kg/m³]
   std::uint64_t seed = 0;
   ParticleContactParameters particle_contact;
   Grains<dim> grains;
@@ -39,13 +39,19 @@ struct Specimen
   std::vector<Flaw<dim>> flaws; ///< that have been put in
 
   /// Returns whether the specimen repeats itself along an axis; where it does not, the body has ends.
-  bool repeats(const int axis) const { return periodic && !(walled_ends && axis == dim - 1); }
+  bool repeats(const int axis) const
+  {
+    return shape == BodyShape::periodic || (shape == BodyShape::periodic_sideways && axis < dim - 1);
+  }
+
+  bool is_periodic() const { return feldspar::is_periodic(shape); }
+  bool is_round() const { return shape == BodyShape::cylinder; }
 
   /// The edges of the cell as columns [m]: those of the box; along walled ends so long that no image comes near the body.
   Tensor<dim> cell() const
   {
     Tensor<dim> edges = size.asDiagonal();
-    if (walled_ends)
+    if (shape == BodyShape::periodic_sideways)
       edges(dim - 1, dim - 1) *= 4.0;
     return edges;
   }
@@ -55,7 +61,10 @@ struct Specimen
 
   std::size_t n_joints() const { return joints.size() + smooth_joints.size(); }
 
-  double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0) * (round ? 0.25 * std::numbers::pi : 1.0); }
+  double volume() const
+  {
+    return size.prod() * (dim == 2 ? thickness : 1.0) * (is_round() ? 0.25 * std::numbers::pi : 1.0);
+  }
 
   /// Distance of a point from the axis of the tests through the middle [m].
   double distance_from_axis(const Vector<dim>& point) const
@@ -72,7 +81,7 @@ PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const
   const Vector<dim> between =
     at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
   PeriodicImage<dim> image{joints.grain_2[joint], {}};
-  if (periodic)
+  if (is_periodic())
     for (int c = 0; c < dim; ++c)
       image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
   return image;

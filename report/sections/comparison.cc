@@ -1,6 +1,7 @@
 #include "report/sections/comparison.h"
 
 #include "base/text.h"
+#include "laboratory/named_entries.h"
 #include "results/fits/direct_shear.h"
 #include "results/fits/hoek_brown.h"
 #include "results/fits/mohr_coulomb.h"
@@ -347,8 +348,8 @@ std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& 
           sentences.push_back(sentence);
       }
   if (const auto keys = properties_without_a_test(rows, reference); !keys.empty())
-    sentences.push_back(fmt::format(
-      "Not tested here: the experiment's {}; Tests/List and Tests/Confinements add tests.", fmt::join(keys, ", ")));
+    sentences.push_back(fmt::format("Not tested here: the experiment's {}; {} and {} add tests.", fmt::join(keys, ", "),
+                                    input_entries::test_list.text(), input_entries::confinements.text()));
   return sentences;
 }
 

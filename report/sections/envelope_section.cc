@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "report/sections/sections.h"
 
 #include "base/append.h"
@@ -34,17 +35,18 @@ std::string with_symbols(std::string text)
 /// The likely cause of points that rise most steeply up to the first confinement, where platens let the ends widen.
 std::string remark_on_platens(const Series& series, const StrengthData& data)
 {
-  std::string friction = series.made_by.value_of("Tests", "Platen friction");
+  std::string friction = series.made_by.value_of(input_entries::platen_friction);
   if (!series.tests.empty())
     for (const VariantSetting& setting : series.tests.front().settings)
-      if (setting.entry == "Tests/Platen friction")
+      if (setting.entry == input_entries::platen_friction.text())
         friction = setting.value;
   if (series.kind != SeriesKind::specimens || friction.empty() || std::strtod(friction.c_str(), nullptr) != 0.0 ||
       !rises_more_steeply_under_confinement(data))
     return "";
-  return "The strengths rise most steeply up to the first confinement. Smooth platens are a likely cause: between them a specimen splits "
-         "early without confinement. The friction of a laboratory's platens raises the uniaxial strength most (Tests/Platen "
-         "friction).";
+  return fmt::format(
+    "The strengths rise most steeply up to the first confinement. Smooth platens are a likely cause: between them a specimen splits "
+    "early without confinement. The friction of a laboratory's platens raises the uniaxial strength most ({}).",
+    input_entries::platen_friction.text());
 }
 
 std::string text_of(const MohrCoulombFit& fit)

@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "report/sections/sections.h"
 
 #include "report/pictures/plot_style.h"
@@ -20,7 +21,7 @@ namespace
 /// The material of the points, as the input names it.
 std::string material_at_points(const Provenance& made_by)
 {
-  const std::string material = made_by.value_of("Sample", "Material");
+  const std::string material = made_by.value_of(input_entries::material);
   if (material.empty())
     return "";
   return material == "grains" ? " with a representative volume of grains at every point"

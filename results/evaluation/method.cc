@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "results/evaluation/rising_branch.h"
 
 /// Measures of how near the test was to being quasi-static, and how well the confinement was held.
@@ -32,7 +33,7 @@ Figure kinetic_to_strain_energy(const RisingBranch& branch)
 Figure unbalanced_force_ratio(const RisingBranch& branch)
 {
   if (branch.record.body != TestBody::grains)
-    return unknown("Newton's method holds it at Sample/Newton tolerance");
+    return unknown("Newton's method holds it at " + input_entries::newton_tolerance.text());
   double sum = 0.0;
   double n_rows = 0.0;
   branch.loaded_rows([&](const CurveSample& row) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "laboratory/named_entries.h"
 #include "laboratory/test_outcome.h"
 #include "results/evaluation.h"
 #include "results/variant_setting.h"
@@ -28,7 +29,7 @@ struct Provenance
   unsigned int n_threads = 1;
 
   /// Value of an entry with its unit; empty where the input is not known or has no such entry.
-  std::string value_of(const std::string& section, const std::string& entry) const;
+  std::string value_of(const input_entries::EntryName& wanted) const;
 };
 
 /// A finished test with its results.

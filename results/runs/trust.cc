@@ -1,6 +1,7 @@
 #include "results/runs/trust.h"
 
 #include "base/append.h"
+#include "laboratory/named_entries.h"
 #include "results/runs/quantity_values.h"
 #include "results/statistics.h"
 
@@ -171,9 +172,9 @@ std::string shortcoming(const FinishedTest& test)
   if (ended_near_its_peak(test))
     return fmt::format(
       "{} ended at {:.2f} times the strain of its peak and still bore {:.0f} % of the strength: a higher peak may lie "
-      "beyond; a greater Tests/Stop strain shows it.",
+      "beyond; a greater {} shows it.",
       test.name, record.kind.strain(record.curve.back()) / *test.results.strain_at_peak.value,
-      100.0 * *test.results.residual_deviator_ratio.value);
+      100.0 * *test.results.residual_deviator_ratio.value, input_entries::stop_strain.text());
   if (record.kind.follows_stages && ends_rising(record))
     return fmt::format("{} was still being loaded when its table ended: its highest stress is no strength.", test.name);
   if (record.way_to_grains > 0.0)

@@ -378,7 +378,7 @@ const std::vector<FuzzedReader>& fuzzed_readers()
        SpecimenParameters wanted;
        wanted.packing_file = write(folder / "packing.txt", content).string();
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
-       wanted.shape = "periodic";
+       wanted.shape = BodyShape::periodic;
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
      }},
     {"mesh",

@@ -201,7 +201,7 @@ TEST(Clumps, ThatCannotBeAreRefused)
   Specimen<2> specimen = packing();
   EXPECT_THROW(put_in_clumps(specimen, {0.002}), InputError);
   Specimen<2> periodic = specimen;
-  periodic.periodic = true;
+  periodic.shape = BodyShape::periodic;
   EXPECT_THROW(put_in_clumps(periodic, {0.005}), InputError);
   Specimen<3> cylinder = small_cylinder();
   EXPECT_THROW(put_in_clumps(cylinder, {0.005}), InputError);

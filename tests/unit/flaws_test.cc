@@ -200,7 +200,7 @@ TEST(Flaws, AreRefusedByNumberKindAndReason)
 {
   const EllipseHole fits{{0.006, 0.010}, {0.0025, 0.0025}};
   EXPECT_EQ(refusal({fits, EllipseHole{{0.011, 0.010}, {0.0025, 0.0025}}}).substr(0, 70),
-            "Flaws: shape 2, hole: (13.5, 10) mm lies outside of the specimen, whic");
+            "FlawParameters: shape 2, hole: (13.5, 10) mm lies outside of the speci");
   EXPECT_NE(refusal({line(0.0, 0.0, 0.0, 0.03)}).find("shape 1, closed flaw: (0, 30) mm lies outside"),
             std::string::npos);
   EXPECT_NE(refusal({EllipseHole{{0.006, 0.010}, {1e-6, 1e-6}}}).find("hole: takes out no grain"), std::string::npos);
@@ -219,7 +219,7 @@ TEST(Flaws, ThatLeaveAFreePieceAreRefused)
   const Slot across{{0.0, 0.010}, {0.0065, 0.010}, 0.0};
   EXPECT_EQ(refusal({down}), "");
   EXPECT_EQ(refusal({across}), "");
-  EXPECT_NE(refusal({down, across}).find("Flaws: shape 2, slot: leaves a free piece of "), std::string::npos);
+  EXPECT_NE(refusal({down, across}).find("FlawParameters: shape 2, slot: leaves a free piece of "), std::string::npos);
 }
 
 TEST(JointSets, HaveTheSpacingThePersistenceAndTheSeedOfTheirEntry)
@@ -272,7 +272,7 @@ TEST(Flaws, ComeBackFromASpecimenFile)
 TEST(Flaws, InSpaceRunThroughTheDepth)
 {
   // A borehole along y through a cube of 8 × 8 × 12 mm.
-  Specimen<3> specimen = small_cylinder(1, 1.0, "box");
+  Specimen<3> specimen = small_cylinder(1, 1.0, BodyShape::box);
   const std::size_t before = specimen.grains.size();
   put_in_flaws(specimen, {EllipseHole{{0.004, 0.006}, {0.0015, 0.0015}}});
   EXPECT_LT(specimen.grains.size(), before);
@@ -280,7 +280,7 @@ TEST(Flaws, InSpaceRunThroughTheDepth)
     EXPECT_GE(std::hypot(specimen.grains.position[0][i] - 0.004, specimen.grains.position[2][i] - 0.006), 0.0015);
 
   // A level disc: what crosses its plane beyond its rim stays bonded.
-  specimen = small_cylinder(1, 1.0, "box");
+  specimen = small_cylinder(1, 1.0, BodyShape::box);
   put_in_flaws(specimen, {DiscFlaw{{0.004, 0.004, 0.006}, 0.003, {0.0, 0.0, 1.0}}});
   std::size_t n = 0;
   for (std::size_t j = 0; j < specimen.joints.size(); ++j)
@@ -693,7 +693,7 @@ TEST(NotchedBodies, OfACentreCrackBreakFromItsTips)
 TEST(NotchedBodies, OfACentreCrackBreakFromItsFrontsInSpace)
 {
   // The crack runs through the depth of a box of 8 × 8 × 12 mm.
-  const auto block = small_cylinder(1, 1.0, "box");
+  const auto block = small_cylinder(1, 1.0, BodyShape::box);
   expect_breaks_from_its_crack<3>(pull_cracked(block), block.size, block.report.mean_radius, 0.008 * 0.008);
 }
 

@@ -28,7 +28,7 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
     for (std::size_t c = 0, rest = i; c < dim; ++c, rest /= n_across)
       positions[c].push_back((double(rest % n_across) + 0.5) * spacing + random.uniform(-0.03, 0.03) * radius);
   auto body = placed_specimen<dim>(std::vector<double>(n_own, radius), positions);
-  body.periodic = true;
+  body.shape = BodyShape::periodic;
   body.size.setConstant(double(n_across) * spacing);
 
   Images<dim> images(body);

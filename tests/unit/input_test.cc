@@ -304,7 +304,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.calibration.most_packings, 7u);
   EXPECT_EQ(input.calibration.n_samples, 800u);
   EXPECT_EQ(input.specimen.dimension, 2u);
-  EXPECT_EQ(input.specimen.shape, "box");
+  EXPECT_EQ(input.specimen.shape, BodyShape::box);
   EXPECT_DOUBLE_EQ(input.specimen.width, 0.054);
   EXPECT_DOUBLE_EQ(input.specimen.height, 0.108);
   EXPECT_DOUBLE_EQ(input.specimen.minimum_radius, 3e-4);

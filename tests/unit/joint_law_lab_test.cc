@@ -65,7 +65,7 @@ Specimen<Case::dim> small_bonded_specimen()
   constexpr int dim = Case::dim;
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = dim == 2 ? "box" : "cylinder";
+  wanted.shape = dim == 2 ? BodyShape::box : BodyShape::cylinder;
   wanted.width = dim == 2 ? 0.012 : 0.008;
   wanted.height = dim == 2 ? 0.020 : 0.012;
   wanted.porosity = dim == 2 ? 0.16 : 0.40;

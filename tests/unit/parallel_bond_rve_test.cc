@@ -30,7 +30,7 @@ Specimen<dim> bonded_cell()
 {
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.012 : 0.006;
   wanted.porosity = dim == 2 ? 0.16 : 0.36;
   ParallelBondParameters bonds = test_bonds();

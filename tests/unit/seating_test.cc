@@ -101,7 +101,10 @@ void expect_the_same_in_a_larger_box(const Specimen<dim>& specimen)
 }
 
 TEST(Seating, BringsWallsToTheGrainsInThePlane) { expect_the_same_in_a_larger_box(small_specimen()); }
-TEST(Seating, BringsWallsToTheGrainsInSpace) { expect_the_same_in_a_larger_box(small_cylinder(1, 1.0, "box")); }
+TEST(Seating, BringsWallsToTheGrainsInSpace)
+{
+  expect_the_same_in_a_larger_box(small_cylinder(1, 1.0, BodyShape::box));
+}
 
 TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
 {

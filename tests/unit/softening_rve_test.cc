@@ -33,7 +33,7 @@ Specimen<dim> softening_cell(const double over_opening = usual_opening)
 {
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.012 : 0.006;
   SofteningFlatJointParameters joint;
   joint.softening_opening = over_opening;

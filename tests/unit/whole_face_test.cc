@@ -44,7 +44,7 @@ struct LawAndDimension
     if constexpr (dim == 2)
       return small_specimen(1, 6.0, parameters());
     else
-      return small_cylinder(1, 6.0, "cylinder", parameters());
+      return small_cylinder(1, 6.0, BodyShape::cylinder, parameters());
   }
 };
 

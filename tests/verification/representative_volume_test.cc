@@ -19,7 +19,7 @@ namespace
 std::shared_ptr<const Network<2>> granite(const std::uint64_t seed)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.0325;
   FlatJointParameters joint;
   joint.coordination_number = 4.2;
@@ -31,7 +31,7 @@ Specimen<3> granite_in_space(const std::uint64_t seed, const double edge)
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = edge;
   wanted.porosity = 0.36;
   FlatJointParameters joint;
@@ -134,7 +134,7 @@ TEST(Granite, BalancesHoldWhereACrackRunsThroughAndWhereNothingIsLeft)
   for (const auto& [edge, seed] : {std::pair(0.0325, 2), {0.012, 3}})
     {
       SpecimenParameters wanted;
-      wanted.shape = "periodic";
+      wanted.shape = BodyShape::periodic;
       wanted.width = wanted.height = edge;
       FlatJointParameters joint;
       joint.installation_gap_ratio = 0.0457; // examples/rve-beishan

@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/bending.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/specimen/fragments.h"
 
@@ -39,10 +39,10 @@ Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const 
       }
   const auto [closer, farther] = std::minmax(nearest[0], nearest[1]);
   if (!std::isfinite(farther))
-    throw InputError(
-      fmt::format("Specimen/Width: the roller at {:.3g} mm has no bonded grain on one side of its middle; make the "
-                  "specimen larger or the grains smaller (Specimen/Minimum radius)",
-                  1e3 * place));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("the roller at {:.3g} mm has no bonded grain on one side of its middle; make the "
+                                     "specimen larger or the grains smaller ({})",
+                                     1e3 * place, in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
   // Deep enough for a grain on either side, on whose surface the bed does not end by rounding.
   constexpr double clearance = 1.01;
   Wall plate{.axis = axis,

@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/brazilian.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
@@ -57,12 +57,13 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
           within = std::abs(from_middle[1]) <= 0.5 * length;
           from_middle[1] = 0.0;
         }
-      kept[i] = within && (specimen.round || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
+      kept[i] = within && (specimen.is_round() || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
     }
   if (std::count(kept.begin(), kept.end(), true) < 2)
-    throw InputError(fmt::format("Specimen/Width: a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
-                                 "specimen wider or the grains smaller (Specimen/Minimum radius)",
-                                 1e3 * diameter));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
+                                     "specimen wider or the grains smaller ({})",
+                                     1e3 * diameter, in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
 
   // Porosity of the disc stays that of the specimen: the gaps at its ragged rim are none of the rock.
   return shifted<dim>(part_of(specimen, kept), -corner, size);
@@ -103,10 +104,12 @@ std::vector<std::uint32_t> pad(const Specimen<dim>& disc, const double mean_radi
     if (height > inner_face)
       grains.push_back(i);
   if (grains.empty())
-    throw InputError(fmt::format("Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no "
-                                 "grain where it is loaded; make the specimen wider or the grains smaller "
-                                 "(Specimen/Minimum radius)",
-                                 1e3 * disc.size[0], disc.report.resolution));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no "
+                                     "grain where it is loaded; make the specimen wider or the grains smaller "
+                                     "({})",
+                                     1e3 * disc.size[0], disc.report.resolution,
+                                     in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
   return grains;
 }
 

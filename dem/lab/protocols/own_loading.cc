@@ -1,4 +1,5 @@
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
@@ -21,7 +22,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   const auto& stages = wanted.of<LoadingTable>().stages;
   const auto own = wanted.of<CompressionParameters>();
   if (stages.empty())
-    throw InputError("Tests/Loading table: is missing; own_loading follows its stages");
+    throw ParameterError(parameter_id<&LoadingTable::file>(), "is missing; own_loading follows its stages");
   const LoadingStage& first = stages.front();
   const double pressure_at_start = first.confining_pressure;
   double fastest = 0.0;
@@ -74,7 +75,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
         };
         raise_pressures<dim>(state,
                              {pressure_at_start, wanted.seating_transits * height / wave_speed(state.specimen()),
-                              hold_all, largest_deviation, "Tests/Loading table"},
+                              hold_all, largest_deviation, parameter_id<&LoadingTable::file>()},
                              check);
       }
     const bool presses = first.axial_strain ? *first.axial_strain > 0.0 : first.axial_stress > pressure_at_start;
