@@ -1,7 +1,7 @@
 #include "app/run/launched.h"
 
-#include "app/run/interrupt.h"
 #include "coupling/sample/ranks.h"
+#include "runs/share_out.h"
 
 #include <mpi.h>
 #include <tbb/global_control.h>
@@ -93,23 +93,6 @@ int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)()
   if (failure)
     std::rethrow_exception(failure);
   return exit_code;
-}
-
-void together_or_interrupted(const std::function<void()>& work)
-{
-  bool was_interrupted = false;
-  ranks::together([&] {
-    try
-      {
-        work();
-      }
-    catch (const Interrupted&)
-      {
-        was_interrupted = true;
-      }
-  });
-  if (ranks::any(was_interrupted))
-    throw Interrupted();
 }
 
 Processes all_processes() { return {ranks::is_first(), ranks::first, ranks::of_first}; }

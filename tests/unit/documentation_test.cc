@@ -29,7 +29,7 @@ const fs::path root = FELDSPAR_SOURCE_DIR;
 /// Folders of the tree that paths in the documentation begin with.
 const std::vector<std::string> top_folders = {"app",     "base",    "benchmarks", "calibration", "coupling",
                                               "dem",     "docs",    "examples",   "fem",         "report",
-                                              "results", "scripts", "tests",      "third_party"};
+                                              "results", "runs", "scripts", "tests", "third_party"};
 
 /// The anchor that a renderer of Markdown gives a heading: lower case, spaces as hyphens, ASCII punctuation left out.
 std::string anchor(const std::string_view heading)

@@ -1,4 +1,4 @@
-// One direction of dependence, room by room: app -> {report, calibration, coupling} -> {results, dem, fem} -> base;
+// One direction of dependence, room by room: app -> {report, calibration, runs} -> coupling -> {results, dem, fem} -> base;
 // dem and fem never meet.
 
 #include <gtest/gtest.h>
@@ -60,6 +60,9 @@ const std::vector<Room> rooms = {
    {"coupling/sample/continua", "base", "base/system", "dem/laws", "dem/storage", "dem/specimen", "results", "fem",
     "fem/mesh", "fem/materials", "fem/solid", "coupling/rve", "coupling/network"},
    {"dem/lab/parameters.h", "dem/lab/protocols/protocols.h", "dem/lab/stage_walk.h", "dem/lab/stop_rule.h"}},
+  {"runs",
+   {"base", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics", "dem/lab", "dem/lab/protocols", "results",
+    "results/runs", "coupling/network", "coupling/rve", "coupling/sample"}},
   {"report/chart", {"base"}},
   {"report/pictures/maps",
    {"base", "results", "results/runs", "report/chart"},
@@ -292,6 +295,7 @@ TEST(IncludeRules, SeeWhatIsForbidden)
   EXPECT_EQ(n_violations("coupling/rve", "#include \"fem/materials/material.h\"\n"), 1u);
   EXPECT_EQ(n_violations("coupling/sample", "#include <report/page/table.h>\n"), 1u);
   EXPECT_EQ(n_violations("results", "#include \"dem/storage/grains.h\"\n"), 1u);
+  EXPECT_EQ(n_violations("runs", "#include \"app/input/input.h\"\n#include \"report/report.h\"\n"), 2u);
   EXPECT_EQ(n_violations("report", "#include \"coupling/network/network.h\"\n"), 1u);
   EXPECT_EQ(n_violations("benchmarks", "#include \"app/input/input.h\"\n"), 1u);
   EXPECT_EQ(n_violations("app/run", "#include \"app/programme/lab_run.h\"\n"), 1u);
