@@ -11,7 +11,6 @@
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
-#include "app/run/jobs.h"
 #include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/text.h"
@@ -19,6 +18,7 @@
 #include "calibration/calibration_file.h"
 #include "calibration/fit.h"
 #include "calibration/target_outcomes.h"
+#include "runs/jobs.h"
 
 #include <fmt/format.h>
 
@@ -372,7 +372,8 @@ private:
     const std::vector<Variant> one{{"", best_input}};
     const auto orders = specimen_orders(one);
     const auto specimens = provide_specimens<dim>(one, orders, folder, progress);
-    auto finished_tests = run_programme(one, orders, specimens, folder, progress);
+    const auto planned = plan_tests(one, orders, seeds_of(orders, specimens));
+    auto finished_tests = run_programme(one, planned, specimens, folder, progress);
     end_if_interrupted();
     return finished_tests;
   }

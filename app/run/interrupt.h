@@ -1,16 +1,11 @@
 #pragma once
 
+#include "runs/observer.h"
+
 #include <chrono>
-#include <exception>
 
 namespace feldspar
 {
-/// The end of work that was asked to end and has nothing to hand over.
-struct Interrupted : std::exception
-{
-  const char* what() const noexcept override { return "interrupted"; }
-};
-
 /// Watches for interrupts: from now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has
 /// it ignored) or SIGUSR1 (which mpirun passes on without ending the run itself) only asks the run to end; the second
 /// ends it at once. `acknowledged`: at once by a line on standard error.

@@ -3,6 +3,7 @@
 #include "app/processes/mpi_session.h"
 #include "app/run/interrupt.h"
 #include "base/ranks/ranks.h"
+#include "runs/share_out.h"
 
 namespace feldspar
 {
@@ -23,23 +24,6 @@ RunEnd go(const Run& run, const SharedRun& shared)
   return end;
 }
 } // namespace
-
-void together_or_interrupted(const std::function<void()>& work)
-{
-  bool was_interrupted = false;
-  ranks::together([&] {
-    try
-      {
-        work();
-      }
-    catch (const Interrupted&)
-      {
-        was_interrupted = true;
-      }
-  });
-  if (ranks::any(was_interrupted))
-    throw Interrupted();
-}
 
 Processes all_processes() { return {ranks::is_first(), ranks::first, ranks::of_first}; }
 

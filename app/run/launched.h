@@ -8,10 +8,6 @@
 
 namespace feldspar
 {
-/// Work of each process by itself, of all of them; an interruption of one is one of all: Interrupted is thrown on all.
-/// Else as ranks::together().
-void together_or_interrupted(const std::function<void()>& work);
-
 /// All of them, for a run that they make together. MPI is up, or there is one process.
 Processes all_processes();
 

@@ -18,7 +18,10 @@ std::optional<double> expected_strain_at_peak(const TestCase& test, const Input&
 /// The strain at which a test will probably end, from that at its peak.
 double expected_last_strain(double strain_at_peak, const TestParameters& tests);
 
-/// Work of a test, in any unit that the tests of a run have in common.
+/// The same from the input alone.
+double expected_last_strain(const TestCase& test, const Input& input);
+
+/// How much work a test is, in any unit that the tests of a run have in common.
 struct TestCost
 {
   double per_strain;   ///< mean over the test

@@ -126,6 +126,23 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   return largest;
 }
 
+template <int dim>
+double largest_stiffness_over_inertia(const Specimen<dim>& body)
+{
+  const auto joints_of = incidence(
+    body.grains.size(), body.joints.size(),
+    [&](const std::size_t j) {
+      return GrainPair{body.joints.grain_1[j], body.joints.grain_2[j]};
+    },
+    [](const std::uint32_t grain) { return grain; });
+  Touches<dim> none;
+  none.number(Images<dim>(body));
+  return largest_stiffness_over_inertia(body, RigidGroups<dim>(body), body.grains.size(), joints_of, none,
+                                        Walls<dim>());
+}
+
+template double largest_stiffness_over_inertia<2>(const Specimen<2>&);
+template double largest_stiffness_over_inertia<3>(const Specimen<3>&);
 template double largest_stiffness_over_inertia<2>(const Specimen<2>&, const RigidGroups<2>&, std::size_t,
                                                   const Incidence&, const Touches<2>&, const Walls<2>&);
 template double largest_stiffness_over_inertia<3>(const Specimen<3>&, const RigidGroups<3>&, std::size_t,

@@ -1,5 +1,5 @@
-// One direction of dependence, room by room: app -> {report, calibration, coupling} -> {results, dem, fem} -> laboratory
-// -> base; dem and fem never meet below coupling/sample, dem and results never below app.
+// One direction of dependence, room by room: app -> {report, calibration, runs} -> coupling -> {results, dem, fem}
+// -> laboratory -> base; dem and fem never meet below coupling/sample, dem and results never below runs.
 
 #include <gtest/gtest.h>
 
@@ -62,6 +62,9 @@ const std::vector<Room> rooms = {
   {"coupling/sample",
    {"coupling/sample/continua", "base", "base/system", "base/ranks", "laboratory", "dem/laws", "dem/storage",
     "dem/specimen", "fem", "fem/mesh", "fem/materials", "fem/solid", "coupling/rve", "coupling/network"}},
+  {"runs",
+   {"base", "base/system", "base/ranks", "laboratory", "dem/laws", "dem/storage", "dem/specimen", "dem/dynamics",
+    "dem/lab", "dem/lab/protocols", "results", "results/runs", "coupling/network", "coupling/rve", "coupling/sample"}},
   {"report/chart", {"base"}},
   {"report/pictures",
    {"base", "laboratory", "results", "results/runs", "results/fits", "results/folder", "report/chart"}},
@@ -325,6 +328,7 @@ TEST(IncludeRules, SeeWhatIsForbidden)
   EXPECT_EQ(n_violations("coupling/rve", "#include \"fem/materials/material.h\"\n"), 1u);
   EXPECT_EQ(n_violations("coupling/sample", "#include <report/page/table.h>\n"), 1u);
   EXPECT_EQ(n_violations("results", "#include \"dem/storage/grains.h\"\n"), 1u);
+  EXPECT_EQ(n_violations("runs", "#include \"app/input/input.h\"\n#include \"report/report.h\"\n"), 2u);
   EXPECT_EQ(n_violations("report", "#include \"coupling/network/network.h\"\n"), 1u);
   EXPECT_EQ(n_violations("benchmarks", "#include \"app/input/input.h\"\n"), 1u);
   EXPECT_EQ(n_violations("app/run", "#include \"app/programme/lab_run.h\"\n"), 1u);

@@ -1,4 +1,4 @@
-#include "app/run/jobs.h"
+#include "runs/jobs.h"
 
 #include "base/parallel.h"
 

@@ -1,4 +1,4 @@
-#include "app/programme/rve_view.h"
+#include "runs/rve_view.h"
 
 #include "dem/specimen/fragments.h"
 #include "dem/storage/segment_place.h"

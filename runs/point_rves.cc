@@ -1,9 +1,9 @@
-#include "app/programme/point_rves.h"
+#include "runs/point_rves.h"
 
-#include "app/programme/rve_view.h"
 #include "base/byte_archive.h"
 #include "base/ranks/ranks.h"
 #include "coupling/rve/state_archive.h"
+#include "runs/rve_view.h"
 
 #include <algorithm>
 #include <map>

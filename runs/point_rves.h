@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/programme/multiscale_run.h"
+#include "runs/samples.h"
 
 #include <vector>
 
