@@ -9,6 +9,7 @@
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
+#include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/rock/rock.h"
 #include "runs/jobs.h"
