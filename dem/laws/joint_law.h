@@ -19,7 +19,7 @@
 ///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
 ///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
 ///      {1} in the plane and {1, 1} in space.
-///   3. Its name in the list of joint_laws.h which the entries of a specimen offer.
+///   3. Its name in the list of joint_laws.h, from which the entries of a specimen take its choices.
 ///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
 /// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. How a face
