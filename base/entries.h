@@ -53,7 +53,7 @@ inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
 inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
 } // namespace ranges
 
-/// What an entry asks of another one.
+/// Condition of an entry on another one.
 struct Demand
 {
   std::string_view of_value;             ///< only of this value of its own; empty: of any but the default

@@ -31,7 +31,7 @@ ParameterId id_of_member(T Owner::*const member, const std::string_view name = {
 
 namespace parameter_ids
 {
-/// Of a text such as "... member = &feldspar::SpecimenParameters::width]" the name of the member, as of a type.
+/// Returns the name of the member, or type, in a text such as "... member = &feldspar::SpecimenParameters::width]".
 constexpr std::string_view last_name(std::string_view text)
 {
   text = text.substr(text.find(" = "));
@@ -77,7 +77,7 @@ ParameterId parameters_id()
   return {typeid(Parameters), std::nullopt, parameter_ids::name_of_type<Parameters>()};
 }
 
-/// Where a parameter stands in the input.
+/// Place of a parameter in the input.
 struct InputPlace
 {
   std::string section;

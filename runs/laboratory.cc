@@ -17,7 +17,7 @@ namespace feldspar
 {
 namespace
 {
-/// Of a test that could not be made.
+/// Outcome of a test that could not be made.
 template <int dim>
 TestOutcome failure(const LaboratoryOrder& order, const Specimen<dim>& specimen, const std::string& why)
 {

@@ -29,7 +29,7 @@ class RunObserver
 public:
   virtual ~RunObserver() = default;
 
-  /// Whether the run is to end. The parts that run are kept first, so that a later run goes on with them.
+  /// Returns whether the run is to end. Running parts are stored first, so that a later run continues them.
   virtual bool wants_end() const { return false; }
   virtual void advanced(std::size_t /*part*/, const PartStanding& /*standing*/) {}
   virtual void ended(std::size_t /*part*/) {}

@@ -29,7 +29,7 @@ struct Packings
   Realisations as_packed() const { return {realisations.begin(), realisations.begin() + std::ptrdiff_t(n_packed)}; }
   Realisations weak_twins() const { return {realisations.begin() + std::ptrdiff_t(n_packed), realisations.end()}; }
 
-  /// Whose network it is.
+  /// Number of the realisation to which a network belongs.
   std::size_t realisation_of(const Network<dim>& network) const
   {
     const auto is_it = [&](const auto& one) { return one.inside.get() == &network || one.at_side.get() == &network; };
@@ -42,7 +42,7 @@ struct Rock
   std::uint64_t seed;
   std::variant<Packings<2>, Packings<3>> packings; ///< none in a sample without grains
 
-  /// How the RVEs came out.
+  /// Reports on the RVEs as they were made.
   std::vector<SpecimenReport> reports() const;
 };
 

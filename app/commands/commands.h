@@ -55,7 +55,7 @@ inline constexpr std::array commands_with_input{
   CommandWithInput{"contact", "one contact along a displacement path; writes contact.csv", run_contact, false, true,
                    "feldspar contact contact.prm"}};
 
-/// What `feldspar contact` writes: the response of the joint to its path, as CSV. Throws InputError.
+/// Returns the output of `feldspar contact`: the response of the joint to its path, as CSV. Throws InputError.
 std::string contact_response(const Input& input, const std::filesystem::path& input_file);
 
 struct ReportOptions

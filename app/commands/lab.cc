@@ -99,7 +99,7 @@ void share_out_tests(const Run& run, Progress& progress)
     };
     const auto tests = own_tests(std::vector<Specimen<dim>>(orders.size()));
     const auto specimens = provide_specimens_of<dim>(tests, all_variants, orders, run.folder, progress);
-    // What cannot be made the first process comes upon again.
+    // The first process meets again what cannot be made, and reports it.
     if (!tests.empty() &&
         std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
       run_programme(all_variants, own_tests(specimens), specimens, run.folder, progress, false);

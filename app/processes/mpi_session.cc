@@ -20,7 +20,7 @@ namespace feldspar
 {
 bool is_launched()
 {
-  // Of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
+  // Variables of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
   constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
   return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
@@ -54,7 +54,7 @@ private:
   std::optional<tbb::global_control> share_of_cores;
 };
 
-/// Whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
+/// Returns whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
 /// another collective call.
 bool all_are_here(const MPI_Comm communicator)
 {

@@ -5,7 +5,7 @@
 
 namespace feldspar
 {
-/// Whether mpirun or srun started this process, perhaps with others. Other processes initialise MPI only where they need
+/// Returns whether mpirun or srun started this process, perhaps with others. Other processes initialise MPI only where they need
 /// it, for that takes half a second.
 bool is_launched();
 

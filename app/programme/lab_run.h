@@ -19,7 +19,7 @@ LaboratoryOrder laboratory_order(const TestCase& test, const Input& input, const
 std::vector<LaboratoryOrder> plan_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
                                         const std::vector<std::uint64_t>& seeds);
 
-/// Those of the specimens, as far as they are there already, else of the orders.
+/// Seeds of the specimens that exist already, else of the orders.
 template <int dim>
 std::vector<std::uint64_t> seeds_of(const std::vector<SpecimenOrder>& orders,
                                     const std::vector<Specimen<dim>>& specimens)

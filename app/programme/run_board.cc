@@ -71,7 +71,7 @@ void RunBoard::say(const std::string& sentence)
   progress.note(sentence);
 }
 
-/// Its own once the curve has left it; else that of a finished test of the same kind and pressure, or a guess; 0 where
+/// Strain at the peak of the test itself once the curve has left it; else that of a finished test of the same kind and pressure, or a guess; 0 where
 /// there is none.
 double RunBoard::strain_at_peak(const Entry& entry) const
 {

@@ -21,7 +21,7 @@ double expected_last_strain(double strain_at_peak, const TestParameters& tests);
 /// The same from the input alone.
 double expected_last_strain(const TestCase& test, const Input& input);
 
-/// How much work a test is, in any unit that the tests of a run have in common.
+/// Work of a test, in any unit that the tests of a run have in common.
 struct TestCost
 {
   double per_strain;   ///< mean over the test

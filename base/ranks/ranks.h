@@ -13,7 +13,7 @@ unsigned int number(); ///< how many there are
 unsigned int mine();   ///< from 0
 inline bool is_first() { return mine() == 0; }
 
-/// Whether it is true of any rank.
+/// Returns whether it is true of any rank.
 bool any(bool here);
 
 std::uint64_t sum(std::uint64_t here);

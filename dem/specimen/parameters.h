@@ -41,7 +41,7 @@ struct SpecimenParameters
 
   bool is_cored() const { return coring != Coring::none; }
 
-  /// Of the cell that a cored specimen is cut out of; of any other its own.
+  /// Shape of the cell that a cored specimen is cut from; of any other specimen its own.
   BodyShape shape_when_packed() const
   {
     return !is_cored() ? shape : coring == Coring::sides_only ? BodyShape::periodic_sideways : BodyShape::periodic;

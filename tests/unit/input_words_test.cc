@@ -43,7 +43,7 @@ std::string without_entries(const std::string& source)
   return rest;
 }
 
-/// What stands between quotation marks, pieces that the compiler joins as one.
+/// Returns what stands between quotation marks, pieces that the compiler joins as one.
 std::string strings_of(const std::string& source)
 {
   std::string strings;
