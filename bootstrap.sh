@@ -102,6 +102,7 @@ check_format()
 {
   say "checking the format"
   git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
+  scripts/check-words.py
 }
 
 # Checks the lint of laboratory/ and dem/, by the units that build/asan joined, and the files that it did not join as one

@@ -39,6 +39,9 @@ constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
 
+/// Largest number of single tests, and of figures, of a source: the fits of its envelopes take seconds with a thousand points.
+constexpr std::size_t most_strengths = 1000;
+
 /// Pressure [MPa] in `strength_at_5_MPa` and the like; none in another name.
 std::optional<double> pressure_in(const std::string_view name, const std::string_view beginning,
                                   const std::string_view ending)
@@ -214,6 +217,8 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
 {
   if (!json.is_array() || json.empty())
     place.refuse(R"(must be a list of tests, [{"confining_pressure_MPa": 5, "strength_MPa": 240}, ...])");
+  if (json.size() > most_strengths)
+    place.refuse(fmt::format("has {} tests; there must be at most {}", json.size(), most_strengths));
   std::vector<EnvelopePoint> points;
   for (std::size_t k = 0; k < json.size(); ++k)
     {
@@ -278,6 +283,8 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
   source.label = label;
   if (!json.is_object())
     place.refuse("must be an object of properties");
+  if (json.size() > most_strengths)
+    place.refuse(fmt::format("has {} names; there must be at most {}", json.size(), most_strengths));
   for (const auto& [name, entry] : json.items())
     {
       const Place at = place / name;
