@@ -69,7 +69,7 @@ double read_number(const std::string_view text, const Measure measure, const std
       const double value = parse_number(text);
       if (!range.contains(value))
         throw InputError(demand);
-      return value;
+      return with_usual_exponent(value);
     }
   const Dimension& dimension = dimension_of(measure);
   const double value = parse_quantity(text, dimension);

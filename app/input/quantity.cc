@@ -177,10 +177,21 @@ double to_si(const double value, const std::string_view unit, const Dimension& d
   return in_si;
 }
 
+double with_usual_exponent(const double value)
+{
+  constexpr double smallest = 1e-30;
+  constexpr double largest = 1e30;
+  const double size = std::abs(value);
+  if (size != 0.0 && (size < smallest || size > largest))
+    throw InputError(
+      fmt::format("the size of a number in SI units must be 0 or lie in [{:g}, {:g}]", smallest, largest));
+  return value;
+}
+
 double parse_quantity(const std::string_view text, const Dimension& dimension)
 {
   const std::size_t space = find_space(text, dimension);
-  return to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension);
+  return with_usual_exponent(to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension));
 }
 
 std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
@@ -197,7 +208,7 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
     {
       if (number.find(' ') != std::string_view::npos)
         throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(number)));
-      values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
+      values.push_back(with_usual_exponent(to_si(parse_number(number), last.substr(space + 1), dimension)));
     }
   return values;
 }

@@ -26,6 +26,10 @@ inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr Dimension plane_stiffness{"a stress per displacement", "Pa/m", "50 GPa/mm"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
 
+/// Returns a number in SI as it is. Throws InputError for a size that no rock, body or test has: such numbers overflow or
+/// vanish in products.
+double with_usual_exponent(double value);
+
 /// One number, one space and one unit expression; returned in SI.
 double parse_quantity(std::string_view text, const Dimension& dimension);
 

@@ -80,6 +80,10 @@ template <int dim>
 std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
 {
   const TestEffort effort = expected_effort(tests);
+  constexpr double most_steps = 1e12; // weeks with a hundred joints
+  if (effort.n_steps > most_steps)
+    throw InputError(
+      fmt::format("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps));
   const double bytes = bytes_of_program + bytes_of_specimens(tests) + effort.bytes;
   return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}{}",
                      effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,

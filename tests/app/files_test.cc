@@ -324,7 +324,7 @@ TEST(Resume, RefusesAnInputThatIsNotThatOfItsRun)
   for (const std::string& changed : {std::string(), input + "\n"})
     {
       folder.write("out/input.prm", changed);
-      expect_refused(folder, "lab --resume out", "--resume out: out/input.prm is not as it was when the run began");
+      expect_refused(folder, "lab --resume out", "out: out/input.prm is not as it was when the run began");
     }
   folder.write("out/input.prm", input);
   folder.write("reference.json", R"({"experiment": {"tensile_strength_MPa": 8}})");

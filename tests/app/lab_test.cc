@@ -706,9 +706,8 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   folder.write("out/run.json", record.dump());
   const auto changed = run_feldspar(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_EQ(changed.error,
-            "feldspar: --resume out: run.json in it is not as the run wrote it; undo the change, or begin "
-            "another run\n");
+  EXPECT_EQ(changed.error, "feldspar: out: run.json in it is not as the run wrote it; undo the change, or begin "
+                           "another run\n");
   EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
 
   const auto refused = [&](const std::string& setting, const std::string& words) {

@@ -837,6 +837,10 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
   EXPECT_EQ(error_of_entry("Flat joint", "Modulus = 1e300 GPa"),
             "a.prm:2: Flat joint/Modulus = 1e300 GPa: 1e+300 GPa is beyond the range of numbers; write a stress, e.g. "
             "\"22 MPa\"");
+  for (const char* const entry :
+       {"Modulus = 5e-324 GPa", "Stiffness ratio = 5e-324", "Radius multiplier = 1e-300", "Modulus = 1e30 GPa"})
+    EXPECT_NE(error_of_entry("Flat joint", entry).find("must be 0 or lie in [1e-30, 1e+30]"), std::string::npos)
+      << entry;
   EXPECT_EQ(error_of_entry("Flat joint", "Installation gap ratio = 1.5"),
             "a.prm:2: Flat joint/Installation gap ratio = 1.5: must lie in [0, 1], or be none");
   EXPECT_EQ(error_of_entry("Tests", "Confinements = 5, -10 MPa"),
