@@ -312,6 +312,17 @@ TEST(Load, TestsThatDoNotFitAreRefusedBeforeAnyWork)
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 
+// The rate of the test is 1e-24 of the usual one, which takes a hundred thousand steps.
+TEST(Load, TestsThatWouldNotEndAreRefused)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", quick_rock);
+  const auto outcome =
+    run_feldspar(folder.path(), "lab rock.prm --output out --quiet --set 'Tests/Tension strain rate = 1e-25 1/s'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("steps; a strain rate is far too low"), std::string::npos) << outcome.error;
+}
+
 TEST(Fault, NeedsNoHomeAndNoFolderForTemporaryFiles)
 {
   const TemporaryFolder folder;
