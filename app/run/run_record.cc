@@ -2,7 +2,7 @@
 
 #include "app/input/parameter_table.h"
 #include "app/run/run.h"
-#include "base/fingerprint.h"
+#include "base/checksum/fingerprint.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/whole_file.h"

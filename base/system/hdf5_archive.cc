@@ -1,7 +1,7 @@
 #include "base/system/hdf5_archive.h"
 
+#include "base/checksum/seal.h"
 #include "base/readable_file.h"
-#include "base/seal.h"
 #include "base/system/child_process.h"
 #include "base/system/watched_file.h"
 #include "base/whole_file.h"

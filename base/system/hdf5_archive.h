@@ -210,7 +210,7 @@ inline std::mutex& hdf5_mutex()
   return mutex;
 }
 
-/// Writes a file whole or not at all, with a seal (base/seal.h), an array at a time. Throws OutputError, which names file
+/// Writes a file whole or not at all, with a seal (base/checksum/seal.h), an array at a time. Throws OutputError, which names file
 /// and cause.
 void write_hdf5(const std::filesystem::path& file, const std::function<void(Hdf5Writer&)>& write);
 

@@ -1,6 +1,6 @@
 #include "coupling/rve/tangent.h"
 
-#include "base/fingerprint.h"
+#include "base/checksum/fingerprint.h"
 #include "coupling/network/conjugate_gradients.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "coupling/sample/grain_material.h"
 
 #include "base/byte_archive.h"
-#include "base/fingerprint.h"
+#include "base/checksum/fingerprint.h"
 #include "base/random.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/state_archive.h"

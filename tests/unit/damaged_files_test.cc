@@ -1,4 +1,4 @@
-#include "base/seal.h"
+#include "base/checksum/seal.h"
 #include "base/system/hdf5_archive.h"
 #include "base/whole_file.h"
 #include "base/write_at.h"

@@ -1,6 +1,6 @@
-#include "base/seal.h"
+#include "base/checksum/seal.h"
 
-#include "base/fingerprint.h"
+#include "base/checksum/fingerprint.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
 #include "base/whole_file.h"
