@@ -1,7 +1,6 @@
 // The grammar of the input stands in the command and in files of entries: libraries name no section, no entry and no
 // command. Messages name parameters by base/parameter_id.h, results by laboratory/named_entries.h.
 
-#include "app/commands/check_input.h"
 #include "app/input/parameter_table.h"
 #include "laboratory/named_entries.h"
 
@@ -9,7 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <set>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -85,12 +84,9 @@ std::vector<std::string> names_of_input(const std::string& source)
   std::vector<std::string> found;
   const std::string text = without_entries(source);
   const std::string strings = strings_of(text);
-  std::set<std::string> commands{"report", "parameters"};
-  for (const CommandWithInput& command : commands_with_input)
-    commands.insert(std::string(command.name));
-  for (const std::string& command : commands)
-    if (has_words(text, "feldspar " + command))
-      found.push_back("feldspar " + command);
+  static const std::regex command("`feldspar [a-z]+");
+  if (std::smatch match; std::regex_search(text, match, command))
+    found.push_back(match.str());
   for (const std::string_view section : section_names())
     if (strings.find('\n' + std::string(section) + '\n') != std::string::npos && section.find(' ') != std::string::npos)
       found.emplace_back(section);
