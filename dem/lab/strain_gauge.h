@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/body.h"
 #include "dem/storage/grains.h"
 
 #include <cstdint>
