@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -75,8 +74,6 @@ double read_number(const std::string_view text, const Measure measure, const std
   const double value = parse_quantity(text, dimension);
   const Range si_range{range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension),
                        range.right};
-  if (std::isinf(value)) // in SI, whatever it was in its unit
-    throw InputError("is larger than any number this program can hold");
   if (!si_range.contains(value))
     throw InputError(demand);
   return value;

@@ -1,7 +1,6 @@
 #include "app/run/launched.h"
 
 #include "app/processes/mpi_session.h"
-#include "app/run/interrupt.h"
 #include "base/ranks/ranks.h"
 #include "runs/share_out.h"
 
