@@ -63,6 +63,7 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("current_time", current_time);
   joint_groups = JointGroups<dim>(joints);
   index_joints();
+  inverse_inertia = InverseInertia(bodies());
   touches.number(images);
 }
 

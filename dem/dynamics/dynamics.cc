@@ -1,6 +1,5 @@
 #include "dem/dynamics/dynamics.h"
 
-#include "dem/dynamics/sweeps/motion.h"
 #include "dem/dynamics/sweeps/smooth_sweep.h"
 #include "dem/dynamics/time_step.h"
 
@@ -159,6 +158,7 @@ void Dynamics<dim>::start()
   choose_time_step();
   check();
   previous_dt = 0.0; // the first kick is half a step
+  inverse_inertia = InverseInertia(bodies());
   position_at_start = bodies().position;
   watch.begin_at(steps);
   started = true;
@@ -301,8 +301,9 @@ Circumstances Dynamics<dim>::circumstances() const
 template <int dim>
 double Dynamics<dim>::integrate()
 {
-  const double farthest_way = move_bodies(bodies(), n_bodies(), {previous_dt, dt, parameters.damping, gravity},
-                                          grips.freedom(), ledger.damping_work);
+  const double farthest_way =
+    move_bodies(bodies(), n_bodies(), inverse_inertia, {previous_dt, dt, parameters.damping, gravity}, grips.freedom(),
+                ledger.damping_work);
   groups.carry_members(body.grains, dt);
   return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }

@@ -10,6 +10,7 @@
 #include "dem/dynamics/runaway.h"
 #include "dem/dynamics/sweeps/joint_groups.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
+#include "dem/dynamics/sweeps/motion.h"
 #include "dem/dynamics/touches.h"
 #include "dem/dynamics/walls.h"
 #include "dem/dynamics/zero_force.h"
@@ -146,6 +147,7 @@ private:
   Grips<dim> grips;
   Incidence joints_of; ///< each grain
   SumOrder sum_order;
+  InverseInertia inverse_inertia; ///< of the bodies
   SweepMemory<dim> sweep_memory;
   JointGroups<dim> joint_groups;
   ContactWatch<dim> watch;

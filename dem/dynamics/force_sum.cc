@@ -56,31 +56,32 @@ struct LoadInSpace
   }
 };
 
+/// Responses of more numbers than this lie far from each other in memory: they are asked for some grains ahead. In the
+/// cache asking takes longer than it spares.
+constexpr std::size_t numbers_in_cache = 40000;
+
 /// Load on the grain at a place of the order.
-template <int dim>
+template <int dim, bool asks_ahead>
 Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
 {
   constexpr std::size_t size = JointTables<dim>::n_response_rows, ahead = 32;
   const double* const responses = joints.response.at(0, 0);
   const std::uint32_t* const joint = order.joint.data();
   const std::uint32_t middle = order.first_as_one[place], end = order.first_as_two[place + 1];
-  // Responses lie far from each other: asked for some grains ahead.
-  const auto ask = [&](const std::uint32_t e) {
-    const double* const later = responses + size * joint[std::min<std::size_t>(e + ahead, order.joint.size() - 1)];
-    __builtin_prefetch(later);
-    __builtin_prefetch(later + size - 1);
+  const auto response = [&](const std::uint32_t e) {
+    if constexpr (asks_ahead)
+      {
+        const double* const later = responses + size * joint[std::min<std::size_t>(e + ahead, order.joint.size() - 1)];
+        __builtin_prefetch(later);
+        __builtin_prefetch(later + size - 1);
+      }
+    return responses + size * joint[e];
   };
   std::conditional_t<dim == 2, LoadInPlane, LoadInSpace> load;
   for (std::uint32_t e = order.first_as_two[place]; e < middle; ++e)
-    {
-      ask(e);
-      load.add_as_two(responses + size * joint[e]);
-    }
+    load.add_as_two(response(e));
   for (std::uint32_t e = middle; e < end; ++e)
-    {
-      ask(e);
-      load.add_as_one(responses + size * joint[e]);
-    }
+    load.add_as_one(response(e));
   return load.sum();
 }
 
@@ -94,20 +95,29 @@ void add_touch(const Touch<dim>& touch, const bool as_second, const std::uint32_
     grains.couple[c][grain] += (as_second ? touch.on_grains.couple_2 : touch.on_grains.couple_1)[c];
 }
 
-/// Sets the grains of these places to the sums over their joints.
-template <int dim>
-void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size_t begin, const std::size_t end)
+template <bool asks_ahead, int dim>
+void sum_over_joints_of(Specimen<dim>& body, const SumOrder& order, const std::size_t begin, const std::size_t end)
 {
   auto& grains = body.grains;
   for (std::size_t place = begin; place < end; ++place)
     {
       const std::uint32_t i = order.grain[place];
-      const auto [force, couple] = load_from_joints(body.joints, order, place);
+      const auto [force, couple] = load_from_joints<dim, asks_ahead>(body.joints, order, place);
       for (int c = 0; c < dim; ++c)
         grains.force[c][i] = force[c];
       for (int c = 0; c < n_rotations<dim>; ++c)
         grains.couple[c][i] = couple[c];
     }
+}
+
+/// Sets the grains of these places to the sums over their joints.
+template <int dim>
+void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size_t begin, const std::size_t end)
+{
+  if (body.joints.size() * JointTables<dim>::n_response_rows > numbers_in_cache)
+    sum_over_joints_of<true>(body, order, begin, end);
+  else
+    sum_over_joints_of<false>(body, order, begin, end);
 }
 
 /// Number of blocks of joints that one thread sweeps in a row: as many as leave some runs for each thread. Sums do not

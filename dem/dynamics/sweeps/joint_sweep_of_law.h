@@ -428,22 +428,27 @@ bool stands_open_without_bonds(const Law&, const Joints<dim>& joints, const std:
   return false;
 }
 
+/// The state of a segment, known from the motion of its face, which responds as one.
+template <int dim, typename Law>
+typename Law::template State<double> whole_state(const Joints<dim>& joints, const unsigned int i, const std::size_t j)
+{
+  std::array<double, n_rotations<dim>> rotation;
+  for (int c = 0; c < n_rotations<dim>; ++c)
+    rotation[c] = joints.rotation[c][j];
+  std::array<double, dim - 1> slip;
+  for (int c = 0; c < dim - 1; ++c)
+    slip[c] = joints.slip[c][j];
+  return Law::whole_state(joints.face(j), joints.elements[i], rotation, slip);
+}
+
 /// The state of a segment, stored or known from the motion of its face.
-template <int dim, JointLaw<dim> Law>
+template <int dim, typename Law>
 typename Law::template State<double> segment_state(const Law& law, const Joints<dim>& joints, const unsigned int i,
                                                    const std::size_t j)
 {
   if constexpr (RespondsAsOne<Law, dim, double>)
     if (is_whole(law, joints, j))
-      {
-        std::array<double, n_rotations<dim>> rotation;
-        for (int c = 0; c < n_rotations<dim>; ++c)
-          rotation[c] = joints.rotation[c][j];
-        std::array<double, dim - 1> slip;
-        for (int c = 0; c < dim - 1; ++c)
-          slip[c] = joints.slip[c][j];
-        return Law::whole_state(joints.face(j), joints.elements[i], rotation, slip);
-      }
+      return whole_state<dim, Law>(joints, i, j);
   return stored_state<dim, Law>(joints, i, j);
 }
 
@@ -454,8 +459,13 @@ double joint_energy(const Law& law, const Joints<dim>& joints, const std::size_t
   std::array<double, n_rotations<dim>> rotation;
   for (int c = 0; c < n_rotations<dim>; ++c)
     rotation[c] = joints.rotation[c][j];
-  const auto state_of = [&](const unsigned int i) { return segment_state<dim>(law, joints, i, j); };
-  return law.stored_energy(joints.face(j), joints.elements, joints.opening[j], rotation, state_of);
+  const auto energy = [&](const auto& state_of) {
+    return law.stored_energy(joints.face(j), joints.elements, joints.opening[j], rotation, state_of);
+  };
+  if constexpr (RespondsAsOne<Law, dim, double>)
+    if (is_whole(law, joints, j))
+      return energy([&](const unsigned int i) { return whole_state<dim, Law>(joints, i, j); });
+  return energy([&](const unsigned int i) { return stored_state<dim, Law>(joints, i, j); });
 }
 
 /// dissipated_by_bonds() with the law known.

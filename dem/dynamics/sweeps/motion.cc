@@ -12,8 +12,9 @@ namespace
 {
 /// Moves a body, or the pack of bodies that begins at i. Returns the square of the way of each [m²].
 template <typename Real, int dim>
-[[gnu::flatten]] Real move_one(Grains<dim>& bodies, const std::size_t i, const MotionStep<dim>& step,
-                               const std::vector<double>& freedom, std::vector<double>& damping_work)
+[[gnu::flatten]] Real move_one(Grains<dim>& bodies, const InverseInertia& inverse, const std::size_t i,
+                               const MotionStep<dim>& step, const std::vector<double>& freedom,
+                               std::vector<double>& damping_work)
 {
   const double kick = 0.5 * (step.previous_dt + step.dt);
   const Real is_free = simd::load<Real>(&freedom[i]);
@@ -31,7 +32,7 @@ template <typename Real, int dim>
     return after;
   };
 
-  const Real one_over_mass = 1.0 / mass;
+  const Real one_over_mass = simd::load<Real>(&inverse.mass[i]);
   Real squared_way = 0.0;
   for (int c = 0; c < dim; ++c)
     {
@@ -41,7 +42,7 @@ template <typename Real, int dim>
       simd::store(simd::load<Real>(position) + way, position);
       squared_way += way * way;
     }
-  const Real one_over_moment = 1.0 / simd::load<Real>(&bodies.moment_of_inertia[i]);
+  const Real one_over_moment = simd::load<Real>(&inverse.moment[i]);
   for (int c = 0; c < n_rotations<dim>; ++c)
     advance(simd::load<Real>(&bodies.couple[c][i]), one_over_moment, &bodies.spin[c][i]);
   simd::store(dissipated, &damping_work[i]);
@@ -50,25 +51,25 @@ template <typename Real, int dim>
 } // namespace
 
 template <int dim>
-double move_bodies(Grains<dim>& bodies, const std::size_t n_bodies, const MotionStep<dim>& step,
-                   const std::vector<double>& freedom, std::vector<double>& damping_work)
+double move_bodies(Grains<dim>& bodies, const std::size_t n_bodies, const InverseInertia& inverse,
+                   const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work)
 {
   std::vector<double> squared_ways(n_blocks(n_bodies), 0.0);
   for_each_block(n_bodies, [&](const std::size_t block, const std::size_t begin, const std::size_t end) {
     std::size_t i = begin;
     simd::Pack of_packs = 0.0;
     for (; i + simd::width<simd::Pack> <= end; i += simd::width<simd::Pack>)
-      of_packs = simd::larger(of_packs, move_one<simd::Pack>(bodies, i, step, freedom, damping_work));
+      of_packs = simd::larger(of_packs, move_one<simd::Pack>(bodies, inverse, i, step, freedom, damping_work));
     double longest = simd::largest_lane(of_packs);
     for (; i < end; ++i)
-      longest = simd::larger(longest, move_one<double>(bodies, i, step, freedom, damping_work));
+      longest = simd::larger(longest, move_one<double>(bodies, inverse, i, step, freedom, damping_work));
     squared_ways[block] = longest;
   });
   return squared_ways.empty() ? 0.0 : std::sqrt(*std::max_element(squared_ways.begin(), squared_ways.end()));
 }
 
-template double move_bodies<2>(Grains<2>&, std::size_t, const MotionStep<2>&, const std::vector<double>&,
-                               std::vector<double>&);
-template double move_bodies<3>(Grains<3>&, std::size_t, const MotionStep<3>&, const std::vector<double>&,
-                               std::vector<double>&);
+template double move_bodies<2>(Grains<2>&, std::size_t, const InverseInertia&, const MotionStep<2>&,
+                               const std::vector<double>&, std::vector<double>&);
+template double move_bodies<3>(Grains<3>&, std::size_t, const InverseInertia&, const MotionStep<3>&,
+                               const std::vector<double>&, std::vector<double>&);
 } // namespace feldspar

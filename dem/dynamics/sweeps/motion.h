@@ -18,11 +18,27 @@ struct MotionStep
   Vector<dim> gravity; ///< [m/s²]
 };
 
+/// 1/m [1/kg] and 1/I [1/(kg m²)] of each body. They do not change while bodies move.
+struct InverseInertia
+{
+  std::vector<double> mass, moment;
+
+  InverseInertia() = default;
+  template <int dim>
+  explicit InverseInertia(const Grains<dim>& bodies)
+  {
+    for (const double m : bodies.mass)
+      mass.push_back(1.0 / m);
+    for (const double i : bodies.moment_of_inertia)
+      moment.push_back(1.0 / i);
+  }
+};
+
 /// Moves the first `n_bodies` grains or groups over a step by their forces and couples: kicks their velocities and spins
 /// over half of the step before and half of this one, and carries their centres; docs/theory.md §2.1. `freedom`: 0 for a
 /// body that a grip holds, 1 for a free one; `damping_work`: grows by what damping dissipates at each [J]. Returns the
 /// longest way that one has gone [m].
 template <int dim>
-double move_bodies(Grains<dim>& bodies, std::size_t n_bodies, const MotionStep<dim>& step,
-                   const std::vector<double>& freedom, std::vector<double>& damping_work);
+double move_bodies(Grains<dim>& bodies, std::size_t n_bodies, const InverseInertia& inverse,
+                   const MotionStep<dim>& step, const std::vector<double>& freedom, std::vector<double>& damping_work);
 } // namespace feldspar
