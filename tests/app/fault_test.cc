@@ -277,6 +277,26 @@ TEST(Fault, OneFolderTakesOneRunAtATime)
   EXPECT_TRUE(fs::exists(folder.path() / "out/run.json"));
 }
 
+// Names of folders come from others, and a terminal obeys escape characters.
+TEST(Output, OfAFolderWhoseNameHasControlCharactersIsPrintable)
+{
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  for (const auto& [arguments, input] : commands_of_each_kind())
+    {
+      const std::string command = arguments.substr(0, arguments.find(' '));
+      if (command == "calibrate")
+        continue; // takes the longest, and ends as lab does
+      SCOPED_TRACE(command);
+      const Outcome outcome =
+        run_feldspar(folder.path(), arguments + " --output \"$(printf '" + command + "\\033[31m')\"");
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+      EXPECT_EQ((outcome.output + outcome.error).find('\x1b'), std::string::npos);
+      EXPECT_NE(outcome.output.find(command + "\\x1b[31m"), std::string::npos) << outcome.output;
+    }
+}
+
 // A test that runs to 1.6 times the strain at its peak, as most do: steps within a factor of two.
 TEST(Load, StepsMemoryAndTimeOfTestsAreSaidBeforehand)
 {
@@ -284,7 +304,8 @@ TEST(Load, StepsMemoryAndTimeOfTestsAreSaidBeforehand)
   folder.write("rock.prm", quick_rock.substr(0, quick_rock.find("  set Stop")) + "end\n");
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  static const std::regex words(R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s)");
+  static const std::regex words(
+    R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s)");
   std::smatch said;
   ASSERT_TRUE(std::regex_search(outcome.error, said, words)) << outcome.error;
   const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
