@@ -431,9 +431,9 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   };
   refused(two_squares("roof", squares), "no boundary is named top; the mesh has bottom, left, right, roof");
-  refused(two_squares("top", squares, "-0.001 0.012"), "bad.msh: the cell at");
+  refused(two_squares("top", squares, "-0.001 0.012"), "the cell at");
   refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
-          "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
+          "has cells that are not quadrilaterals; in Gmsh recombine the mesh");
   // A second coordinate that counts the depth.
   const auto named = [](const std::string& low, const std::string& high) {
     std::string mesh = two_squares("name", squares);
@@ -445,6 +445,17 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
   refused(two_squares_in_millimetres(),
           "in metres the mesh is 12 m wide and 24 m high; if its coordinates are in another unit, set "
           "Mesh unit = mm");
+  // A section that begins beside the axis: the file is named once.
+  std::string ring = two_squares("top", squares, "0.022 0.012");
+  for (const auto& [there, instead] : {std::pair("\"left\"", "\"axis\""),
+                                       {"\"right\"", "\"side\""},
+                                       {"\n1 0 0 0\n2 0.012 0 0\n3 0 ", "\n1 0.01 0 0\n2 0.022 0 0\n3 0.01 "},
+                                       {"\n5 0 0.024 0\n6 0.012 ", "\n5 0.01 0.024 0\n6 0.022 "}})
+    ring.replace(ring.find(there), std::string(there).size(), instead);
+  folder.write("bad.prm", "subsection Sample\n  set Material = linear elasticity\n  set Geometry = axisymmetric\n"
+                          "  set Mesh file = bad.msh\nend\nsubsection Tests\n  set List = direct_tension\n"
+                          "  set Stop strain = 1e-5\nend\n");
+  refused(ring, "begins at x = 0.01 m; in r-z the axis is x = 0");
 }
 
 TEST(Multiscale, ASpecimenFileIsOneRealisation)
