@@ -336,6 +336,28 @@ TEST(Resume, RefusesAnInputThatIsNotThatOfItsRun)
   EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
 }
 
+// The folder keeps the input of its run; who edits his own file is told that it is not read.
+TEST(Resume, SaysThatAnInputThatHasChangedIsNotRead)
+{
+  const TemporaryFolder folder;
+  folder.write("a.prm", rock);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  const std::string curve = content(folder.path() / "out/curves/direct_tension_seed_1.csv");
+  EXPECT_EQ(run_feldspar(folder.path(), "lab --resume out").error, "");
+  folder.write("a.prm", rock + "subsection Seeds\n  set Seeds = 2\nend\n");
+  const std::string remark =
+    fmt::format("feldspar: {}: has changed since the run began, and is not read; the run goes by out/input.prm\n",
+                (fs::canonical(folder.path()) / "a.prm").string());
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab --resume out --quiet").error, remark); // of a run that is complete
+  make_incomplete(folder.path() / "out");
+  const Outcome resumed = run_without_pictures(folder.path(), "lab --resume out --quiet");
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(resumed.error, remark);
+  EXPECT_EQ(content(folder.path() / "out/curves/direct_tension_seed_1.csv"), curve);
+  fs::remove(folder.path() / "a.prm");
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab --resume out --quiet").error, "");
+}
+
 TEST(Links, LeadNoWriterOutOfTheFolder)
 {
   const TemporaryFolder folder;
