@@ -10,8 +10,8 @@
 
 namespace feldspar
 {
-/// Writes results to standard output, control characters in them as \x1b, and never throws. A reader that has left, as `| head` does, is no mistake and hears
-/// no more; of a full disk the command speaks at its end, when its files are complete.
+/// Writes results to standard output, control characters in them as \x1b, and never throws. A reader that has left, as
+/// `| head` does, is no mistake and hears no more; of a full disk the command speaks at its end, when its files are complete.
 void write_result(std::string_view text);
 
 /// Text of several lines as a terminal may get it: printable() but for line ends and tabs.

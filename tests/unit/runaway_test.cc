@@ -163,7 +163,7 @@ TEST(Runaway, LeavesNoRowWithoutFiniteNumbers)
   TestParameters parameters;
   parameters.of<CompressionParameters>().sampling_strain = 1e-6;
   constexpr std::uint64_t later = 100;
-  for (const SetUp<2> set_up : {wrong_set_up<later, true>, wrong_set_up<later, false>})
+  for (const auto set_up : {&wrong_set_up<later, true>, &wrong_set_up<later, false>})
     {
       LaboratoryProtocol protocol = uniaxial_compression;
       protocol.set_up_2d = set_up;
@@ -174,7 +174,7 @@ TEST(Runaway, LeavesNoRowWithoutFiniteNumbers)
       EXPECT_LT(record.curve.back().step, later);
       EXPECT_EQ(not_finite_in(record.curve.back()), "");
     }
-  for (const SetUp<2> set_up : {wrong_set_up<0, true>, wrong_set_up<0, false>}) // from the first row on
+  for (const auto set_up : {&wrong_set_up<0, true>, &wrong_set_up<0, false>}) // from the first row on
     {
       LaboratoryProtocol protocol = uniaxial_compression;
       protocol.set_up_2d = set_up;
