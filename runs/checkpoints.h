@@ -1,13 +1,13 @@
 #pragma once
 
 #include "base/input_error.h"
+#include "runs/observer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -52,10 +52,10 @@ private:
 };
 
 /// The part as the first of these checkpoints that can be used has it, newest first, else as `begin` makes it. `read` puts
-/// it into the state of a file. One that cannot be used is named on standard error, if this process speaks.
-template <typename Begin, typename Read>
+/// it into the state of a file. `tell` hears, in a sentence, of one that cannot be used.
+template <typename Begin, typename Read, typename Tell>
 auto last_good(const std::vector<std::filesystem::path>& checkpoints, const Begin& begin, const Read& read,
-               const bool speaks = true)
+               const Tell& tell)
 {
   for (std::size_t k = 0; k < checkpoints.size(); ++k)
     if (std::filesystem::exists(checkpoints[k]))
@@ -68,9 +68,7 @@ auto last_good(const std::vector<std::filesystem::path>& checkpoints, const Begi
       catch (const InputError& error)
         {
           const bool has_older = k + 1 < checkpoints.size() && std::filesystem::exists(checkpoints[k + 1]);
-          if (speaks)
-            fmt::print(stderr, "feldspar: {}; going back to the {}\n", error.what(),
-                       has_older ? "checkpoint before it" : "start");
+          tell(fmt::format("{}; going back to the {}", error.what(), has_older ? "checkpoint before it" : "start"));
         }
   return begin();
 }
@@ -98,10 +96,12 @@ public:
 
   /// The part as its last good checkpoint has it, else from the start, where `begin` puts it.
   template <typename Begin>
-  auto open(const Begin& begin) const
+  auto open(const Begin& begin, RunObserver& observer) const
   {
-    return last_good({newest, one_before}, begin,
-                     [&](auto& part, const std::filesystem::path& file) { part.read_checkpoint(file, identity); });
+    return last_good(
+      {newest, one_before}, begin,
+      [&](auto& part, const std::filesystem::path& file) { part.read_checkpoint(file, identity); },
+      [&](const std::string& sentence) { observer.goes_back(sentence); });
   }
 
 private:

@@ -51,10 +51,11 @@ template <int dim>
 TestOutcome run_test(const LaboratoryOrder& order, const Specimen<dim>& specimen, const Checkpoints& checkpoints,
                      const std::size_t part, RunObserver& observer)
 {
-  LabTest<dim> test = checkpoints.open([&] {
+  const auto begin = [&] {
     return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen, *order.parameters,
                         *order.dynamics);
-  });
+  };
+  LabTest<dim> test = checkpoints.open(begin, observer);
   lead(test, checkpoints, observer, order.steps_between_checkpoints, [&](const auto& /*keep_if_due*/) {
     try
       {

@@ -34,6 +34,8 @@ public:
   virtual void advanced(std::size_t /*part*/, const PartStanding& /*standing*/) {}
   virtual void ended(std::size_t /*part*/) {}
   virtual void cannot_be_made(std::size_t /*part*/, const std::string& /*reason*/) {}
+  /// A checkpoint of a part cannot be used: why, and what takes its place, in a sentence.
+  virtual void goes_back(const std::string& /*sentence*/) {}
 
   /// Throws Interrupted where the run is to end.
   void end_if_wanted() const

@@ -39,7 +39,7 @@ struct SampleStates
 FinishedTest run_sample(const PlannedSample& planned, const std::filesystem::path& folder, const std::size_t part,
                         RunObserver& observer)
 {
-  SampleTest test = open(planned, folder);
+  SampleTest test = open(planned, folder, observer);
   const double sign = planned.test.kind.sign;
   const double strain_between_fields = sign > 0.0 ? 2.5e-5 : 2.5e-4;
   const auto draw = [&](const SampleStanding& standing) {
@@ -104,14 +104,17 @@ std::filesystem::path state_folder(const std::filesystem::path& folder, const Pl
   return folder / "states" / planned.name;
 }
 
-SampleTest open(const PlannedSample& planned, const std::filesystem::path& folder)
+SampleTest open(const PlannedSample& planned, const std::filesystem::path& folder, RunObserver& observer)
 {
   return last_good(
     checkpoints_in(state_folder(folder, planned)), [&] { return from_the_start(planned); },
     [&](SampleTest& test, const std::filesystem::path& checkpoint) {
       test.read_state(checkpoint, planned.identity, folder / "fields", planned.name);
     },
-    ranks::is_first());
+    [&](const std::string& sentence) {
+      if (ranks::is_first()) // all of them find the same
+        observer.goes_back(sentence);
+    });
 }
 
 std::vector<FinishedTest> run_samples(const std::vector<PlannedSample>& planned, const std::filesystem::path& folder,

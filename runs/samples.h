@@ -69,9 +69,9 @@ struct PlannedSample
 /// The checkpoints of a test in the folder of its run.
 std::filesystem::path state_folder(const std::filesystem::path& folder, const PlannedSample& planned);
 
-/// The test as its last checkpoint in the folder has it; where that cannot be used, which is said, as the one before it
-/// has it, else from the start.
-SampleTest open(const PlannedSample& planned, const std::filesystem::path& folder);
+/// The test as its last checkpoint in the folder has it; where that cannot be used, which the observer hears, as the one before
+/// it has it, else from the start.
+SampleTest open(const PlannedSample& planned, const std::filesystem::path& folder, RunObserver& observer);
 
 /// Runs tests in the folder of their run one after the other, each to its end, or to where the observer of any process wants
 /// the end; tests that had not begun are then not in the results.

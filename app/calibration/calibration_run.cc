@@ -90,11 +90,11 @@ private:
     const MicroParameters guess = first_guess(problem, micro_parameters(input));
     const Input rock = with_parameters(input, guess);
     const auto programme = test_cases(input.test_list, input.confinements);
-    std::vector<TestOrder<dim>> of_specimen;
+    std::vector<LaboratoryOrder> of_specimen;
     for (const TestCase& test : programme)
-      of_specimen.push_back({&test, &rock, &first});
+      of_specimen.push_back({test, &rock.tests, &rock.dynamics});
     const double of_waves = std::sqrt(guess.modulus / input.flat_joint.modulus); // steps are as short as they are fast
-    const double seconds = of_waves * expected_effort<dim>(of_specimen).seconds +
+    const double seconds = of_waves * expected_effort<dim>(of_specimen, {{"", rock}}, {&first, 1}).seconds +
                            expected_effort(input.specimen).seconds / n_threads_served();
     const auto cost = [&](const std::size_t n_specimens) {
       return fmt::format("{} specimens ({})", n_specimens, duration_in_words(seconds * double(n_specimens)));

@@ -51,6 +51,8 @@ public:
     board.advanced(part, {nullptr, std::min(most, test.kind.strain(*standing.row) / last_strain)});
   }
 
+  void goes_back(const std::string& sentence) override { board.goes_back(sentence); }
+
 private:
   RunBoard& board;
   const TestCase& test;

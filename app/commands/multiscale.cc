@@ -14,6 +14,7 @@
 #include "app/run/provenance.h"
 #include "base/append.h"
 #include "base/input_error.h"
+#include "base/quoted.h"
 #include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
@@ -120,7 +121,7 @@ int run_on_all_ranks(const CommonOptions& options)
                                 remarks = check_sample_input(input, file);
                                 if (ranks::is_first())
                                   for (const auto& remark : remarks)
-                                    fmt::print(stderr, "feldspar: {}: {}\n", file.string(), remark);
+                                    fmt::print(stderr, "feldspar: {}: {}\n", printable(file.string()), remark);
                               },
                               [&](const Run& run) { return go(run, remarks); }, all_processes()};
   return run_command(multiscale, options);

@@ -1,6 +1,7 @@
 #include "app/commands/rve_extract.h"
 
 #include "app/programme/multiscale_run.h"
+#include "app/programme/run_board.h"
 #include "app/run/file_list.h"
 #include "app/run/run_record.h"
 #include "app/screen/print_result.h"
@@ -101,12 +102,13 @@ int extract_rve(const std::filesystem::path& folder, const std::string& cell_and
   const auto rocks = make_rocks(record.input, record.input_file, folder, progress);
   const SampleSettings settings = sample_settings(record.input);
   const auto planned = plan(record.input, rocks, settings);
+  RunBoard board(progress, "", {});
   std::size_t n_extracted = 0;
   for (const PlannedSample& one : planned)
     {
       if (!std::filesystem::exists(state_folder(folder, one)))
         continue;
-      const SampleTest test = open(one, folder);
+      const SampleTest test = open(one, folder, board);
       const TestRecord of_sample = test.finish(false).record; // to its last step, as the RVE is
       if (of_sample.curve.empty())
         continue;

@@ -5,6 +5,7 @@
 #include "app/run/output_folder.h"
 #include "app/screen/print_result.h"
 #include "app/screen/progress.h"
+#include "base/quoted.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,8 @@ int make_specimens(const CommonOptions& options, const Input& input)
     {
       if (std::filesystem::is_empty(folder.path()))
         throw;
-      fmt::print(stderr, "feldspar: interrupted; the finished specimens are kept in {}\n", folder.path().string());
+      fmt::print(stderr, "feldspar: interrupted; the finished specimens are kept in {}\n",
+                 printable(folder.path().string()));
       return exit_code::interrupted;
     }
   for (std::size_t k = 0; k < orders.size(); ++k)

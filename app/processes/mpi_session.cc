@@ -1,5 +1,6 @@
 #include "app/processes/mpi_session.h"
 
+#include "base/quoted.h"
 #include "base/ranks/communicator.h"
 #include "base/ranks/ranks.h"
 
@@ -91,7 +92,7 @@ int guarded(const std::function<int()>& program)
       if (!all_are_here(of_failures))
         {
           std::fputs(fmt::format("feldspar: process {} of {} failed and ends all: {}\n", ranks::mine(), ranks::number(),
-                                 error.what())
+                                 printable(error.what()))
                        .c_str(),
                      stderr);
           std::fflush(stderr);

@@ -53,17 +53,15 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
                                         const std::filesystem::path& folder, Progress& progress,
                                         const bool tells_failures)
 {
-  std::vector<TestOrder<dim>> efforts;
   std::vector<BoardPart> parts;
   for (const LaboratoryOrder& one : tests)
     {
       const Input& input = variants[one.variant].input;
-      const Specimen<dim>& specimen = specimens[one.specimen];
-      efforts.push_back({&one.test, &input, &specimen});
       const double rate = (*protocol_of(one.test.kind).strain_rate)(input.tests);
-      parts.push_back({one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimen.grains.size(), rate)}});
+      parts.push_back(
+        {one.name, 1.0, BoardTest{one.test, &input, cost_of_specimen(specimens[one.specimen].grains.size(), rate)}});
     }
-  progress.remark(describe_effort(efforts));
+  progress.remark(describe_effort<dim>(tests, variants, specimens));
   RunBoard board(progress, "tests", parts, tells_failures);
   auto finished_tests = run_tests(tests, specimens, folder, board);
   const auto n_made = std::count_if(finished_tests.begin(), finished_tests.end(),

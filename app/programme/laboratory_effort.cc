@@ -4,6 +4,7 @@
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "base/text.h"
 #include "dem/dynamics/time_step.h"
 #include "dem/lab/protocols/protocols.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace feldspar
 {
@@ -24,8 +26,21 @@ namespace
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
 constexpr double bytes_of_program = 4e7;
-/// Time of a joint and step, with the cracks of a test past its peak (benchmarks/README.md).
-constexpr double seconds_of_joint_and_step(const int dimension) { return dimension == 2 ? 2e-8 : 5e-8; }
+
+/// Processor time of a joint and step, with the cracks of a test past its peak (benchmarks/README.md): 2 and 5 in 1e-8 s by
+/// packs of eight numbers (AVX-512), 3.4 in the plane by packs of four (AVX2).
+constexpr double seconds_of_joint_and_step(const int dimension)
+{
+  constexpr double narrower = simd::width<simd::Pack> < 8 ? 1.7 : 1.0;
+  return narrower * (dimension == 2 ? 2e-8 : 5e-8);
+}
+
+/// Processor time of the pictures of a report: measured on runs of one test to eight, without and with a reference.
+double seconds_of_pictures(const std::size_t n_tests)
+{
+  constexpr std::size_t most_pictured = 20; // of more tests, means over them and not each
+  return 1.0 + 0.6 * double(std::min(n_tests, most_pictured));
+}
 
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
 {
@@ -34,41 +49,42 @@ double bytes_of_tests(const int dimension, const double n_tests, const double n_
 }
 
 template <int dim>
-double bytes_of_specimens(const std::vector<TestOrder<dim>>& tests)
+double bytes_of_specimens(const std::vector<LaboratoryOrder>& tests, const std::span<const Specimen<dim>> specimens)
 {
-  std::map<const Specimen<dim>*, double> bytes;
-  for (const auto& one : tests)
-    bytes[one.specimen] = double(one.specimen->grains.size()) * bytes_of_grain(dim);
+  std::set<std::size_t> numbers;
+  for (const LaboratoryOrder& one : tests)
+    numbers.insert(one.specimen);
   double sum = 0.0;
-  for (const auto& [specimen, of_one] : bytes)
-    sum += of_one;
+  for (const std::size_t k : numbers)
+    sum += double(specimens[k].grains.size()) * bytes_of_grain(dim);
   return sum;
 }
 } // namespace
 
 template <int dim>
-TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
+TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                           const std::span<const Specimen<dim>> specimens)
 {
   TestEffort effort;
   effort.n_tests = tests.size();
-  std::map<const Specimen<dim>*, double> stiffest; // over inertia
+  std::map<std::size_t, double> stiffest; // over inertia, by specimen
   double seconds = 0.0;
   double most_grains = 0.0;
   double most_joints = 0.0;
-  for (const auto& [test, input, specimen] : tests)
+  for (const LaboratoryOrder& one : tests)
     {
-      const double safety = input->dynamics.time_step_safety;
-      const auto [known, is_new] = stiffest.try_emplace(specimen, 0.0);
+      const Specimen<dim>& specimen = specimens[one.specimen];
+      const auto [known, is_new] = stiffest.try_emplace(one.specimen, 0.0);
       if (is_new)
-        known->second = largest_stiffness_over_inertia(*specimen);
-      const double time_step = safety / std::sqrt(known->second);
-      const double rate = (*protocol_of(test->kind).strain_rate)(input->tests);
-      const double n_steps = expected_last_strain(*test, *input) / (rate * time_step);
-      const double of_one = n_steps * double(specimen->joints.size()) * seconds_of_joint_and_step(dim);
+        known->second = largest_stiffness_over_inertia(specimen);
+      const double time_step = one.dynamics->time_step_safety / std::sqrt(known->second);
+      const double rate = (*protocol_of(one.test.kind).strain_rate)(*one.parameters);
+      const double n_steps = expected_last_strain(one.test, variants[one.variant].input) / (rate * time_step);
+      const double of_one = n_steps * double(specimen.joints.size()) * seconds_of_joint_and_step(dim);
       effort.n_steps = std::max(effort.n_steps, n_steps);
       seconds += of_one;
-      most_grains = std::max(most_grains, double(specimen->grains.size()));
-      most_joints = std::max(most_joints, double(specimen->joints.size()));
+      most_grains = std::max(most_grains, double(specimen.grains.size()));
+      most_joints = std::max(most_joints, double(specimen.joints.size()));
     }
   // Threads help each other within a test too.
   effort.seconds = seconds / n_threads_served();
@@ -77,17 +93,19 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
 }
 
 template <int dim>
-std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
+std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                            const std::span<const Specimen<dim>> specimens)
 {
-  const TestEffort effort = expected_effort(tests);
+  const TestEffort effort = expected_effort<dim>(tests, variants, specimens);
   constexpr double most_steps = 1e12; // weeks with a hundred joints
   if (effort.n_steps > most_steps)
     throw InputError(
       fmt::format("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps));
-  const double bytes = bytes_of_program + bytes_of_specimens(tests) + effort.bytes;
-  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}{}",
+  const double bytes = bytes_of_program + bytes_of_specimens<dim>(tests, specimens) + effort.bytes;
+  const double seconds = effort.seconds + seconds_of_pictures(effort.n_tests) / n_threads_served();
+  return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {} with pictures{}",
                      effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,
-                     bytes / 1e6, duration_in_words(effort.seconds), load_in_words(effort.bytes));
+                     bytes / 1e6, duration_in_words(seconds), load_in_words(effort.bytes));
 }
 
 void check_memory_of_tests(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
@@ -115,8 +133,12 @@ void check_memory_of_tests(const std::vector<Variant>& variants, const std::vect
                                  n_tests, orders.size(), most_grains, (of_specimens + of_tests) / 1e9, *free / 1e9));
 }
 
-template TestEffort expected_effort<2>(const std::vector<TestOrder<2>>&);
-template TestEffort expected_effort<3>(const std::vector<TestOrder<3>>&);
-template std::string describe_effort<2>(const std::vector<TestOrder<2>>&);
-template std::string describe_effort<3>(const std::vector<TestOrder<3>>&);
+template TestEffort expected_effort<2>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
+                                       std::span<const Specimen<2>>);
+template TestEffort expected_effort<3>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
+                                       std::span<const Specimen<3>>);
+template std::string describe_effort<2>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
+                                        std::span<const Specimen<2>>);
+template std::string describe_effort<3>(const std::vector<LaboratoryOrder>&, const std::vector<Variant>&,
+                                        std::span<const Specimen<3>>);
 } // namespace feldspar

@@ -3,8 +3,10 @@
 #include "app/input/input.h"
 #include "app/programme/specimen_source.h"
 #include "dem/specimen/specimen.h"
+#include "runs/laboratory.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,21 +22,15 @@ struct TestEffort
   double seconds = 0.0; ///< by the clock, on all threads
 };
 
-/// One test of a programme.
+/// `tests`: of these variants on these specimens, by their numbers.
 template <int dim>
-struct TestOrder
-{
-  const TestCase* test;
-  const Input* input;
-  const Specimen<dim>* specimen;
-};
+TestEffort expected_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                           std::span<const Specimen<dim>> specimens);
 
+/// Describes the effort in a sentence, with the pictures, the memory of the specimens and of the program itself.
 template <int dim>
-TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests);
-
-/// Describes the effort in a sentence, with the memory of the specimens and of the program itself.
-template <int dim>
-std::string describe_effort(const std::vector<TestOrder<dim>>& tests);
+std::string describe_effort(const std::vector<LaboratoryOrder>& tests, const std::vector<Variant>& variants,
+                            std::span<const Specimen<dim>> specimens);
 
 /// Refuses tests that would not fit into the memory that is free before their specimens are made: throws InputError, before any
 /// work.

@@ -56,6 +56,8 @@ void RunBoard::cannot_be_made(const std::size_t part, const std::string& reason)
     say(fmt::format("{} cannot be made: {}", entries[part].part.name, reason));
 }
 
+void RunBoard::goes_back(const std::string& sentence) { say(sentence); }
+
 void RunBoard::taken_up(const std::size_t part)
 {
   {

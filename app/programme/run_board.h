@@ -47,6 +47,7 @@ public:
   void advanced(std::size_t part, const PartStanding& standing) override;
   void ended(std::size_t part) override;
   void cannot_be_made(std::size_t part, const std::string& reason) override;
+  void goes_back(const std::string& sentence) override;
 
   /// A part that an earlier run has made is no work of this one.
   void taken_up(std::size_t part);

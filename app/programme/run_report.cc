@@ -109,6 +109,12 @@ void write_log(const std::filesystem::path& folder, const std::string& text, con
   const auto columns = columns_of_terminal();
   if (!quiet)
     print_result("\n{}\n", columns ? wrapped(text, *columns) : text);
-  print_result("{}\n", folder.string());
+  // The last line: for scripts (--quiet) the folder, for the eye the page.
+  if (!quiet && std::filesystem::exists(folder / result_file::page))
+    print_result("{}\n", (folder / result_file::page).string());
+  else if (!quiet && std::filesystem::exists(folder / result_file::tests))
+    print_result("{0}: make its page with: feldspar report {0}\n", folder.string());
+  else
+    print_result("{}\n", folder.string());
 }
 } // namespace feldspar

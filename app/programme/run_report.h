@@ -39,6 +39,7 @@ ReportedTests write_and_report(const Provenance& made_by, const std::vector<Fini
                                const std::filesystem::path& reference_file, const std::filesystem::path& folder,
                                Progress& progress);
 
-/// The words of a run: into its log.txt, unless quiet onto the terminal, and last the folder's name.
+/// The words of a run: into its log.txt, unless quiet onto the terminal. The last line names the page of the report, or how
+/// to make it; where quiet, and of a run without tests, the folder.
 void write_log(const std::filesystem::path& folder, const std::string& text, bool quiet);
 } // namespace feldspar

@@ -96,7 +96,11 @@ int resume(const RunCommand& command, const CommonOptions& options)
   command.processes.first([&] { lock.emplace(*options.resume); });
   const RunRecord record = read_run_record(command.name, *options.resume);
   const FileList list(*options.resume);
-  command.processes.first([&] { forget_earlier_run(*options.resume); });
+  command.processes.first([&] {
+    forget_earlier_run(*options.resume);
+    if (!record.remark.empty())
+      fmt::print(stderr, "feldspar: {}\n", printable(record.remark));
+  });
   if (record.complete)
     {
       if (command.processes.is_first)

@@ -214,8 +214,14 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
       for (const auto& [file, checksum] : contents.checksums)
         check(file, checksum);
     }
+  const std::filesystem::path named = contents.relative_to / contents.input_file.filename();
+  std::string remark;
+  if (objection_to_reading(named).empty() && checksum_of(named) != checksum_of(copy))
+    remark = fmt::format("{}: has changed since the run began, and is not read; the run goes by {}", named.string(),
+                         copy.string());
   Input input = read_input(copy, contents.relative_to, contents.settings);
   input.variants.named_by_number = !contents.variants_by_value;
-  return {std::move(input), contents.input_file, contents.complete, contents.failure, contents.code_of_failure};
+  return {std::move(input), contents.input_file,      contents.complete,
+          contents.failure, contents.code_of_failure, std::move(remark)};
 }
 } // namespace feldspar

@@ -16,6 +16,7 @@ struct RunRecord
   bool complete = false;            ///< nothing is left to be resumed
   std::string failure = {};         ///< of a complete run: which of its parts failed, and why; empty if none did
   int code_of_failure = 0;          ///< the exit code of the run, where there is a failure
+  std::string remark = {};          ///< on an input file that has changed since and is not read; else empty
 };
 
 /// The files that an input names, in all its variants.

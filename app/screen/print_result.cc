@@ -1,5 +1,6 @@
 #include "app/screen/print_result.h"
 
+#include "base/quoted.h"
 #include "base/text.h"
 
 #include <sys/ioctl.h>
@@ -11,8 +12,23 @@
 
 namespace feldspar
 {
-void write_result(const std::string_view text)
+std::string printable_lines(std::string_view text)
 {
+  std::string result;
+  while (!text.empty())
+    {
+      const std::size_t end = std::min(text.find_first_of("\n\t"), text.size());
+      result += printable(text.substr(0, end));
+      if (end < text.size())
+        result += text[end];
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+  return result;
+}
+
+void write_result(const std::string_view words)
+{
+  const std::string text = printable_lines(words);
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written && errno == EPIPE && std::freopen("/dev/null", "w", stdout) != nullptr)
     std::clearerr(stdout);

@@ -10,9 +10,12 @@
 
 namespace feldspar
 {
-/// Writes results to standard output, and never throws. A reader that has left, as `| head` does, is no mistake and hears
-/// no more; of a full disk the command speaks at its end, when its files are complete.
+/// Writes results to standard output, control characters in them as \x1b, and never throws. A reader that has left, as
+/// `| head` does, is no mistake and hears no more; of a full disk the command speaks at its end, when its files are complete.
 void write_result(std::string_view text);
+
+/// Text of several lines as a terminal may get it: printable() but for line ends and tabs.
+std::string printable_lines(std::string_view text);
 
 /// Lines of at most so many characters (some tens), broken at spaces and gone on with two spaces more than they begin with.
 /// Rows of tables, which have three spaces or more within, and words that are longer stay as they are.

@@ -105,7 +105,7 @@ void Progress::note(const std::string_view text)
 {
   if (on_terminal && !is_quiet)
     clear();
-  const std::string line = fmt::format("feldspar: {}\n", text);
+  const std::string line = fmt::format("feldspar: {}\n", printable_lines(text));
   say(on_terminal ? wrapped(line, width_of_lines(on_terminal)) : line);
 }
 
@@ -115,7 +115,7 @@ void Progress::remark(const std::string_view text)
     return;
   if (on_terminal)
     clear();
-  say(fmt::format("{}\n", wrapped(text, width_of_lines(on_terminal))));
+  say(fmt::format("{}\n", wrapped(printable_lines(text), width_of_lines(on_terminal))));
 }
 
 /// Back to the first line of the last drawing, and all of it away from there down.

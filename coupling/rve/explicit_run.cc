@@ -1,5 +1,6 @@
 #include "coupling/rve/explicit_run.h"
 
+#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/path_checkpoint.h"
 
@@ -185,6 +186,8 @@ void ExplicitRun<dim>::add_sample()
     sample.hill_mandel_residual = std::abs(of_body - of_contacts) / size;
   if (const double size = stress.norm(); size > 0.0)
     sample.boundary_stress_error = (dynamics.boundary_stress() - stress).norm() / size;
+  if (!is_finite(sample))
+    throw dynamics.runaway("a stress or an energy of the cell is not finite");
   work_of_contacts += of_contacts;
   path_record.samples.push_back(sample);
   path_record.samples.back().crack_density = crack_measures(intact.network(), state()).density;

@@ -1,6 +1,7 @@
 #include "coupling/rve/path_run.h"
 
 #include "base/parallel.h"
+#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/path_checkpoint.h"
 #include "coupling/rve/state_archive.h"
 
@@ -199,6 +200,13 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
         break;
       trial = std::move(again);
       evaluated = evaluate(trial.state, body.state(), trial.unbalanced_ratio);
+    }
+  if (!is_finite(evaluated.sample))
+    {
+      path_record.failure =
+        fmt::format("numbers went wrong at {}; the path ends before it, at {}",
+                    describe(control_at(position + increment)), describe(strain_control<dim>(body.state().strain)));
+      return;
     }
   for (const auto& event : trial.breaks)
     {

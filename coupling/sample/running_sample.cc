@@ -2,11 +2,15 @@
 
 #include "base/byte_archive.h"
 #include "base/ranks/ranks.h"
+#include "laboratory/finite_row.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace feldspar
@@ -63,8 +67,8 @@ void SampleTest::Parts::seat()
     go([=, this](const double fraction) { return body->hold(pressure, pressure, fraction); });
   height_at_seating = body->top_displacement();
   lateral_strain_at_seating = body->lateral_strain();
-  seated = true;
   add_row();
+  seated = true;
   if (stage_walk)
     stage_walk->begin(stage_moment());
 }
@@ -188,7 +192,10 @@ void SampleTest::Parts::gather_cracks()
 
 void SampleTest::Parts::add_row()
 {
-  record.curve.push_back(sample_row());
+  const CurveSample row = sample_row();
+  if (const std::string_view column = not_finite_in(row); !column.empty())
+    throw fem::StepFailure(fmt::format("numbers went wrong: {} is not finite", column));
+  record.curve.push_back(row);
   stop_rule.add(record.curve.back());
 }
 

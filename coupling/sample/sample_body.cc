@@ -91,9 +91,9 @@ fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
     {
       const auto box = dealii::GridTools::compute_bounding_box(*mesh.triangulation);
       if (const double inner = box.lower_bound(0); std::abs(inner) > 1e-9 * box.side_length(0))
-        throw fem::MeshError(fmt::format("{}: begins at x = {:g} m; in r-z the axis is x = 0, and the sample reaches "
-                                         "from there to x > 0",
-                                         sample.mesh_file, inner));
+        throw fem::MeshError(fmt::format("begins at x = {:g} m; in r-z the axis is x = 0, and the sample reaches from "
+                                         "there to x > 0",
+                                         inner));
     }
   if (sample.geometry == SampleGeometry::cylinder)
     {
@@ -101,8 +101,8 @@ fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
       for (int axis = 0; axis < 2; ++axis)
         if (const double centre = 0.5 * (box.lower_bound(axis) + box.upper_bound(axis));
             std::abs(centre) > 1e-3 * box.side_length(axis))
-          throw fem::MeshError(fmt::format("{}: its axis lies at {} = {:g} m; a cylinder stands on x = y = 0",
-                                           sample.mesh_file, "xy"[axis], centre));
+          throw fem::MeshError(
+            fmt::format("its axis lies at {} = {:g} m; a cylinder stands on x = y = 0", "xy"[axis], centre));
     }
   fem::check_places(mesh, sample.geometry == SampleGeometry::axisymmetric);
   return mesh;

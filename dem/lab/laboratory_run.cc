@@ -7,6 +7,7 @@
 #include "dem/lab/servo.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/rigid_groups.h"
+#include "laboratory/finite_row.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 namespace feldspar
 {
@@ -58,6 +60,15 @@ std::string what_bears_nothing(const TestRecord& record)
                      "holds the specimen, or it has no strength",
                      record.peak_demands.least_stress / 1e6,
                      in_words(parameter_id<&TestParameters::least_peak_stress>()), percent);
+}
+
+/// The row itself. Throws Runaway for numbers that went wrong, so that the curve ends before them.
+template <int dim>
+CurveSample checked(const CurveSample& row, const Dynamics<dim>& dynamics)
+{
+  if (const std::string_view column = not_finite_in(row); !column.empty())
+    throw dynamics.runaway(fmt::format("{} is not finite", column));
+  return row;
 }
 
 template <int dim>
@@ -145,7 +156,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
                          "the specimen; make it wider or the grains smaller");
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
-  record.curve.push_back(sample());
+  record.curve.push_back(checked(sample(), dynamics));
   stop_rule.add(record.curve.back());
   energy_watch.has_grown_without_work(record.curve.back().energies);
   take_snapshot();
@@ -195,7 +206,7 @@ void LabTest<dim>::add_row()
     throw dynamics.runaway(
       fmt::format("energy grows without work ({:.3g} J more than were put in)", -row.energies.unaccounted()));
   row.lateral_stress = lateral_stress_over_time / (dynamics.time() - time_of_last_row);
-  record.curve.push_back(row);
+  record.curve.push_back(checked(row, dynamics));
   stop_rule.add(row);
   time_of_last_row = dynamics.time();
   lateral_stress_over_time = 0.0;

@@ -162,7 +162,6 @@ template <int dim>
 SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::path& file,
                           const unsigned int n_refinements, const double unit)
 {
-  const std::string name = file.string();
   GmshMesh from_file;
   try
     {
@@ -170,7 +169,7 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
     }
   catch (const InputError& error)
     {
-      throw MeshError(fmt::format("{}: {}", name, error.what()));
+      throw MeshError(error.what());
     }
   std::vector<Point<dim>> vertices(from_file.nodes.size());
   for (std::size_t k = 0; k < vertices.size(); ++k)
@@ -205,12 +204,12 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
     }
   catch (const typename Triangulation<dim>::DistortedCellList& list)
     {
-      throw MeshError(fmt::format("{}: {} of its cells are inverted or flat", name, list.distorted_cells.size()));
+      throw MeshError(fmt::format("{} of its cells are inverted or flat", list.distorted_cells.size()));
     }
   catch (const std::exception&)
     {
       // deal.II's own text runs over many lines with a stack trace.
-      throw MeshError(fmt::format("{}: is not a Gmsh mesh of {} whose cells all have positive {}", name,
+      throw MeshError(fmt::format("is not a Gmsh mesh of {} whose cells all have positive {}",
                                   dim == 2 ? "quadrilaterals" : "hexahedra", dim == 2 ? "area" : "volume"));
     }
   for (const auto& cell : coarse.active_cell_iterators())
@@ -223,10 +222,10 @@ SampleMesh<dim> read_gmsh(const MPI_Comm communicator, const std::filesystem::pa
       GeometryInfo<dim>::alternating_form_at_vertices(corners, jacobians);
       for (const unsigned int v : cell->vertex_indices())
         if (!(jacobians[v] > 0.0))
-          throw MeshError(
-            fmt::format("{}: the cell at ({:g}{}) m is inverted or flat at a corner", name, cell->center()[0],
-                        dim == 2 ? fmt::format(", {:g}", cell->center()[1])
-                                 : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
+          throw MeshError(fmt::format("the cell at ({:g}{}) m is inverted or flat at a corner", cell->center()[0],
+                                      dim == 2
+                                        ? fmt::format(", {:g}", cell->center()[1])
+                                        : fmt::format(", {:g}, {:g}", cell->center()[1], cell->center()[dim - 1])));
     }
   if (unit != 1.0)
     GridTools::scale(unit, coarse);

@@ -2,6 +2,7 @@
 #include "report/pictures/envelope_curves.h"
 #include "report/pictures/figures.h"
 #include "report/pictures/plot_style.h"
+#include "results/fits/form_titles.h"
 #include "results/fits/residual_strength.h"
 #include "results/runs/test_groups.h"
 #include "results/statistics.h"
@@ -228,9 +229,7 @@ std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
       if (pair.form == HoekBrownForm::general && envelopes.hoek_brown.front().with_tension_point.fit)
         continue;
       const bool is_intact = pair.form == HoekBrownForm::intact;
-      const std::string name = is_intact                              ? "intact"
-                               : pair.form == HoekBrownForm::as_paper ? "as the paper = general"
-                                                                      : "general";
+      const std::string name = title(is_intact ? pair.form : HoekBrownForm::general);
       for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
         if (either->fit && either->fit->quality.degrees_of_freedom > 0)
           {
@@ -277,7 +276,7 @@ Picture envelope_picture(const std::string& name, const std::string& caption, co
 
 std::string label_of(const HoekBrownFit& fit)
 {
-  return fmt::format("H–B {}, {} σ_t", name(fit.form), fit.with_tension_point ? "with" : "without");
+  return fmt::format("H–B {}, {} σ_t", title(fit.form), fit.with_tension_point ? "with" : "without");
 }
 
 std::vector<double> abscissas(const double begin, const double end)

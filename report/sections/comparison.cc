@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "laboratory/named_entries.h"
+#include "report/sections/text.h"
 #include "results/fits/direct_shear.h"
 #include "results/fits/hoek_brown.h"
 #include "results/fits/mohr_coulomb.h"
@@ -370,10 +371,7 @@ std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<
   cells.push_back({"", "this run", "reference model", "experiment"});
   for (const auto& row : rows)
     {
-      const auto value = [&](const double number) { return fmt::format("{:.{}f}", number, row.decimals); };
-      std::string ours = row.ours ? value(row.ours->mean) : "-";
-      if (row.ours && row.ours->standard_deviation)
-        ours += fmt::format(" ± {}", value(*row.ours->standard_deviation));
+      const std::string ours = row.ours ? text::mean_and_deviation(*row.ours, 1.0, row.decimals) : "-";
       if (row.ours || row.model || row.experiment)
         cells.push_back(
           {with_unit(row.property, row.unit), ours, as_text(row, row.model), as_text(row, row.experiment)});

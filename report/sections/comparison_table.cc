@@ -71,10 +71,13 @@ std::vector<ComparisonRow>::const_iterator row_of(const std::vector<ComparisonRo
                       [&](const ComparisonRow& candidate) { return candidate.property == property; });
 }
 
-/// Ours: mean, standard deviation and the number of specimens.
+/// Ours: mean, standard deviation and the number of specimens, or the values of two.
 std::string as_text(const ComparisonRow& row)
 {
-  return row.ours ? fmt::format("{} (n = {})", mean_and_deviation(*row.ours, 1.0, row.decimals), row.ours->n) : none;
+  if (!row.ours)
+    return none;
+  const std::string text = mean_and_deviation(*row.ours, 1.0, row.decimals);
+  return row.ours->n == 2 ? text : fmt::format("{} (n = {})", text, row.ours->n);
 }
 
 /// A sentence on how sure the standard deviations are, by the fewest specimens of any; empty where no result has one.
@@ -83,7 +86,7 @@ std::string deviation_note(const Findings& findings, const std::vector<std::size
   std::optional<std::size_t> fewest;
   for (const std::size_t k : compared)
     for (const auto& row : findings.comparisons[k])
-      if (row.ours && row.ours->standard_deviation && (!fewest || row.ours->n < *fewest))
+      if (row.ours && row.ours->n > 2 && (!fewest || row.ours->n < *fewest))
         fewest = row.ours->n;
   if (!fewest)
     return "";

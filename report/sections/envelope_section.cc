@@ -4,6 +4,7 @@
 #include "base/append.h"
 #include "report/pictures/figures.h"
 #include "report/sections/text.h"
+#include "results/fits/form_titles.h"
 #include "results/folder/result_folder.h"
 
 #include <fmt/format.h>
@@ -92,8 +93,7 @@ Table fit_table(const StrengthEnvelopes& envelopes, const std::string& name)
     for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
         const std::string form =
-          fmt::format("{}, {} σ_t", pair.form == HoekBrownForm::as_paper ? "as the paper" : feldspar::name(pair.form),
-                      either == &pair.with_tension_point ? "with" : "without");
+          fmt::format("{}, {} σ_t", title(pair.form), either == &pair.with_tension_point ? "with" : "without");
         if (!either->fit)
           {
             table.rows.push_back(
@@ -132,7 +132,7 @@ Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name
     {
       if (!record.reason.empty())
         continue;
-      std::string heading = record.form + (record.variant.empty() ? "" : ", " + record.variant);
+      std::string heading = title_of_form(record.form) + (record.variant.empty() ? "" : ", " + record.variant);
       std::replace(heading.begin(), heading.end(), '_', ' ');
       table.header.push_back(heading);
       for (const auto& [point, residual] : record.residuals)
@@ -265,7 +265,7 @@ PageSection envelope_section(const Findings& findings, PictureBook& book)
       if (const auto& fit = envelopes.mohr_coulomb.fit)
         figures.paragraphs.push_back(text_of(*fit));
       figures.paragraphs.push_back(
-        "“As the paper” and “general” are one family of curves in two parametrisations, so they are drawn as one. "
+        "“s and a free” (σ_ci is the measured UCS) and “a free” (s = 1) are one family of curves, drawn as one. "
         "“With σ_t” counts the tensile strength as a point at σ₃ = −σ_t, σ₁ = 0.");
       section.blocks.push_back(figures);
       PageBlock residuals;

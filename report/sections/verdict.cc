@@ -35,8 +35,8 @@ std::string beside_experiment(const ComparisonRow& row)
 {
   const std::string unit = row.unit.empty() ? "" : " " + row.unit;
   std::string sentence =
-    fmt::format("{} {}{}, n = {}; experiment {}", row.property, text::mean_and_deviation(*row.ours, 1.0, row.decimals),
-                unit, row.ours->n, as_text(row, row.experiment, unit));
+    fmt::format("{} {}{}{}; experiment {}", row.property, text::mean_and_deviation(*row.ours, 1.0, row.decimals), unit,
+                row.ours->n == 2 ? "" : fmt::format(", n = {}", row.ours->n), as_text(row, row.experiment, unit));
   if (const auto deviation = row.deviation())
     sentence += "; " + text::signed_percent(*deviation);
   return sentence + caveat(row);

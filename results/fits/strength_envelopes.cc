@@ -1,6 +1,7 @@
 #include "results/fits/strength_envelopes.h"
 
 #include "base/text.h"
+#include "results/fits/form_titles.h"
 
 #include <fmt/format.h>
 
@@ -124,7 +125,7 @@ std::string remark_on_intact_form(const StrengthEnvelopes& envelopes)
                                    "one (root mean square), so its sigma_ci and m do not describe them.",
                                    100.0 * *miss);
   if (const HoekBrownFit* const general = fit_with_freedom(envelopes, HoekBrownForm::general))
-    result += fmt::format(" The general form (a = {:.2f}) misses them by {:.0f} %.", general->a.value,
+    result += fmt::format(" With a free (a = {:.2f}) it misses them by {:.0f} %.", general->a.value,
                           100.0 * general->quality.root_mean_square / *envelopes.data.uniaxial_compressive_strength);
   return result;
 }
@@ -191,15 +192,15 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
-        const std::string title = name(pair.form) + (either == &pair.with_tension_point ? "" : ", no sigma_t");
+        const std::string form = title(pair.form) + (either == &pair.with_tension_point ? "" : ", no sigma_t");
         if (!either->fit)
           {
-            notes.push_back(fmt::format("{}: no fit: {}", title, either->reason));
+            notes.push_back(fmt::format("{}: no fit: {}", form, either->reason));
             continue;
           }
         const auto& fit = *either->fit;
-        rows.push_back({title, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3)});
-        strengths.push_back({title, text(fit.quality.r_squared, 4),
+        rows.push_back({form, text(fit.sigma_ci, 1, 1e6), text(fit.m, 2), text(fit.s, 3), text(fit.a, 3)});
+        strengths.push_back({form, text(fit.quality.r_squared, 4),
                              fmt::format("{:.1f}", fit.quality.root_mean_square / 1e6),
                              text(fit.uniaxial_compressive_strength, 1, 1e6),
                              text(Estimate{-fit.tensile_cut_off.value, fit.tensile_cut_off.half_width}, 2, 1e6)});
@@ -218,7 +219,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
         if (pair.form != HoekBrownForm::intact)
           add_reason("a", fit.a.half_width);
         for (const auto& [reason, parameters] : reasons)
-          notes.push_back(fmt::format("{}: no interval of {}: {}", title, fmt::join(parameters, ", "), reason));
+          notes.push_back(fmt::format("{}: no interval of {}: {}", form, fmt::join(parameters, ", "), reason));
       }
   const auto measured = [](const std::optional<double>& value, const int decimals) {
     return value ? fmt::format("{:.{}f}", *value / 1e6, decimals) : std::string("-");
@@ -237,7 +238,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
                   text(fit->friction_angle, 1, degree), text(fit->cohesion, 1, 1e6), text(fit->quality.r_squared, 4),
                   fit->quality.root_mean_square / 1e6, text(fit->uniaxial_strength, 1, 1e6));
   else
-    notes.push_back(fmt::format("mohr_coulomb: no fit: {}", envelopes.mohr_coulomb.reason));
+    notes.push_back(fmt::format("Mohr-Coulomb: no fit: {}", envelopes.mohr_coulomb.reason));
   for (const auto& note : notes)
     result += note + '\n';
   return result + remark(envelopes) + '\n';
@@ -250,13 +251,13 @@ std::string remark(const StrengthEnvelopes& envelopes)
                   ? "The points are highest nominal stresses of a body with flaws, not strengths of the rock. "
                   : "") +
     "Admissible is s <= 1: with s > 1 the rock would be stronger than intact." + remark_on_intact_form(envelopes);
-  const auto paper = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
-                                  [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
+  const auto with_free_s = std::find_if(envelopes.hoek_brown.begin(), envelopes.hoek_brown.end(),
+                                        [](const auto& pair) { return pair.form == HoekBrownForm::as_paper; });
   const auto& measured = envelopes.data.uniaxial_compressive_strength;
-  if (paper == envelopes.hoek_brown.end() || !paper->with_tension_point.fit || !measured)
+  if (with_free_s == envelopes.hoek_brown.end() || !with_free_s->with_tension_point.fit || !measured)
     return result;
-  const auto& with = *paper->with_tension_point.fit;
-  result += fmt::format(" The paper's form with the tension point has s = {:.2f}.", with.s.value);
+  const auto& with = *with_free_s->with_tension_point.fit;
+  result += fmt::format(" With s and a free, the envelope with the tension point has s = {:.2f}.", with.s.value);
   if (with.s.value <= 1.0005) // but for what is shown of it
     return result;
   result += fmt::format(" It says {:.0f} MPa at sigma_3 = 0, where {:.0f} MPa were measured.",
@@ -268,7 +269,7 @@ std::string remark(const StrengthEnvelopes& envelopes)
   else
     result += " An envelope that begins at sigma_t and meets the points at high confinement passes above the uniaxial "
               "strength.";
-  if (const auto& without = paper->without_tension_point.fit)
+  if (const auto& without = with_free_s->without_tension_point.fit)
     result += fmt::format(" Without the tension point s = {:.2f}.", without->s.value);
   return result;
 }

@@ -167,7 +167,8 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   const TemporaryFolder folder;
   folder.write("rock.json", reference);
   folder.write("rock.prm", replaced(small_calibration, "Height = 24 mm", "Height = 20 mm"));
-  ASSERT_NE(run_feldspar(folder.path(), "calibrate rock.prm --output whole --quiet --threads 1").exit_code, 130);
+  ASSERT_NE(run_without_pictures(folder.path(), "calibrate rock.prm --output whole --quiet --threads 1").exit_code,
+            130);
   // Killed without warning in the middle of the design, then interrupted in what follows, then left to end.
   const auto stop_when = [&](const std::string& arguments, const std::string& file, const std::string& signal) {
     const std::string script = "cd '" + folder.path().string() + "' || exit\n'" FELDSPAR_COMMAND "' calibrate " +
@@ -190,7 +191,7 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
       ASSERT_NE(digit, std::string::npos);
       changed[digit] = changed[digit] == '1' ? '2' : '1';
       folder.write(fs::relative(kept, folder.path()).string(), changed);
-      const auto told = run_feldspar(folder.path(), "calibrate --resume cut --quiet");
+      const auto told = run_without_pictures(folder.path(), "calibrate --resume cut --quiet");
       EXPECT_EQ(told.exit_code, 2);
       EXPECT_EQ(std::count(told.error.begin(), told.error.end(), '\n'), 1) << told.error;
       EXPECT_NE(
@@ -202,7 +203,7 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
     }
   stop_when("--resume cut --threads 1", "step_1_0_seed_7.json", "INT");
   EXPECT_EQ(fs::last_write_time(of_a_cell), time_of_the_cell) << "elastic cells were made again";
-  const auto end = run_feldspar(folder.path(), "calibrate --resume cut --quiet --threads 2");
+  const auto end = run_without_pictures(folder.path(), "calibrate --resume cut --quiet --threads 2");
   ASSERT_EQ(end.exit_code, 5) << end.error;
   for (const char* const file : {"design.csv", "posterior.csv"})
     {
@@ -249,7 +250,7 @@ TEST(Calibrate, ReachesATargetWithinAToleranceThatItsPackingsCanDecide)
   std::string input = replaced(small_calibration, "set Stop stress", "set List = direct_tension\n  set Stop stress");
   input = replaced(replaced(input, "Tolerance = 0.1", "Tolerance = 0.5"), "Most packings = 3", "Most packings = 8");
   folder.write("rock.prm", input);
-  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "calibrate rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(outcome.error, "");
   const auto json = nlohmann::json::parse(content(folder.path() / "out" / "calibration.json"));
@@ -268,7 +269,7 @@ void expect_mistake(const std::string& input, const std::string& rock, const std
   const TemporaryFolder folder;
   folder.write("rock.json", rock);
   folder.write("rock.prm", input);
-  const auto outcome = run_feldspar(folder.path(), "calibrate rock.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "calibrate rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
   EXPECT_NE(outcome.error.find(error), std::string::npos) << outcome.error;

@@ -49,7 +49,7 @@ protected:
   void SetUp() override
   {
     folder.write("rock.prm", rock);
-    const auto made = run_feldspar(folder.path(), "lab rock.prm --output made --quiet");
+    const auto made = run_without_pictures(folder.path(), "lab rock.prm --output made --quiet");
     ASSERT_EQ(made.exit_code, 0) << made.error;
     run_command(folder.path(),
                 "awk -F, 'NR > 1 {print $1, $2, $7}' made/grains/uniaxial_compression_seed_1.csv > packing.txt");
@@ -65,11 +65,11 @@ TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
   // the last digits of the positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001
   // and 1.001 /s the specimen that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
   constexpr double strength = 66.67e6, tolerance = 0.12;
-  ASSERT_EQ(run_feldspar(folder.path(), of_packing("15 mm", "30 mm")).exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), of_packing("15 mm", "30 mm")).exit_code, 0);
   const double modulus = first_test(folder.path())["youngs_modulus_initial_Pa"].get<double>();
   for (const char* const height : {"30.001 mm", "30.1 mm", "30.3 mm"})
     {
-      const auto answer = run_feldspar(folder.path(), of_packing("15 mm", height));
+      const auto answer = run_without_pictures(folder.path(), of_packing("15 mm", height));
       ASSERT_EQ(answer.exit_code, 0) << answer.error;
       const auto test = first_test(folder.path());
       EXPECT_NEAR(test["youngs_modulus_initial_Pa"].get<double>(), modulus, 0.01 * modulus) << height;
@@ -82,7 +82,7 @@ TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
 TEST_F(Packing, ThatDoesNotFillItsBoxIsRefused)
 {
   const auto refused = [&](const std::string& command, const std::string& what) {
-    const auto answer = run_feldspar(folder.path(), command);
+    const auto answer = run_without_pictures(folder.path(), command);
     EXPECT_EQ(answer.exit_code, 2) << command;
     EXPECT_NE(answer.error.find(what), std::string::npos) << answer.error;
     EXPECT_EQ(answer.error.find('\n'), answer.error.size() - 1) << answer.error;
@@ -104,11 +104,11 @@ TEST(EndOfATest, IsNotAtAFirstMaximum)
   const TemporaryFolder folder;
   folder.write("rock.prm", rock);
   const std::string seed_8 = "lab rock.prm --output out --force --quiet --set 'Seeds/Seeds = 8'";
-  ASSERT_EQ(run_feldspar(folder.path(), seed_8).exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), seed_8).exit_code, 0);
   EXPECT_NEAR(first_test(folder.path())["peak_stress_Pa"].get<double>(), 138.2e6, 0.1e6);
   EXPECT_GT(first_test(folder.path())["strain_at_peak"].get<double>(), 5e-3);
   // A strain of the user's between both maxima gives no strength, and the reason.
-  ASSERT_EQ(run_feldspar(folder.path(), seed_8 + " --set 'Tests/Stop strain = 2e-3'").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), seed_8 + " --set 'Tests/Stop strain = 2e-3'").exit_code, 0);
   const auto cut = first_test(folder.path());
   EXPECT_TRUE(cut["peak_stress_Pa"].is_null());
   EXPECT_NE(cut["peak_stress_Pa_reason"].get<std::string>().find("still rising when the test ended"),
@@ -120,10 +120,10 @@ TEST(EndOfATest, NeedsAPeakByTheEntries)
   const TemporaryFolder folder;
   folder.write("rock.prm", rock);
   const auto reason = [&](const std::string& entry) {
-    const auto answer =
-      run_feldspar(folder.path(), "lab rock.prm --output out --force --quiet --set 'Tests/Stop strain = 3.5e-3' "
-                                  "--set 'Tests/" +
-                                    entry + "'");
+    const auto answer = run_without_pictures(
+      folder.path(), "lab rock.prm --output out --force --quiet --set 'Tests/Stop strain = 3.5e-3' "
+                     "--set 'Tests/" +
+                       entry + "'");
     EXPECT_EQ(answer.exit_code, 0) << answer.error;
     return first_test(folder.path()).value("peak_stress_Pa_reason", "");
   };

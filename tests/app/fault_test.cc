@@ -88,7 +88,7 @@ TEST(Fault, ADiskThatIsFullAtAnyWriteIsSaidInOneLine)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", quick_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   int n_met = 0;
   for (const int n_writes : {0, 1, 2, 12, 40, 200, 400}) // of some 450, most of them of checkpoints
     {
@@ -105,7 +105,7 @@ TEST(Fault, ADiskThatIsFullAtAnyWriteIsSaidInOneLine)
       ++n_met;
       if (n_writes == 12 || n_writes == 400)
         {
-          EXPECT_EQ(run_feldspar(folder.path(), "lab --resume " + out + " --quiet").exit_code, 0) << n_writes;
+          EXPECT_EQ(run_without_pictures(folder.path(), "lab --resume " + out + " --quiet").exit_code, 0) << n_writes;
           EXPECT_EQ(content(folder.path() / out / "curves/direct_tension_seed_1.csv"),
                     content(folder.path() / "whole/curves/direct_tension_seed_1.csv"));
         }
@@ -117,7 +117,7 @@ TEST(Fault, AFullDiskIsSaidInOneLineByEachCommand)
 {
   const TemporaryFolder folder;
   write_inputs(folder);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   for (const auto& [arguments, input] : commands_of_each_kind())
     for (const int n_writes : {0, 3})
       {
@@ -192,7 +192,7 @@ TEST(Fault, AClockThatGoesBackChangesNothing)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", quick_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   const std::string going_back = fmt::format("LD_PRELOAD='{}'", FELDSPAR_CLOCK_GOING_BACK);
   // A clock that goes as ever would pass all below.
   const auto now = run_command(folder.path(), "date +%s");
@@ -225,7 +225,7 @@ TEST(Fault, AStandardOutputThatIsClosedFullOrLeftDoesNotCostTheRun)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", quick_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   const auto same = [&](const std::string& out) {
     for (const char* file : {"curves/direct_tension_seed_1.csv", "cracks.csv"})
       EXPECT_EQ(content(folder.path() / out / file), content(folder.path() / "whole" / file)) << out << "/" << file;
@@ -235,7 +235,7 @@ TEST(Fault, AStandardOutputThatIsClosedFullOrLeftDoesNotCostTheRun)
   // Closed: its number must not go to the first file that is opened.
   EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output closed >&- 2>&- <&-").exit_code, 0);
   same("closed");
-  const auto full = run_feldspar(folder.path(), "lab rock.prm --output full --quiet > /dev/full");
+  const auto full = run_without_pictures(folder.path(), "lab rock.prm --output full --quiet > /dev/full");
   EXPECT_EQ(full.exit_code, 3);
   EXPECT_EQ(n_lines(full.error), 1u) << full.error;
   EXPECT_NE(full.error.find("standard output"), std::string::npos) << full.error;
@@ -277,6 +277,26 @@ TEST(Fault, OneFolderTakesOneRunAtATime)
   EXPECT_TRUE(fs::exists(folder.path() / "out/run.json"));
 }
 
+// Names of folders come from others, and a terminal obeys escape characters.
+TEST(Output, OfAFolderWhoseNameHasControlCharactersIsPrintable)
+{
+  const TemporaryFolder folder;
+  write_inputs(folder);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  for (const auto& [arguments, input] : commands_of_each_kind())
+    {
+      const std::string command = arguments.substr(0, arguments.find(' '));
+      if (command == "calibrate")
+        continue; // takes the longest, and ends as lab does
+      SCOPED_TRACE(command);
+      const Outcome outcome =
+        run_feldspar(folder.path(), arguments + " --output \"$(printf '" + command + "\\033[31m')\"");
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+      EXPECT_EQ((outcome.output + outcome.error).find('\x1b'), std::string::npos);
+      EXPECT_NE(outcome.output.find(command + "\\x1b[31m"), std::string::npos) << outcome.output;
+    }
+}
+
 // A test that runs to 1.6 times the strain at its peak, as most do: steps within a factor of two.
 TEST(Load, StepsMemoryAndTimeOfTestsAreSaidBeforehand)
 {
@@ -284,7 +304,8 @@ TEST(Load, StepsMemoryAndTimeOfTestsAreSaidBeforehand)
   folder.write("rock.prm", quick_rock.substr(0, quick_rock.find("  set Stop")) + "end\n");
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  static const std::regex words(R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s)");
+  static const std::regex words(
+    R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s with pictures)");
   std::smatch said;
   ASSERT_TRUE(std::regex_search(outcome.error, said, words)) << outcome.error;
   const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
@@ -317,8 +338,8 @@ TEST(Load, TestsThatWouldNotEndAreRefused)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", quick_rock);
-  const auto outcome =
-    run_feldspar(folder.path(), "lab rock.prm --output out --quiet --set 'Tests/Tension strain rate = 1e-25 1/s'");
+  const auto outcome = run_without_pictures(
+    folder.path(), "lab rock.prm --output out --quiet --set 'Tests/Tension strain rate = 1e-25 1/s'");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("steps; a strain rate is far too low"), std::string::npos) << outcome.error;
 }

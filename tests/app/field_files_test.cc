@@ -215,7 +215,7 @@ GetActiveViewOrCreate = Glyph = Show = GetAnimationScene = ResetCamera = Render 
 void expect_fields(const TemporaryFolder& folder, const std::size_t least, const std::size_t most,
                    const std::string& group = "")
 {
-  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const fs::path out = folder.path() / "out";
   const auto series = read_result_folder(out, test_kinds());
@@ -379,7 +379,8 @@ TEST(FieldFiles, OfASampleAreReadByVtk)
        {Body{"plane", "vtkQuad", 4}, Body{"section", "vtkQuad", 4}, Body{"whole", "vtkHexahedron", 8}})
     {
       const std::string& name = body.name;
-      const auto run = run_feldspar(folder.path(), fmt::format("multiscale {0}.prm --output {0} --quiet", name));
+      const auto run =
+        run_without_pictures(folder.path(), fmt::format("multiscale {0}.prm --output {0} --quiet", name));
       ASSERT_EQ(run.exit_code, 0) << run.error;
       expect_sample(folder.path() / name, test, body.cell, body.n_nodes);
       const SampleFields fields = read_sample_fields(folder.path() / name / "fields", test);

@@ -250,7 +250,7 @@ TEST(WriteOver, NamesAnObstacleByItsOwnName)
 {
   const TemporaryFolder folder;
   folder.write("a.prm", rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
   fs::rename(folder.path() / "out/tables", folder.path() / "tables");
   folder.write("out/tables", "a file");
   for (const char* const command : {"report out", "lab a.prm --output out --force"})
@@ -294,7 +294,7 @@ TEST(WriteOver, ReadsAllThatItReadsBeforeItTakesAnythingOut)
 {
   const TemporaryFolder folder;
   folder.write("a.prm", rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
   folder.write("broken.h5", "no specimen");
   folder.write("b.prm", rock + naming("Specimen", "Specimen file", "broken.h5"));
   expect_refused(folder, "lab b.prm --output out --force", "broken.h5: ");
@@ -318,7 +318,7 @@ TEST(Resume, RefusesAnInputThatIsNotThatOfItsRun)
   const TemporaryFolder folder;
   folder.write("a.prm", rock + naming("Report", "Reference file", "reference.json"));
   folder.write("reference.json", reference);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
   make_incomplete(folder.path() / "out");
   const std::string input = content(folder.path() / "out/input.prm");
   for (const std::string& changed : {std::string(), input + "\n"})
@@ -332,8 +332,30 @@ TEST(Resume, RefusesAnInputThatIsNotThatOfItsRun)
   fs::remove(folder.path() / "reference.json");
   expect_refused(folder, "lab --resume out", "reference.json: cannot be read: No such file");
   folder.write("reference.json", reference);
-  const Outcome resumed = run_feldspar(folder.path(), "lab --resume out --quiet");
+  const Outcome resumed = run_without_pictures(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+}
+
+// The folder keeps the input of its run; who edits his own file is told that it is not read.
+TEST(Resume, SaysThatAnInputThatHasChangedIsNotRead)
+{
+  const TemporaryFolder folder;
+  folder.write("a.prm", rock);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  const std::string curve = content(folder.path() / "out/curves/direct_tension_seed_1.csv");
+  EXPECT_EQ(run_feldspar(folder.path(), "lab --resume out").error, "");
+  folder.write("a.prm", rock + "subsection Seeds\n  set Seeds = 2\nend\n");
+  const std::string remark =
+    fmt::format("feldspar: {}: has changed since the run began, and is not read; the run goes by out/input.prm\n",
+                (fs::canonical(folder.path()) / "a.prm").string());
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab --resume out --quiet").error, remark); // of a run that is complete
+  make_incomplete(folder.path() / "out");
+  const Outcome resumed = run_without_pictures(folder.path(), "lab --resume out --quiet");
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(resumed.error, remark);
+  EXPECT_EQ(content(folder.path() / "out/curves/direct_tension_seed_1.csv"), curve);
+  fs::remove(folder.path() / "a.prm");
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab --resume out --quiet").error, "");
 }
 
 TEST(Links, LeadNoWriterOutOfTheFolder)
@@ -400,7 +422,7 @@ TEST(NoFile, IsRefusedAtOnceByEveryReader)
 {
   const TemporaryFolder folder;
   folder.write("run.prm", rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab run.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab run.prm --output out --quiet").exit_code, 0);
   make_incomplete(folder.path() / "out");
   const std::string stages = naming("Tests", "List", "own_loading");
   const std::vector<Reader> readers{{"lab in.prm", "", "in.prm"},
@@ -489,7 +511,7 @@ TEST(Report, SaysInOneLineThatManyTestsAreMissing)
 {
   const TemporaryFolder folder;
   folder.write("a.prm", rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab a.prm --output out --quiet").exit_code, 0);
   auto summary = nlohmann::ordered_json::parse(content(folder.path() / "out/summary.json"));
   const auto test = summary["tests"][0];
   constexpr std::size_t n = 1000;

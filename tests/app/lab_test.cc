@@ -71,8 +71,8 @@ TEST(Lab, WritesWhatItPromises)
         "figures/direct_tension_seed_3_stress_strain.png", "figures/direct_tension_seed_3_stress_strain.svg",
         "figures/uniaxial_compression_seed_4_cracks.png"})
     EXPECT_GT(fs::file_size(results / file), 100u) << file;
-  // The last line names the folder, for the eye and for scripts.
-  EXPECT_TRUE(outcome.output.ends_with("rock-results-001\n")) << outcome.output;
+  // The last line names the page; with --quiet the folder, for scripts.
+  EXPECT_TRUE(outcome.output.ends_with("\nrock-results-001/report.html\n")) << outcome.output;
 
   const auto json = summary(results);
   EXPECT_EQ(json["schema_version"], 2);
@@ -129,9 +129,9 @@ TEST(Lab, GivesTheSameBitsForAnyNumberOfThreadsAndAnyLocale)
   const TemporaryFolder folder;
   folder.write("rock.prm", small_rock);
   make_german_locale(folder.path());
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output one --threads 1 --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output one --threads 1 --quiet").exit_code, 0);
   ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output two --threads 2 --quiet",
-                         "LOCPATH=" + folder.path().string() + " LC_ALL=de_DE.UTF-8")
+                         "PATH=/nowhere LOCPATH=" + folder.path().string() + " LC_ALL=de_DE.UTF-8")
               .exit_code,
             0);
   EXPECT_EQ(without_times(summary(folder.path() / "one")), without_times(summary(folder.path() / "two")));
@@ -148,7 +148,7 @@ TEST(Lab, TestsASpecimenMadeBefore)
   ASSERT_EQ(run_feldspar(folder.path(), "specimen rock.prm --output made").exit_code, 0);
   rock.insert(rock.find("  set Width"), "  set Specimen file = made/specimen.h5\n");
   folder.write("again.prm", rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output fresh --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output fresh --quiet").exit_code, 0);
   const auto again = run_feldspar(folder.path(), "lab again.prm --output again");
   ASSERT_EQ(again.exit_code, 0);
   EXPECT_EQ(content(folder.path() / "fresh/cracks.csv"), content(folder.path() / "again/cracks.csv"));
@@ -168,7 +168,7 @@ TEST(Lab, RefusesWhatItCannotDoAndLeavesNothing)
     folder.write("rock.prm", sizes + seeds + more);
     for (const char* command : {"lab", "specimen"})
       {
-        const auto outcome = run_feldspar(folder.path(), std::string(command) + " rock.prm --quiet");
+        const auto outcome = run_without_pictures(folder.path(), std::string(command) + " rock.prm --quiet");
         EXPECT_EQ(outcome.exit_code, 2) << more;
         EXPECT_NE(outcome.error.find(expected), std::string::npos) << outcome.error;
         EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -220,7 +220,7 @@ TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", tiny_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   std::mt19937 random(7); // the moments need not be the same in every run: the bits must be
   const auto complete = [&] { return content(folder.path() / "broken/run.json").find("true") != std::string::npos; };
   run_and_kill_once(folder.path(), "lab rock.prm --output broken --quiet", "test -e broken/run.json");
@@ -230,7 +230,7 @@ TEST(Lab, KilledTenTimesAndResumedGivesTheBitsOfTheUnbrokenRun)
     run_feldspar(folder.path(), "lab --resume broken --quiet",
                  fmt::format("timeout --foreground --signal=KILL {}", 0.3 + 0.05 * double(random() % 10)));
   EXPECT_GE(n_kills, 3);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab --resume broken --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab --resume broken --quiet").exit_code, 0);
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "broken")));
   for (const char* file :
        {"cracks.csv", "curves/direct_tension_seed_1.csv", "curves/triaxial_compression_30_MPa_seed_1.csv"})
@@ -251,7 +251,7 @@ TEST(Lab, AKilledRunWithAFileBesideItsInputIsTakenUpFromItsCheckpoint)
   run_and_kill_once(folder.path(), "lab rock.prm --output broken --quiet",
                     "ls broken/checkpoints/*.h5 >/dev/null 2>&1");
   ASSERT_TRUE(has_checkpoint());
-  const auto resumed = run_feldspar(folder.path(), "lab --resume broken --quiet");
+  const auto resumed = run_without_pictures(folder.path(), "lab --resume broken --quiet");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
   EXPECT_EQ(resumed.error.find("going back"), std::string::npos) << resumed.error;
   const auto input = summary(folder.path() / "broken")["input"];
@@ -262,7 +262,7 @@ TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", tiny_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   const fs::path checkpoints = folder.path() / "broken/checkpoints";
   const fs::path torn = checkpoints / "triaxial_compression_30_MPa_seed_1.h5";
   const fs::path before = checkpoints / "triaxial_compression_30_MPa_seed_1.previous.h5";
@@ -275,7 +275,7 @@ TEST(Lab, ATornOrForeignCheckpointIsRefusedAndTheOneBeforeItUsed)
   ASSERT_TRUE(fs::exists(torn) && fs::exists(before) && fs::exists(foreign));
   fs::copy_file(torn, foreign, fs::copy_options::overwrite_existing);
   fs::resize_file(torn, fs::file_size(torn) / 2);
-  const auto outcome = run_feldspar(folder.path(), "lab --resume broken --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "lab --resume broken --quiet");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_NE(outcome.error.find("30_MPa_seed_1.h5: damaged or cut short"), std::string::npos) << outcome.error;
   EXPECT_NE(outcome.error.find("going back to the checkpoint before it"), std::string::npos) << outcome.error;
@@ -288,7 +288,7 @@ TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
   // A limit on the size of files stands for the full disk. Checkpoints grow with the curve: the first are within it.
   const TemporaryFolder folder;
   folder.write("rock.prm", tiny_rock);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output full --quiet", "prlimit --fsize=350000");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -301,7 +301,7 @@ TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
       ++n_checkpoints;
     }
   EXPECT_GT(n_checkpoints, 0u);
-  const auto resumed = run_feldspar(folder.path(), "lab --resume full --quiet");
+  const auto resumed = run_without_pictures(folder.path(), "lab --resume full --quiet");
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_EQ(resumed.error, "");
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "full")));
@@ -514,8 +514,8 @@ end
   folder.write("one.prm", rock);
   folder.write("rates.prm", rock + "subsection Variants\n  set Entry = Tests/Tension strain rate\n"
                                    "  set Values = 0.164 1/s; 0.328 1/s\nend\n");
-  ASSERT_EQ(run_feldspar(folder.path(), "lab one.prm --output one --quiet").exit_code, 0);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rates.prm --output rates --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab one.prm --output one --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rates.prm --output rates --quiet").exit_code, 0);
   std::vector<std::string> specimens;
   for (const auto& entry : fs::directory_iterator(folder.path() / "rates"))
     if (const std::string name = entry.path().filename().string(); name.starts_with("specimen"))
@@ -537,7 +537,7 @@ TEST(Lab, SaysWhenAConfinementCannotBeReached)
   const TemporaryFolder folder;
   folder.write("rock.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
                            "subsection Tests\n  set List = triaxial_compression\n  set Confinements = 40 GPa\nend\n");
-  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("Tests/Confinements: the walls cannot hold 40000 MPa"), std::string::npos)
     << outcome.error;
@@ -552,10 +552,10 @@ TEST(Lab, ForceStartsAnew)
                            "subsection Tests\n  set List = direct_tension\nend\n";
   folder.write("weak.prm", rock);
   folder.write("strong.prm", rock + "subsection Flat joint\n  set Bond tensile strength = 44 MPa\nend\n");
-  ASSERT_EQ(run_feldspar(folder.path(), "lab strong.prm --output fresh --quiet").exit_code, 0);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab weak.prm --output used --quiet").exit_code, 0);
-  EXPECT_EQ(run_feldspar(folder.path(), "lab strong.prm --output used --quiet").exit_code, 2);
-  ASSERT_EQ(run_feldspar(folder.path(), "lab strong.prm --output used --force --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab strong.prm --output fresh --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab weak.prm --output used --quiet").exit_code, 0);
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab strong.prm --output used --quiet").exit_code, 2);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab strong.prm --output used --force --quiet").exit_code, 0);
   EXPECT_EQ(content(folder.path() / "fresh/cracks.csv"), content(folder.path() / "used/cracks.csv"));
 }
 
@@ -566,7 +566,7 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   const std::string wanted = "10, 30 MPa";
   rock.replace(rock.find(wanted), wanted.size(), "10, 40000 MPa");
   folder.write("rock.prm", rock);
-  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("triaxial_compression_40000_MPa_seed_1 cannot be made: Tests/Confinements: the walls "
                                "cannot hold 40000 MPa"),
@@ -577,7 +577,7 @@ TEST(Lab, OneTestThatCannotBeMadeDoesNotCostTheOthers)
   EXPECT_GT(json["tests"][1]["steps"], 0);
   EXPECT_NE(json["tests"][2]["peak_stress_Pa_reason"].get<std::string>().find("cannot hold"), std::string::npos);
   // A run that is over says again how it ended.
-  const auto again = run_feldspar(folder.path(), "lab --resume out --quiet");
+  const auto again = run_without_pictures(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.error.find("the walls cannot hold 40000 MPa"), std::string::npos) << again.error;
 }
@@ -647,7 +647,7 @@ subsection Tests
   set Grip ratio = 0.001
 end
 )");
-  const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "lab rock.prm --output out --quiet");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("grip"), std::string::npos) << outcome.error;
   const auto json = summary(folder.path() / "out");
@@ -664,7 +664,7 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
                            "subsection Tests\n  set List = brazilian\nend\n"
                            "subsection Seeds\n  set Seeds = 1, 2\nend\n");
   // Packed by motion, the disc of the first seed has no grain near its poles: its pads are those of the outermost ones.
-  EXPECT_EQ(run_feldspar(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
+  EXPECT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output out --quiet").exit_code, 0);
   const auto json = summary(folder.path() / "out");
   ASSERT_EQ(json["tests"].size(), 2u);
   for (const auto& test : json["tests"])
@@ -689,7 +689,7 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   folder.write("rock.prm", "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n");
   const std::string lab = "lab rock.prm --output out --set 'Tests/List = direct_tension' --set 'Specimen/Width = 8 mm' "
                           "--set 'Specimen/Height = 12 mm' ";
-  ASSERT_EQ(run_feldspar(folder.path(), lab + "--quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), lab + "--quiet").exit_code, 0);
   auto json = summary(folder.path() / "out");
   EXPECT_EQ(json["tests"].size(), 1u);
   EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "8 mm");
@@ -697,14 +697,14 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record["complete"] = false;
   folder.write("out/run.json", record.dump());
-  ASSERT_EQ(run_feldspar(folder.path(), "lab --resume out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab --resume out --quiet").exit_code, 0);
   EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
   // One digit of them would go on as another specimen.
   record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record["complete"] = false;
   record["settings"][1] = "Specimen/Width = 9 mm";
   folder.write("out/run.json", record.dump());
-  const auto changed = run_feldspar(folder.path(), "lab --resume out --quiet");
+  const auto changed = run_without_pictures(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(changed.exit_code, 2);
   EXPECT_EQ(changed.error, "feldspar: out: run.json in it is not as the run wrote it; undo the change, or begin "
                            "another run\n");
@@ -827,9 +827,9 @@ TEST(Lab, EndsCleanlyOnInterruptDuringGenesis)
   EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar lab --resume out\n");
   EXPECT_FALSE(fs::exists(folder.path() / "out/specimen.h5"));
   EXPECT_FALSE(fs::exists(folder.path() / "out/summary.json"));
-  const auto resumed = run_feldspar(folder.path(), "lab --resume out --quiet");
+  const auto resumed = run_without_pictures(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
-  ASSERT_EQ(run_feldspar(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "lab rock.prm --output whole --quiet").exit_code, 0);
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "out")));
 }
 

@@ -27,6 +27,7 @@ namespace feldspar
 namespace
 {
 using tests::run_feldspar;
+using tests::run_without_pictures;
 using tests::TemporaryFolder;
 
 std::string input(const std::string& sample, const std::string& tests, const std::string& specimen = "")
@@ -141,7 +142,7 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
   TemporaryFolder folder;
   folder.write("press.prm", input("  set Compression step = 1e-4\n  set Control past the peak = lateral strain\n",
                                   "  set List = uniaxial_compression\n  set Stop stress over peak = 0.8\n"));
-  const auto run = run_feldspar(folder.path(), "multiscale press.prm --output run --quiet");
+  const auto run = run_without_pictures(folder.path(), "multiscale press.prm --output run --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.error;
   const auto curve = folder.path() / "run/curves/uniaxial_compression_seed_1.csv";
   const auto width = column(curve, "gauge_lateral_strain");
@@ -209,7 +210,7 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
 {
   TemporaryFolder folder;
   folder.write("pull.prm", pull);
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
   // Killed once a state is there, and again and again after it; the last time left to its end.
   folder.write("kill", "\"$@\" &\n"
                        "until ls broken/states/direct_tension_seed_1/step-* >/dev/null 2>&1; do sleep 0.02; done\n"
@@ -217,7 +218,7 @@ TEST(Multiscale, KilledAndResumedGoesOnToTheSameBits)
   run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "broken/summary.json")); // else it was not killed on its way
   run_feldspar(folder.path(), "multiscale --resume broken --quiet", "timeout --foreground --signal=KILL 0.6");
-  const auto last = run_feldspar(folder.path(), "multiscale --resume broken --quiet");
+  const auto last = run_without_pictures(folder.path(), "multiscale --resume broken --quiet");
   ASSERT_EQ(last.exit_code, 0) << last.error;
   for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv", "fields/direct_tension_seed_1.xdmf"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "broken" / file)) << file;
@@ -254,8 +255,8 @@ TEST(Multiscale, EndsCleanlyOnInterruptAndSaysHowToResume)
   EXPECT_EQ(outcome.error, "feldspar: interrupted; go on with: feldspar multiscale --resume out\n");
   const auto summary = nlohmann::json::parse(contents(folder.path() / "out/summary.json"));
   EXPECT_EQ(summary.at("tests").at(0).at("interrupted"), true);
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale --resume out --quiet").exit_code, 0);
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale --resume out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet").exit_code, 0);
   for (const char* const file : {"cracks.csv", "curves/direct_tension_seed_1.csv"})
     EXPECT_EQ(contents(folder.path() / "whole" / file), contents(folder.path() / "out" / file)) << file;
 }
@@ -294,7 +295,7 @@ TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
   std::string even = input("  set Orientation = fixed\n", "  set List = direct_tension\n  set Stop strain = 3.9e-5\n");
   even.replace(even.find("Realisations = 2"), 16, "Realisations = 1");
   folder.write("even.prm", even);
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale even.prm --output even --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale even.prm --output even --quiet").exit_code, 0);
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale even --extract 1:3").exit_code, 0);
   const auto curve = continued("even/extracted/direct_tension_seed_1_cell_1_point_3.h5");
   const auto of_sample = folder.path() / "even/curves/direct_tension_seed_1.csv";
@@ -309,7 +310,7 @@ TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
   // Between free sides the points have edges, whose states no other boundary takes. With one element across both
   // sides of the sample are free, and the strain is as uniform.
   folder.write("edges.prm", even + "subsection Representative volume\n  set Boundary = edge\nend\n");
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale edges.prm --output edges --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale edges.prm --output edges --quiet").exit_code, 0);
   ASSERT_EQ(run_feldspar(folder.path(), "multiscale edges --extract 1:3").exit_code, 0);
   const std::string of_edge = "edges/extracted/direct_tension_seed_1_cell_1_point_3.h5";
   const std::string edge_rve =
@@ -329,7 +330,7 @@ TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
 
   // Broken: the cracks of that point and no others.
   folder.write("pull.prm", pull);
-  ASSERT_EQ(run_feldspar(folder.path(), "multiscale pull.prm --output out --quiet").exit_code, 0);
+  ASSERT_EQ(run_without_pictures(folder.path(), "multiscale pull.prm --output out --quiet").exit_code, 0);
   int most = 0;
   for (const int point : {1, 6}) // a process is slow to start
     {
@@ -359,7 +360,7 @@ TEST(Multiscale, ExtractsTheRveAtAPointForRveAndParaView)
   for (const auto& [command, words] : {std::pair("multiscale sample.prm", "a sample begins with intact ones"),
                                        {"rve explicit.prm", "explicit dynamics begin at rest"}})
     {
-      const auto outcome = run_feldspar(folder.path(), std::string(command) + " --output refused --quiet");
+      const auto outcome = run_without_pictures(folder.path(), std::string(command) + " --output refused --quiet");
       EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
       EXPECT_NE(outcome.error.find(words), std::string::npos) << outcome.error;
       EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -403,7 +404,7 @@ TEST(Multiscale, TakesAMeshOfGmshForItsSample)
   folder.write("scaled.prm", input("  set Mesh file = millimetres.msh\n  set Mesh unit = mm\n", tests));
   for (const std::string name : {"own", "mesh", "scaled"})
     {
-      const auto run = run_feldspar(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
+      const auto run = run_without_pictures(folder.path(), "multiscale " + name + ".prm --output " + name + " --quiet");
       ASSERT_EQ(run.exit_code, 0) << run.error;
     }
   // The mesh that Width, Height and the Elements of input() make, in the same order: the points have the same volumes.
@@ -430,9 +431,9 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   };
   refused(two_squares("roof", squares), "no boundary is named top; the mesh has bottom, left, right, roof");
-  refused(two_squares("top", squares, "-0.001 0.012"), "bad.msh: the cell at");
+  refused(two_squares("top", squares, "-0.001 0.012"), "the cell at");
   refused(two_squares("top", "10\n" + sides + "7 2 2 5 1 1 2 4\n8 2 2 5 1 1 4 3\n9 2 2 5 1 3 4 6\n10 2 2 5 1 3 6 5\n"),
-          "bad.msh: has cells that are not quadrilaterals; in Gmsh recombine the mesh");
+          "has cells that are not quadrilaterals; in Gmsh recombine the mesh");
   // A second coordinate that counts the depth.
   const auto named = [](const std::string& low, const std::string& high) {
     std::string mesh = two_squares("name", squares);
@@ -444,6 +445,17 @@ TEST(Multiscale, SaysInOneLineWhatIsWrongWithAMesh)
   refused(two_squares_in_millimetres(),
           "in metres the mesh is 12 m wide and 24 m high; if its coordinates are in another unit, set "
           "Mesh unit = mm");
+  // A section that begins beside the axis: the file is named once.
+  std::string ring = two_squares("top", squares, "0.022 0.012");
+  for (const auto& [there, instead] : {std::pair("\"left\"", "\"axis\""),
+                                       {"\"right\"", "\"side\""},
+                                       {"\n1 0 0 0\n2 0.012 0 0\n3 0 ", "\n1 0.01 0 0\n2 0.022 0 0\n3 0.01 "},
+                                       {"\n5 0 0.024 0\n6 0.012 ", "\n5 0.01 0.024 0\n6 0.022 "}})
+    ring.replace(ring.find(there), std::string(there).size(), instead);
+  folder.write("bad.prm", "subsection Sample\n  set Material = linear elasticity\n  set Geometry = axisymmetric\n"
+                          "  set Mesh file = bad.msh\nend\nsubsection Tests\n  set List = direct_tension\n"
+                          "  set Stop strain = 1e-5\nend\n");
+  refused(ring, "begins at x = 0.01 m; in r-z the axis is x = 0");
 }
 
 TEST(Multiscale, ASpecimenFileIsOneRealisation)
@@ -464,7 +476,7 @@ TEST(Multiscale, RefusesAConfinementBeyondSmallStrains)
   TemporaryFolder folder;
   folder.write("press.prm", input("", "  set List = direct_tension, triaxial_compression\n"
                                       "  set Confinements = 20, 10000 MPa\n"));
-  const auto refused = run_feldspar(folder.path(), "multiscale press.prm --output beyond --quiet");
+  const auto refused = run_without_pictures(folder.path(), "multiscale press.prm --output beyond --quiet");
   EXPECT_EQ(refused.exit_code, 2) << refused.error;
   EXPECT_NE(refused.error.find("press.prm: Tests/Confinements: 10000 MPa would strain the intact RVE by"),
             std::string::npos)
@@ -482,7 +494,7 @@ TEST(Multiscale, ComparesWithLinearElasticityAndMohrCoulomb)
                            "end\nsubsection Tests\n  set List = uniaxial_compression\n  set Stop strain = 0.004\nend\n";
   const auto row = [&](const std::string& material, const std::string& column, const std::size_t k) {
     folder.write("press.prm", start + material + "\n" + rest);
-    const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --force --quiet");
+    const auto run = run_without_pictures(folder.path(), "multiscale press.prm --output out --force --quiet");
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return cell(folder.path() / "out/curves/uniaxial_compression_seed_1.csv", column, k);
   };
@@ -527,7 +539,7 @@ TEST(Multiscale, TakesCylindersAndPlaneStrain)
                                 "end\nsubsection Continuum\n  set Modulus = 60 GPa\n  set Poisson ratio = 0.2\nend\n"
                                 "subsection Tests\n  set List = triaxial_compression\n  set Confinements = 10 MPa\n"
                                 "  set Stop strain = 0.001\nend\n");
-    const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --force --quiet");
+    const auto run = run_without_pictures(folder.path(), "multiscale press.prm --output out --force --quiet");
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return cell(folder.path() / "out/curves/triaxial_compression_10_MPa_seed_1.csv", column, 10);
   };
@@ -628,7 +640,7 @@ TEST(Multiscale, TakesParallelBondsAndBondsThatSoften)
                                cell, step, step, test, size));
       for (const std::string command : {"rve path.prm --output path", "multiscale sample.prm --output sample"})
         {
-          const auto run = run_feldspar(folder.path(), command + " --quiet --force");
+          const auto run = run_without_pictures(folder.path(), command + " --quiet --force");
           ASSERT_EQ(run.exit_code, 0) << run.error;
         }
       const auto curve = folder.path() / fmt::format("sample/curves/{}_seed_1.csv", test);
@@ -646,7 +658,7 @@ TEST(Multiscale, HoldsTheConfinementBetweenRoughPlatens)
   folder.write("press.prm", input("  set Platens = rough\n  set Orientation = fixed\n  set Order = 2\n",
                                   "  set List = triaxial_compression\n  set Confinements = 20 MPa\n"
                                   "  set Stop strain = 1e-4\n"));
-  const auto run = run_feldspar(folder.path(), "multiscale press.prm --output out --quiet");
+  const auto run = run_without_pictures(folder.path(), "multiscale press.prm --output out --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.error;
   std::ifstream curve(folder.path() / "out/curves/triaxial_compression_20_MPa_seed_1.csv");
   std::string header, first;
@@ -685,7 +697,7 @@ TEST(Multiscale, BreaksFirstWhereItsWeakSeedIs)
                                    {"Elements along = 2", "Elements along = 3"}})
       text.replace(text.find(from), from.size(), to);
     folder.write("weak.prm", text);
-    const auto run = run_feldspar(folder.path(), "multiscale weak.prm --output " + seed + " --force --quiet");
+    const auto run = run_without_pictures(folder.path(), "multiscale weak.prm --output " + seed + " --force --quiet");
     EXPECT_EQ(run.exit_code, 0) << run.error;
     return cells_that_broke(folder.path() / seed);
   };
@@ -752,7 +764,7 @@ TEST(Multiscale, TakesAFlawedRve)
                "subsection Strain path\n  set Direction = free, 1, free\n  set Size = 5e-5\n"
                "  set Largest step = 5e-6\nend\n" +
                  flaw);
-  const auto run = run_feldspar(folder.path(), "multiscale sample.prm --output sample --quiet");
+  const auto run = run_without_pictures(folder.path(), "multiscale sample.prm --output sample --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.error;
   EXPECT_EQ(run.error.find("Flaws"), std::string::npos) << run.error;
   ASSERT_EQ(run_feldspar(folder.path(), "rve rve.prm --output rve --quiet").exit_code, 0);
@@ -764,7 +776,7 @@ TEST(Multiscale, TakesAFlawedRve)
   sample.replace(sample.find("Orientation = fixed"), 19, "Orientation = random");
   sample.replace(sample.find("Stop strain = 5e-5"), 18, "Stop strain = 5e-6");
   folder.write("turned.prm", sample);
-  const auto turned = run_feldspar(folder.path(), "multiscale turned.prm --output turned --quiet");
+  const auto turned = run_without_pictures(folder.path(), "multiscale turned.prm --output turned --quiet");
   ASSERT_EQ(turned.exit_code, 0) << turned.error;
   EXPECT_NE(turned.error.find("they keep their directions by Sample/Orientation = fixed"), std::string::npos)
     << turned.error;
@@ -778,7 +790,7 @@ TEST(Multiscale, WarnsOfElementsLargerThanTheRve)
        {std::pair<std::string, std::string>{"Width = 12 mm", "Width = 40 mm"}, {"Height = 24 mm", "Height = 80 mm"}})
     text.replace(text.find(from), from.size(), to);
   folder.write("large.prm", text);
-  const auto outcome = run_feldspar(folder.path(), "multiscale large.prm --output out --quiet");
+  const auto outcome = run_without_pictures(folder.path(), "multiscale large.prm --output out --quiet");
   EXPECT_NE(outcome.error.find("elements of 40.0 mm are larger than the RVE of 14.0 mm"), std::string::npos)
     << outcome.error;
   EXPECT_NE(outcome.error.find("Elements across = 3, Elements along = 6"), std::string::npos) << outcome.error;

@@ -47,6 +47,13 @@ inline Outcome run_feldspar(const std::filesystem::path& folder, const std::stri
   return run_command(folder, environment + " '" FELDSPAR_COMMAND "' " + arguments);
 }
 
+/// The same of a run on whose pictures there is no claim: gnuplot, which it does not find, takes most of the time of a small
+/// run. For runs with --quiet, which do not name what is missing.
+inline Outcome run_without_pictures(const std::filesystem::path& folder, const std::string& arguments)
+{
+  return run_feldspar(folder, arguments, "PATH=/nowhere");
+}
+
 /// Runs it until a condition of the shell holds in `folder`, then kills it; it may have come to its end before.
 inline void run_and_kill_once(const std::filesystem::path& folder, const std::string& arguments,
                               const std::string& condition)

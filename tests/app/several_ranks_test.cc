@@ -25,6 +25,7 @@ namespace
 namespace fs = std::filesystem;
 using tests::Outcome;
 using tests::run_feldspar;
+using tests::run_without_pictures;
 using tests::TemporaryFolder;
 
 /// Eight elements of 12 mm with RVEs of some 75 grains. Newton's tolerance is far below what events and fields are
@@ -39,12 +40,13 @@ const std::string pull_of_ranks =
 
 const std::string test_name = "direct_tension_seed_4";
 
-/// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores.
+/// Assignments and launcher before the command. Ranks that wait give way, as there may be fewer cores. They find no gnuplot:
+/// no claim is on the pictures.
 std::string mpirun(const unsigned int n_ranks)
 {
   return fmt::format("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_COMPONENTS=-gl "
                      "OMPI_MCA_mpi_yield_when_idle=1 "
-                     "mpirun -np {} --oversubscribe",
+                     "mpirun -x PATH=/nowhere -np {} --oversubscribe",
                      n_ranks);
 }
 
@@ -131,7 +133,7 @@ TEST(SeveralRanks, BreakTheSameSegments)
 {
   const TemporaryFolder folder;
   folder.write("pull.prm", pull_of_ranks);
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 1 --quiet --threads 1"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output 1 --quiet --threads 1"));
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 2 --quiet --threads 2", mpirun(2)));
   expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 4 --quiet --threads 1", mpirun(4)));
   expect_same_run(folder.path() / "1", folder.path() / "2");
@@ -169,7 +171,7 @@ TEST(SeveralRanks, BreakTheSameSegmentsOfCylinders)
                                  "  set Newton tolerance = 1e-10\nend\n"
                                  "subsection Tests\n  set List = direct_tension\n  set Stop strain = 1.6e-4\nend\n"
                                  "subsection Seeds\n  set Seeds = 4\nend\n");
-      expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output 1 --force --quiet --threads 1"));
+      expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output 1 --force --quiet --threads 1"));
       expect_success(
         run_feldspar(folder.path(), "multiscale pull.prm --output 2 --force --quiet --threads 1", mpirun(2)));
       expect_same_run(folder.path() / "1", folder.path() / "2", 1);
@@ -180,14 +182,14 @@ TEST(SeveralRanks, OneThatDiesEndsTheRunWhichIsResumedOnAnyNumber)
 {
   const TemporaryFolder folder;
   folder.write("pull.prm", pull_of_ranks);
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet"));
   folder.write("kill", once_there_are_checkpoints(1, "two", "kill -KILL $(pgrep -P $! | head -n 1)"));
   const auto killed = run_feldspar(folder.path(), "multiscale pull.prm --output two --quiet", "sh ./kill " + mpirun(2));
   EXPECT_NE(killed.exit_code, 0);
   EXPECT_NE(killed.error.find("signal 9"), std::string::npos) << killed.error; // mpirun says so
   EXPECT_FALSE(fs::exists(folder.path() / "two/summary.json"));
   fs::copy(folder.path() / "two", folder.path() / "one", fs::copy_options::recursive);
-  expect_success(run_feldspar(folder.path(), "multiscale --resume one --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale --resume one --quiet"));
   expect_same_run(folder.path() / "whole", folder.path() / "one");
   expect_success(run_feldspar(folder.path(), "multiscale --resume two --quiet", mpirun(3)));
   expect_same_run(folder.path() / "whole", folder.path() / "two");
@@ -203,8 +205,8 @@ TEST(SeveralRanks, EndTogetherWhenAsked)
   EXPECT_NE(asked.error.find("feldspar: interrupted; go on with: feldspar multiscale --resume out\n"),
             std::string::npos)
     << asked.error;
-  expect_success(run_feldspar(folder.path(), "multiscale --resume out --quiet"));
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale --resume out --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet"));
   expect_same_run(folder.path() / "whole", folder.path() / "out");
 }
 
@@ -262,11 +264,8 @@ TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
 {
   const TemporaryFolder folder;
   folder.write("rock.prm", programme);
-  // Without gnuplot in the path, for pictures take more time than these tests.
-  const std::string alone = "PATH=/nowhere";
-  const std::string ranks = mpirun(2) + " -x PATH=/nowhere";
-  expect_success(run_feldspar(folder.path(), "lab rock.prm --output one --quiet", alone));
-  expect_success(run_feldspar(folder.path(), "lab rock.prm --output two --quiet --threads 1", ranks));
+  expect_success(run_without_pictures(folder.path(), "lab rock.prm --output one --quiet"));
+  expect_success(run_feldspar(folder.path(), "lab rock.prm --output two --quiet --threads 1", mpirun(2)));
   expect_same_files(folder.path() / "one", folder.path() / "two", "curves", 3);
   expect_same_files(folder.path() / "one", folder.path() / "two", "grains", 3);
   EXPECT_TRUE(text_of(folder.path() / "one/cracks.csv") == text_of(folder.path() / "two/cracks.csv"));
@@ -275,11 +274,12 @@ TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
   // Asked to end, all end; one process resumes what they left.
   folder.write("ask", "\"$@\" &\nuntil ls out/checkpoints/*.h5 >/dev/null 2>&1; do sleep 0.02; done\n"
                       "kill -USR1 $!\nwait $!\n");
-  const auto asked = run_feldspar(folder.path(), "lab rock.prm --output out --quiet --threads 1", "sh ./ask " + ranks);
+  const auto asked =
+    run_feldspar(folder.path(), "lab rock.prm --output out --quiet --threads 1", "sh ./ask " + mpirun(2));
   EXPECT_EQ(asked.exit_code, 130) << asked.error;
   EXPECT_NE(asked.error.find("feldspar: interrupted; go on with: feldspar lab --resume out\n"), std::string::npos)
     << asked.error;
-  expect_success(run_feldspar(folder.path(), "lab --resume out --quiet", alone));
+  expect_success(run_without_pictures(folder.path(), "lab --resume out --quiet"));
   expect_same_files(folder.path() / "one", folder.path() / "out", "curves", 3);
 
   // An error is said once, and leaves nothing.
@@ -319,7 +319,7 @@ TEST(SeveralRanks, FollowEachOtherUnderSlurm)
   ASSERT_EQ(trial.exit_code, 0) << trial.output << trial.error;
   EXPECT_NE(trial.output.find("Exited with exit code 130"), std::string::npos) << trial.output;
   EXPECT_NE(trial.output.find("JobId=2"), std::string::npos) << trial.output;
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet"));
   expect_same_run(folder.path() / "whole", folder.path() / "slurm/RUN");
 }
 
@@ -327,7 +327,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
 {
   const TemporaryFolder folder;
   folder.write("pull.prm", pull_of_ranks);
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet"));
   folder.write("kill", once_there_are_checkpoints(2, "broken", "kill -KILL $!"));
   run_feldspar(folder.path(), "multiscale pull.prm --output broken --quiet", "sh ./kill");
   const auto kept = checkpoints(folder.path() / "broken");
@@ -338,7 +338,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
     std::string file = last;
     file.replace(0, 6, name);
     damage(folder.path() / file);
-    const auto outcome = run_feldspar(folder.path(), "multiscale --resume " + name + " --quiet");
+    const auto outcome = run_without_pictures(folder.path(), "multiscale --resume " + name + " --quiet");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     EXPECT_NE(outcome.error.find(file + ": " + words), std::string::npos) << outcome.error;
     EXPECT_NE(outcome.error.find("going back to the checkpoint before it\n"), std::string::npos) << outcome.error;
@@ -352,7 +352,7 @@ TEST(Checkpoints, OneThatIsDamagedIsRefusedAndTheOneBeforeItUsed)
   std::string other = pull_of_ranks;
   other.replace(other.find("2.2e-4"), 6, "2e-5  ");
   folder.write("other.prm", other);
-  expect_success(run_feldspar(folder.path(), "multiscale other.prm --output other --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale other.prm --output other --quiet"));
   resumed(
     "foreign",
     [&](const fs::path& file) {
@@ -378,8 +378,8 @@ TEST(Checkpoints, AFullDiskLeavesTheOneBeforeAndSaysSo)
             std::string::npos)
     << full.error;
   EXPECT_FALSE(fs::exists(folder.path() / "out/states" / test_name / "unfinished"));
-  expect_success(run_feldspar(folder.path(), "multiscale --resume out --quiet"));
-  expect_success(run_feldspar(folder.path(), "multiscale pull.prm --output whole --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale --resume out --quiet"));
+  expect_success(run_without_pictures(folder.path(), "multiscale pull.prm --output whole --quiet"));
   expect_same_run(folder.path() / "whole", folder.path() / "out");
 }
 } // namespace

@@ -598,7 +598,8 @@ TEST_P(ReducedStudy, GivesTheCommittedFigures)
     input = with_entry(input, section, entry, value);
   const TemporaryFolder folder;
   folder.write("piece.prm", input);
-  const auto run = run_feldspar(folder.path(), command_of(piece) + " piece.prm --output out --quiet --threads 1");
+  const auto run =
+    run_without_pictures(folder.path(), command_of(piece) + " piece.prm --output out --quiet --threads 1");
   ASSERT_EQ(run.exit_code, 0) << run.error << input;
   const auto again = nlohmann::json::parse(text_of(folder.path() / "out/summary.json"));
   for (const auto& file : piece.files())

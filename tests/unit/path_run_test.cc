@@ -2,12 +2,16 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "coupling/rve/finite_sample.h"
 #include "coupling/rve/path_run.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 /// Paths: interrupted and resumed, controlled in mixed ways, and on a path without equilibrium.
 namespace feldspar
@@ -143,6 +147,21 @@ TEST(PathRun, KeepsTheStateBeforeWhereThereIsNoEquilibrium)
   const NetworkState<2>& state = run.rve().state();
   EXPECT_EQ(state.stress[1], last.stress[1]);
   EXPECT_TRUE(run.rve().trial(state.strain).in_equilibrium);
+}
+
+TEST(PathRun, ARowWithANumberThatIsNotFiniteIsKnown)
+{
+  const double infinite = std::numeric_limits<double>::infinity();
+  PathSample<2> row;
+  EXPECT_TRUE(is_finite(row));
+  for (double* const number : {&row.strain[2], &row.stress[0], &row.stored_energy, &row.work.boundary,
+                               &row.hill_mandel_residual, &row.crack_density})
+    for (const double wrong : {infinite, std::nan("")})
+      {
+        const double right = std::exchange(*number, wrong);
+        EXPECT_FALSE(is_finite(row));
+        *number = right;
+      }
 }
 
 TEST(PathRun, EqualOverloadsBreakInTheOrderOfTheirNumbers)

@@ -457,7 +457,9 @@ TEST(Verdict, SaysInWordsWhatIsInAndWhatIsOutOfRange)
   holds(said(std::nullopt, "no such file"), {"Nothing to compare with: no such file."});
   // Fewer specimens have no such interval, which is said instead.
   tests.pop_back();
-  holds(said(granite(1.0, 500.0), ""), {"126.0 ± 8.5 MPa, n = 2;", "two specimens are too few to be sure"});
+  holds(said(granite(1.0, 500.0), ""), {"n = 2: 120.0 and 132.0 MPa;", "two specimens are too few to be sure"});
+  const std::string on_terminal = as_text(compare(tests, std::nullopt), std::nullopt);
+  EXPECT_NE(on_terminal.find("  n = 2: 120.0 and 132.0\n"), std::string::npos) << on_terminal;
   tests.pop_back();
   holds(said(granite(1.0, 500.0), ""), {"120.0 MPa, n = 1;", "one specimen is too few to be sure"});
 }
@@ -781,8 +783,8 @@ TEST(EnvelopeTable, SaysWhichFormsItsPointsDoNotDetermine)
         for (const auto& row : table.rows)
           admissible[row[0]] = row[1];
   EXPECT_EQ(admissible["intact, with σ_t"], "✓");
-  EXPECT_EQ(admissible["general, with σ_t"], "not determined: an interval reaches 0");
-  EXPECT_EQ(admissible["general, without σ_t"], "no more points than parameters: not drawn");
+  EXPECT_EQ(admissible["a free, with σ_t"], "not determined: an interval reaches 0");
+  EXPECT_EQ(admissible["a free, without σ_t"], "no more points than parameters: not drawn");
   EXPECT_EQ(admissible["Mohr–Coulomb"], "not determined: an interval reaches 0");
 }
 
@@ -1400,9 +1402,10 @@ TEST(TerminalText, OfEnvelopesFitsOnAScreen)
   for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
     data.points.push_back({sigma_3, sigma_1});
   const std::string text = as_text(fit_strength_envelopes(data));
-  const std::string tables = text.substr(0, text.find("as_paper, no sigma_t: ")); // sentences are wrapped on a terminal
+  const std::string tables =
+    text.substr(0, text.find("s and a free, no sigma_t: ")); // sentences are wrapped on a terminal
   EXPECT_LE(widest_line(tables), 80u) << tables;
-  EXPECT_NE(text.find("as_paper, no sigma_t: no interval of m, s, a: "), std::string::npos) << text;
+  EXPECT_NE(text.find("s and a free, no sigma_t: no interval of m, s, a: "), std::string::npos) << text;
 }
 
 TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)

@@ -5,6 +5,7 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/compression.h"
+#include "laboratory/finite_row.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>
@@ -133,6 +134,60 @@ TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
       for (const GrainPicture& grain : outcome.appearance.grains_at_end)
         EXPECT_LT(std::abs(grain.position[0]) + std::abs(grain.position[1]), 0.1);
     }
+}
+
+/// A pressed specimen whose platens measure this stress from a step on.
+template <std::uint64_t from_step>
+SetUpTest<2> set_up_with_stress(const double stress, const Specimen<2>& specimen, const TestParameters& wanted,
+                                const DynamicsParameters& dynamics)
+{
+  SetUpTest<2> set_up = (*uniaxial_compression.set_up_2d)(specimen, 0.0, wanted, dynamics);
+  set_up.loading.end_stress = [stress, measured = set_up.loading.end_stress](const Dynamics<2>& body) {
+    return body.n_steps() < from_step ? measured(body) : EndStress{stress, stress};
+  };
+  return set_up;
+}
+
+template <std::uint64_t from_step, bool is_infinite>
+SetUpTest<2> wrong_set_up(const Specimen<2>& specimen, double, const TestParameters& wanted,
+                          const DynamicsParameters& dynamics)
+{
+  using Limits = std::numeric_limits<double>;
+  return set_up_with_stress<from_step>(is_infinite ? Limits::infinity() : Limits::quiet_NaN(), specimen, wanted,
+                                       dynamics);
+}
+
+// Forces may overflow while all grains still stand right.
+TEST(Runaway, LeavesNoRowWithoutFiniteNumbers)
+{
+  TestParameters parameters;
+  parameters.of<CompressionParameters>().sampling_strain = 1e-6;
+  constexpr std::uint64_t later = 100;
+  for (const auto set_up : {&wrong_set_up<later, true>, &wrong_set_up<later, false>})
+    {
+      LaboratoryProtocol protocol = uniaxial_compression;
+      protocol.set_up_2d = set_up;
+      const TestRecord record = run(LabTest<2>({protocol}, small_specimen(), parameters, {}), 200).record;
+      EXPECT_NE(record.failure.find("numbers went wrong: axial_stress_Pa is not finite"), std::string::npos)
+        << record.failure;
+      ASSERT_FALSE(record.curve.empty());
+      EXPECT_LT(record.curve.back().step, later);
+      EXPECT_EQ(not_finite_in(record.curve.back()), "");
+    }
+  for (const auto set_up : {&wrong_set_up<0, true>, &wrong_set_up<0, false>}) // from the first row on
+    {
+      LaboratoryProtocol protocol = uniaxial_compression;
+      protocol.set_up_2d = set_up;
+      const TestRecord record = run(LabTest<2>({protocol}, small_specimen(), parameters, {}), 200).record;
+      EXPECT_NE(record.failure.find("axial_stress_Pa is not finite"), std::string::npos) << record.failure;
+      EXPECT_TRUE(record.curve.empty());
+    }
+  // A gauge may have too few grains, and then no strain; an infinite one is wrong.
+  CurveSample row;
+  row.gauge_axial_strain = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(not_finite_in(row), "");
+  row.gauge_axial_strain = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(not_finite_in(row), "gauge_axial_strain");
 }
 
 // Some 6e-8 s are a step of spheres of the granite; at 1e6 1/s they were strained by 0.06 in it.

@@ -38,11 +38,14 @@ public:
     why = reason;
   }
 
+  void goes_back(const std::string& sentence) override { back = sentence; }
+
   const std::size_t most;
   std::atomic<std::size_t> n_rows = 0;
   std::atomic<std::size_t> n_ended = 0;
   std::size_t failed = 99;
   std::string why;
+  std::string back;
 };
 
 constexpr std::size_t all_rows = 1000000;
@@ -83,6 +86,13 @@ TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
   EXPECT_EQ(resumed.n_rows, patient.n_rows - n_before);
   tests::expect_same_bits({whole.front().record, whole.front().appearance, {}},
                           {ended.front().record, ended.front().appearance, {}});
+
+  EXPECT_EQ(resumed.back, "");
+  in_parts.write("checkpoints/compression.h5", "torn");
+  Patience nothing_torn(all_rows);
+  EXPECT_EQ(run({order}, in_parts, nothing_torn).front().record.curve.size(), patient.n_rows + at_rest);
+  EXPECT_NE(nothing_torn.back.find("compression.h5: "), std::string::npos) << nothing_torn.back;
+  EXPECT_TRUE(nothing_torn.back.ends_with("; going back to the checkpoint before it")) << nothing_torn.back;
 
   Patience nothing_left(all_rows);
   EXPECT_EQ(run({order}, in_parts, nothing_left).front().record.curve.size(), patient.n_rows + at_rest);

@@ -169,6 +169,7 @@ TEST(Drawing, SeenFromBelowIsMirrored)
          "VERTEX 70 8 10 11 20 16 0 SEQEND"),
     one);
   // At one height, and with the bulge of a side that an open line does not have.
+  EXPECT_EQ(read("0 LWPOLYLINE 8 0 90 2 70 128 10 4 20 8 10 11 20 16"), one);
   EXPECT_EQ(read("0 LWPOLYLINE 8 0 90 2 70 0 38 5 10 4 20 8 10 11 20 16 42 1"), one);
 }
 
@@ -202,7 +203,17 @@ TEST(Drawing, ThatShowsMoreThanLinesIsRefusedByName)
           "the LWPOLYLINE lies in a tilted plane");
   refused("0 LINE 8 0 10 4 20 8 30 0 11 11 21 16 31 3", "the LINE is not level: z is 0 and then 3");
   refused("0 LINE 8 0 10 4 20 8 11 11", "the LINE has no group 21");
-  refused("0 POLYLINE 8 0 70 16 0 VERTEX 10 0 20 0 0 SEQEND", "the POLYLINE is a mesh");
+  refused("0 POLYLINE 8 0 70 16 0 VERTEX 10 0 20 0 0 SEQEND", "the POLYLINE is a polygon mesh");
+  refused("0 POLYLINE 8 0 70 64 0 VERTEX 70 128 10 0 20 0 0 SEQEND", "the POLYLINE is a polyface mesh");
+  refused("0 POLYLINE 8 0 70 0 0 VERTEX 70 64 10 0 20 0 0 SEQEND", "the POLYLINE has a vertex of a mesh");
+  // The frame of a spline is not its curve.
+  refused("0 POLYLINE 8 0 70 4 0 VERTEX 70 16 10 0 20 0 0 VERTEX 70 16 10 4 20 9 0 SEQEND",
+          "the POLYLINE is a spline of which there are 2 control points and no point of its curve");
+  refused("0 POLYLINE 8 0 70 0 0 VERTEX 70 16 10 0 20 0 0 VERTEX 70 0 10 4 20 9 0 SEQEND",
+          "the POLYLINE has a control point of a spline (VERTEX, group 70 = 16), and is not marked as a spline");
+  refused("0 LWPOLYLINE 8 0 90 2 70 16 10 4 20 8 10 11 20 16", "the LWPOLYLINE has unknown flags (group 70 = 16)");
+  refused("0 POLYLINE 8 0 70 256 0 VERTEX 10 0 20 0 0 VERTEX 10 4 20 0 0 SEQEND",
+          "the POLYLINE has unknown flags (group 70 = 256)");
   refused("0 POLYLINE 8 0 70 1 0 VERTEX 10 0 20 0 0 VERTEX 10 4 20 0 42 1 0 SEQEND", "the POLYLINE has arcs");
   refused(plain_line + " 0 VERTEX 10 0 20 0", "has an entity VERTEX");
   refused("0 LINE 67 1 10 4 20 8 11 11 21 16", "1 in paper space; no LINE, LWPOLYLINE or POLYLINE is left");

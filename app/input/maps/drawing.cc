@@ -56,6 +56,14 @@ Line line_of(const DxfRecord& entity)
   return {entity.name, fmt::format("{}:{}", entity.file.string(), entity.line), {}};
 }
 
+/// Throws InputError for flags (group 70) that this entity does not have.
+void check_flags(const Line& line, const DxfRecord& entity, const long known)
+{
+  if (const long flags = entity.integer(70, 0); (flags & ~known) != 0)
+    throw refusal(line,
+                  fmt::format("has unknown flags (group 70 = {}); save the drawing anew by a CAD program", flags));
+}
+
 Corner corner_of(const DxfRecord& entity)
 {
   return {{entity.number(10), entity.number(20)}, entity.number(30, 0.0), entity.number(42, 0.0)};
@@ -86,8 +94,9 @@ void turn(Line& line, const DxfRecord& entity)
 /// LWPOLYLINE: groups 10 and 20 of each vertex, and what belongs to it up to the next.
 Line light_polyline(const DxfRecord& entity)
 {
-  constexpr long is_closed = 1;
+  constexpr long is_closed = 1, goes_on_in_line_type = 128;
   Line line = line_of(entity);
+  check_flags(line, entity, is_closed | goes_on_in_line_type);
   line.closed = (entity.integer(70, 0) & is_closed) != 0;
   std::optional<double> y;
   const auto finish = [&] {
@@ -122,22 +131,39 @@ public:
     : head(entity)
     , line(line_of(entity))
   {
-    constexpr long is_closed = 1, is_mesh = 16, is_polyface = 64;
+    constexpr long is_closed = 1, is_spline_fit = 4, is_mesh = 16, is_polyface = 64, all = 255;
+    check_flags(line, entity, all);
     const long flags = entity.integer(70, 0);
     if ((flags & (is_mesh | is_polyface)) != 0)
-      throw refusal(line, "is a mesh; traces are lines");
+      throw refusal(line, fmt::format("is a {} mesh (group 70 = {}); traces are lines",
+                                      (flags & is_mesh) != 0 ? "polygon" : "polyface", flags));
     line.closed = (flags & is_closed) != 0;
+    is_spline = (flags & is_spline_fit) != 0;
   }
 
+  /// The control points of a spline (its frame) are no points of its curve, which its other vertices give.
   void add(const DxfRecord& vertex)
   {
-    constexpr long is_control_point = 16; // of a spline, which its other vertices follow
-    if ((vertex.integer(70, 0) & is_control_point) == 0)
+    constexpr long is_control_point = 16, is_of_mesh = 64, is_of_polyface = 128;
+    const long flags = vertex.integer(70, 0);
+    if ((flags & (is_of_mesh | is_of_polyface)) != 0)
+      throw refusal(line, fmt::format("has a vertex of a mesh (group 70 = {}); traces are lines", flags));
+    if ((flags & is_control_point) == 0)
       line.corners.push_back(corner_of(vertex));
+    else if (is_spline)
+      ++n_control_points;
+    else
+      throw refusal(line, fmt::format("has a control point of a spline (VERTEX, group 70 = {}), and is not marked as a "
+                                      "spline (POLYLINE, flag 4 of group 70)",
+                                      flags));
   }
 
   Line finish()
   {
+    if (n_control_points > 0 && line.corners.empty())
+      throw refusal(line, fmt::format("is a spline of which there are {} control points and no point of its curve; "
+                                      "explode it into lines",
+                                      n_control_points));
     constexpr long is_in_space = 8; // its vertices are given in space, otherwise in its plane
     if ((head.integer(70, 0) & is_in_space) == 0)
       turn(line, head);
@@ -147,6 +173,8 @@ public:
 private:
   DxfRecord head;
   Line line;
+  bool is_spline = false;
+  std::size_t n_control_points = 0;
 };
 
 /// The lines of a drawing, and the numbers of its entities that are not visible in model space.
