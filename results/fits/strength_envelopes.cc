@@ -192,7 +192,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   for (const auto& pair : envelopes.hoek_brown)
     for (const auto* either : {&pair.with_tension_point, &pair.without_tension_point})
       {
-        const std::string form = title(pair.form) + (either == &pair.with_tension_point ? "" : ", no sigma_t");
+        const std::string form = title(pair.form) + (either == &pair.with_tension_point ? "" : ", no σ_t");
         if (!either->fit)
           {
             notes.push_back(fmt::format("{}: no fit: {}", form, either->reason));
@@ -230,7 +230,7 @@ std::string as_text(const StrengthEnvelopes& envelopes)
   std::string result = (envelopes.data.of_flawed_body ? std::string("Envelopes of highest nominal stresses")
                                                       : std::string("Strength envelopes")) +
                        ": compression positive, MPa, ± 95 % confidence;\n"
-                       "no sigma_t: without the tensile strength as a point\n" +
+                       "no σ_t: without the tensile strength as a point\n" +
                        table(rows) + table(strengths);
   if (const auto& fit = envelopes.mohr_coulomb.fit)
     result +=

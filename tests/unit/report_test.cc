@@ -1402,10 +1402,9 @@ TEST(TerminalText, OfEnvelopesFitsOnAScreen)
   for (const auto& [sigma_3, sigma_1] : {std::pair(0.0, 223.8e6), {10e6, 358.4e6}, {30e6, 448.2e6}})
     data.points.push_back({sigma_3, sigma_1});
   const std::string text = as_text(fit_strength_envelopes(data));
-  const std::string tables =
-    text.substr(0, text.find("s and a free, no sigma_t: ")); // sentences are wrapped on a terminal
+  const std::string tables = text.substr(0, text.find("s and a free, no σ_t: ")); // sentences are wrapped on a terminal
   EXPECT_LE(widest_line(tables), 80u) << tables;
-  EXPECT_NE(text.find("s and a free, no sigma_t: no interval of m, s, a: "), std::string::npos) << text;
+  EXPECT_NE(text.find("s and a free, no σ_t: no interval of m, s, a: "), std::string::npos) << text;
 }
 
 TEST(TerminalText, IsBrokenAtSpacesAndTablesAreNot)
