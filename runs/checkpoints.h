@@ -85,6 +85,8 @@ public:
   {
   }
 
+  bool exist() const { return std::filesystem::exists(newest) || std::filesystem::exists(one_before); }
+
   /// Throws OutputError; the one before is then still there.
   template <typename Part>
   void write(Part& part) const

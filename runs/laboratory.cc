@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -34,6 +35,46 @@ TestOutcome failure(const LaboratoryOrder& order, const Specimen<dim>& specimen,
   record.failure = why;
   return outcome;
 }
+/// Gives specimens to their tests: copies, and to the last test the grains and joints themselves.
+template <int dim>
+class SpecimensOfTests
+{
+public:
+  SpecimensOfTests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& all)
+    : specimens(all)
+    , n_tests_left(all.size(), 0)
+  {
+    for (const LaboratoryOrder& order : orders)
+      ++n_tests_left[order.specimen];
+  }
+
+  /// For a test that may ask again.
+  Specimen<dim> copy(const std::size_t k)
+  {
+    const std::lock_guard lock(one_at_a_time);
+    return specimens[k];
+  }
+
+  /// For a test that does not.
+  Specimen<dim> take(const std::size_t k)
+  {
+    const std::lock_guard lock(one_at_a_time);
+    Specimen<dim>& specimen = specimens[k];
+    if (--n_tests_left[k] > 0)
+      return specimen;
+    Grains<dim> grains = std::exchange(specimen.grains, {});
+    Joints<dim> joints = std::exchange(specimen.joints, {});
+    Specimen<dim> taken = specimen;
+    taken.grains = std::move(grains);
+    taken.joints = std::move(joints);
+    return taken;
+  }
+
+private:
+  std::vector<Specimen<dim>>& specimens;
+  std::vector<std::size_t> n_tests_left;
+  std::mutex one_at_a_time;
+};
 } // namespace
 
 std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& orders)
@@ -48,11 +89,11 @@ std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& order
 }
 
 template <int dim>
-TestOutcome run_test(const LaboratoryOrder& order, const Specimen<dim>& specimen, const Checkpoints& checkpoints,
-                     const std::size_t part, RunObserver& observer)
+TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<dim>()>& specimen,
+                     const Checkpoints& checkpoints, const std::size_t part, RunObserver& observer)
 {
   const auto begin = [&] {
-    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen, *order.parameters,
+    return LabTest<dim>({protocol_of(order.test.kind), order.test.confining_pressure}, specimen(), *order.parameters,
                         *order.dynamics);
   };
   LabTest<dim> test = checkpoints.open(begin, observer);
@@ -76,24 +117,27 @@ TestOutcome run_test(const LaboratoryOrder& order, const Specimen<dim>& specimen
 }
 
 template <int dim>
-std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders,
-                                    const std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
-                                    RunObserver& observer)
+std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
+                                    const std::filesystem::path& folder, RunObserver& observer)
 {
   const std::filesystem::path checkpoint_folder = folder / "checkpoints";
   std::filesystem::create_directories(checkpoint_folder);
   const auto sorted = longest_first(orders);
+  SpecimensOfTests<dim> of_tests(orders, specimens);
   std::vector<std::optional<FinishedTest>> slots(orders.size());
   for_each_job(orders.size(), [&](const std::size_t position) {
     const std::size_t k = sorted[position];
     const LaboratoryOrder& order = orders[k];
-    const Specimen<dim>& specimen = specimens[order.specimen];
     if (observer.wants_end())
       return;
     TestOutcome outcome;
     try
       {
-        outcome = run_test(order, specimen, Checkpoints(checkpoint_folder, order.name, order.identity), k, observer);
+        const Checkpoints checkpoints(checkpoint_folder, order.name, order.identity);
+        const auto specimen = [&, is_new = !checkpoints.exist()] {
+          return is_new ? of_tests.take(order.specimen) : of_tests.copy(order.specimen);
+        };
+        outcome = run_test<dim>(order, specimen, checkpoints, k, observer);
       }
     catch (const Interrupted&)
       {
@@ -101,7 +145,7 @@ std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders,
       }
     catch (const InputError& error) // one test that cannot be made must not cost the others
       {
-        outcome = failure(order, specimen, error.what());
+        outcome = failure(order, specimens[order.specimen], error.what());
         observer.cannot_be_made(k, error.what());
       }
     observer.ended(k);
@@ -114,12 +158,12 @@ std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders,
   return tests;
 }
 
-template TestOutcome run_test<2>(const LaboratoryOrder&, const Specimen<2>&, const Checkpoints&, std::size_t,
-                                 RunObserver&);
-template TestOutcome run_test<3>(const LaboratoryOrder&, const Specimen<3>&, const Checkpoints&, std::size_t,
-                                 RunObserver&);
-template std::vector<FinishedTest> run_tests<2>(const std::vector<LaboratoryOrder>&, const std::vector<Specimen<2>>&,
+template TestOutcome run_test<2>(const LaboratoryOrder&, const std::function<Specimen<2>()>&, const Checkpoints&,
+                                 std::size_t, RunObserver&);
+template TestOutcome run_test<3>(const LaboratoryOrder&, const std::function<Specimen<3>()>&, const Checkpoints&,
+                                 std::size_t, RunObserver&);
+template std::vector<FinishedTest> run_tests<2>(const std::vector<LaboratoryOrder>&, std::vector<Specimen<2>>&,
                                                 const std::filesystem::path&, RunObserver&);
-template std::vector<FinishedTest> run_tests<3>(const std::vector<LaboratoryOrder>&, const std::vector<Specimen<3>>&,
+template std::vector<FinishedTest> run_tests<3>(const std::vector<LaboratoryOrder>&, std::vector<Specimen<3>>&,
                                                 const std::filesystem::path&, RunObserver&);
 } // namespace feldspar

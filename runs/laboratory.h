@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,17 +37,18 @@ struct LaboratoryOrder
 /// The numbers of the tests in the order in which they are begun: the longest first, so that none is left alone at the end.
 std::vector<std::size_t> longest_first(const std::vector<LaboratoryOrder>& orders);
 
-/// Runs a test from where its checkpoint stands to its end, or to where the observer wants the end. Throws Interrupted where
-/// there is nothing to keep, and InputError where the test cannot be made.
+/// Runs a test from where its checkpoint stands to its end, or to where the observer wants the end. `specimen` gives the
+/// specimen, once for each checkpoint that is tried and once for the start. Throws Interrupted where there is nothing to
+/// keep, and InputError where the test cannot be made.
 template <int dim>
-TestOutcome run_test(const LaboratoryOrder& order, const Specimen<dim>& specimen, const Checkpoints& checkpoints,
-                     std::size_t part, RunObserver& observer);
+TestOutcome run_test(const LaboratoryOrder& order, const std::function<Specimen<dim>()>& specimen,
+                     const Checkpoints& checkpoints, std::size_t part, RunObserver& observer);
 
 /// Runs tests on the specimens, as many at a time as there are threads, longest first. Each leaves its last two checkpoints
 /// in `folder`/checkpoints, by which a later call takes it up; a test that has ended is not run again. A test that cannot be
-/// made is in the results with its reason. Where the observer wanted the end, tests that had not begun are not.
+/// made is in the results with its reason. Where the observer wanted the end, tests that had not begun are not. The last test
+/// of a specimen takes its grains and joints, which needs half of the memory of a copy; the rest of it stays.
 template <int dim>
-std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders,
-                                    const std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
-                                    RunObserver& observer);
+std::vector<FinishedTest> run_tests(const std::vector<LaboratoryOrder>& orders, std::vector<Specimen<dim>>& specimens,
+                                    const std::filesystem::path& folder, RunObserver& observer);
 } // namespace feldspar

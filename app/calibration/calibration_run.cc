@@ -371,7 +371,7 @@ private:
       fmt::format("Answer, round {}: packings {} to {}.", round, best_input.seeds.front(), best_input.seeds.back()));
     const std::vector<Variant> one{{"", best_input}};
     const auto orders = specimen_orders(one);
-    const auto specimens = provide_specimens<dim>(one, orders, folder, progress);
+    auto specimens = provide_specimens<dim>(one, orders, folder, progress);
     const auto planned = plan_tests(one, orders, seeds_of(orders, specimens));
     auto finished_tests = run_programme(one, planned, specimens, folder, progress);
     end_if_interrupted();

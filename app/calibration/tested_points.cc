@@ -130,8 +130,9 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
                 const std::string full_name = name_of(test);
                 TestObserver observer(board, test, expected_last_strain(test, rock));
                 const LaboratoryOrder wanted = laboratory_order(test, rock, full_name);
-                TestOutcome outcome = run_test(wanted, specimen, Checkpoints(checkpoints, full_name, wanted.identity),
-                                               part(k, j), observer);
+                TestOutcome outcome = run_test<dim>(
+                  wanted, [&] { return specimen; }, Checkpoints(checkpoints, full_name, wanted.identity), part(k, j),
+                  observer);
                 end_if_interrupted();
                 finished_tests.push_back(finished(std::move(outcome), name(test), full_name, ""));
               }

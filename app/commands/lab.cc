@@ -98,7 +98,7 @@ void share_out_tests(const Run& run, Progress& progress)
       return own;
     };
     const auto tests = own_tests(std::vector<Specimen<dim>>(orders.size()));
-    const auto specimens = provide_specimens_of<dim>(tests, all_variants, orders, run.folder, progress);
+    auto specimens = provide_specimens_of<dim>(tests, all_variants, orders, run.folder, progress);
     // The first process meets again what cannot be made, and reports it.
     if (!tests.empty() &&
         std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
@@ -138,7 +138,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
   const auto all_variants = variants(input);
   const auto orders = specimen_orders(all_variants);
   check_memory_of_tests(all_variants, orders);
-  const auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
+  auto specimens = provide_specimens<dim>(all_variants, orders, folder, progress);
   if (!input.specimen.specimen_file.empty())
     with_name_of(input_file, [&] { check_specimen_of_file(input, specimens.front()); });
 

@@ -49,9 +49,8 @@ std::vector<LaboratoryOrder> plan_tests(const std::vector<Variant>& variants, co
 
 template <int dim>
 std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, const std::vector<LaboratoryOrder>& tests,
-                                        const std::vector<Specimen<dim>>& specimens,
-                                        const std::filesystem::path& folder, Progress& progress,
-                                        const bool tells_failures)
+                                        std::vector<Specimen<dim>>& specimens, const std::filesystem::path& folder,
+                                        Progress& progress, const bool tells_failures)
 {
   std::vector<BoardPart> parts;
   for (const LaboratoryOrder& one : tests)
@@ -74,9 +73,9 @@ std::vector<FinishedTest> run_programme(const std::vector<Variant>& variants, co
 }
 
 template std::vector<FinishedTest> run_programme<2>(const std::vector<Variant>&, const std::vector<LaboratoryOrder>&,
-                                                    const std::vector<Specimen<2>>&, const std::filesystem::path&,
-                                                    Progress&, bool);
+                                                    std::vector<Specimen<2>>&, const std::filesystem::path&, Progress&,
+                                                    bool);
 template std::vector<FinishedTest> run_programme<3>(const std::vector<Variant>&, const std::vector<LaboratoryOrder>&,
-                                                    const std::vector<Specimen<3>>&, const std::filesystem::path&,
-                                                    Progress&, bool);
+                                                    std::vector<Specimen<3>>&, const std::filesystem::path&, Progress&,
+                                                    bool);
 } // namespace feldspar

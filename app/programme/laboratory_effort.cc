@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace feldspar
 {
@@ -48,15 +47,17 @@ double bytes_of_tests(const int dimension, const double n_tests, const double n_
   return at_a_time * n_joints * bytes_of_running_joint(dimension) + n_tests * n_grains * bytes_of_kept_grain(dimension);
 }
 
+/// Of those that stay beside their tests: the only test of a specimen takes it.
 template <int dim>
 double bytes_of_specimens(const std::vector<LaboratoryOrder>& tests, const std::span<const Specimen<dim>> specimens)
 {
-  std::set<std::size_t> numbers;
+  std::map<std::size_t, std::size_t> n_tests_of;
   for (const LaboratoryOrder& one : tests)
-    numbers.insert(one.specimen);
+    ++n_tests_of[one.specimen];
   double sum = 0.0;
-  for (const std::size_t k : numbers)
-    sum += double(specimens[k].grains.size()) * bytes_of_grain(dim);
+  for (const auto& [k, n_tests] : n_tests_of)
+    if (n_tests > 1)
+      sum += double(specimens[k].grains.size()) * bytes_of_grain(dim);
   return sum;
 }
 } // namespace

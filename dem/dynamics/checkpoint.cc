@@ -61,9 +61,12 @@ void Dynamics<dim>::transfer(Archive& archive)
   archive.value("dt", dt);
   archive.value("previous_dt", previous_dt);
   archive.value("current_time", current_time);
-  joint_groups = JointGroups<dim>(joints);
-  index_joints();
-  inverse_inertia = InverseInertia(bodies());
+  joint_groups = JointGroups<dim>(joints); // writing too, so that a resumed run regroups when this one does
+  if constexpr (Archive::reads)
+    {
+      index_joints();
+      inverse_inertia = InverseInertia(bodies());
+    }
   touches.number(images);
 }
 

@@ -22,7 +22,7 @@ struct SetUpTest;
 /// Stands a specimen between walls or grips; the pressure [Pa] is 0 for a test that takes none. Throws InputError for a
 /// specimen on which the test cannot be made.
 template <int dim>
-using SetUp = SetUpTest<dim> (*)(const Specimen<dim>&, double confining_pressure, const TestParameters&,
+using SetUp = SetUpTest<dim> (*)(Specimen<dim>, double confining_pressure, const TestParameters&,
                                  const DynamicsParameters&);
 
 /// The size of the body that a test cuts out of a specimen [m].

@@ -23,14 +23,14 @@ namespace feldspar
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up_of(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+SetUpTest<dim> set_up_of(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& wanted,
                          const DynamicsParameters& dynamics)
 {
   const std::optional<SetUp<dim>>& set_up = test.protocol.set_up<dim>();
   if (!set_up)
     throw std::logic_error(fmt::format("{} has no set-up in {} dimensions", test.protocol.kind.name, dim));
   check_fills_its_box(specimen);
-  return (*set_up)(specimen, test.confining_pressure, wanted, dynamics);
+  return (*set_up)(std::move(specimen), test.confining_pressure, wanted, dynamics);
 }
 
 /// Each end that moves at the speed v sends a wave of the stress ρ c v, and v is half of the strain rate times the length; a
@@ -80,11 +80,11 @@ double mean_lateral_strain(const Tensor<dim>& gradient)
 } // namespace
 
 template <int dim>
-LabTest<dim>::LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& parameters,
+LabTest<dim>::LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& parameters,
                       const DynamicsParameters& dynamics)
   : wanted(parameters)
   , stop_rule(test.protocol.kind, test.confining_pressure, {})
-  , set_up(set_up_of(test, specimen, parameters, dynamics))
+  , set_up(set_up_of(test, std::move(specimen), parameters, dynamics))
   , stage_walk(parameters)
 {
   const Specimen<dim>& tested = set_up.dynamics.specimen();

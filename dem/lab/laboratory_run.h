@@ -67,7 +67,7 @@ template <int dim>
 class LabTest
 {
 public:
-  LabTest(const LaboratoryCase& test, const Specimen<dim>& specimen, const TestParameters& wanted,
+  LabTest(const LaboratoryCase& test, Specimen<dim> specimen, const TestParameters& wanted,
           const DynamicsParameters& dynamics);
 
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by

@@ -169,12 +169,15 @@ void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
       ends.push_back(two);
     }
   archive.array("kept_apart", ends);
-  specimen.kept_apart.resize(ends.size() / 2);
-  for (std::size_t k = 0; k < specimen.kept_apart.size(); ++k)
-    specimen.kept_apart[k] = {ends[2 * k], ends[2 * k + 1]};
+  if constexpr (Archive::reads)
+    {
+      specimen.kept_apart.resize(ends.size() / 2);
+      for (std::size_t k = 0; k < specimen.kept_apart.size(); ++k)
+        specimen.kept_apart[k] = {ends[2 * k], ends[2 * k + 1]};
+    }
 }
 
-/// The layout of the file.
+/// The layout of the file: one description serves writing, which changes nothing, and reading.
 template <int dim, typename Archive>
 void transfer(Archive& root, Specimen<dim>& specimen)
 {
@@ -185,7 +188,8 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   root.value("periodic", periodic);
   std::uint32_t round = specimen.is_round();
   root.value("round", round);
-  specimen.shape = periodic != 0 ? BodyShape::periodic : round != 0 ? BodyShape::cylinder : BodyShape::box;
+  if constexpr (Archive::reads)
+    specimen.shape = periodic != 0 ? BodyShape::periodic : round != 0 ? BodyShape::cylinder : BodyShape::box;
   root.value("thickness_m", specimen.thickness);
   root.value("bulk_density_kg_per_m3", specimen.bulk_density);
   root.value("seed", specimen.seed);
@@ -432,8 +436,7 @@ void write_specimen(const Specimen<dim>& specimen, const std::filesystem::path& 
     root.text("format", format);
     root.value("schema_version", version);
     root.value("dimension", dimension);
-    Specimen<dim> copy = specimen; // one description serves writing and reading, and reading changes
-    transfer(root, copy);
+    transfer(root, const_cast<Specimen<dim>&>(specimen));
     if (more)
       more(root);
   });

@@ -53,7 +53,8 @@ constexpr std::size_t all_rows = 1000000;
 std::vector<FinishedTest> run(const std::vector<LaboratoryOrder>& orders, const TemporaryFolder& folder,
                               RunObserver& observer)
 {
-  return run_tests(orders, std::vector{small_specimen(1, 0.2)}, folder.path(), observer);
+  std::vector specimens{small_specimen(1, 0.2)};
+  return run_tests(orders, specimens, folder.path(), observer);
 }
 
 // The end that an observer wants leaves a test that a later run takes up at the row where it stood, to the same bits.
@@ -97,6 +98,33 @@ TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
   Patience nothing_left(all_rows);
   EXPECT_EQ(run({order}, in_parts, nothing_left).front().record.curve.size(), patient.n_rows + at_rest);
   EXPECT_EQ(nothing_left.n_rows, 0u);
+}
+
+// The last test of a specimen takes its grains: the others have had copies, so that each comes to the bits of a test alone.
+TEST(Runs, TheLastTestOfASpecimenTakesItsGrains)
+{
+  TestParameters parameters = quick_compression();
+  parameters.stop_strain = 5e-4;
+  const DynamicsParameters dynamics;
+  std::vector<LaboratoryOrder> orders(3, {{uniaxial_compression.kind}, &parameters, &dynamics});
+  for (std::size_t k = 0; k < orders.size(); ++k)
+    orders[k].name = "compression_" + std::to_string(k);
+
+  const TemporaryFolder folder, folder_of_one;
+  Patience patient(all_rows), patient_with_one(all_rows);
+  std::vector specimens{small_specimen(1, 0.2)}, one{small_specimen(1, 0.2)};
+  const auto tests = run_tests(orders, specimens, folder.path(), patient);
+  const auto alone = run_tests({orders.front()}, one, folder_of_one.path(), patient_with_one);
+  ASSERT_EQ(tests.size(), orders.size());
+  for (const FinishedTest& test : tests)
+    tests::expect_same_bits({alone.front().record, alone.front().appearance, {}}, {test.record, test.appearance, {}});
+  for (const auto& tested : {specimens.front(), one.front()})
+    {
+      EXPECT_EQ(tested.grains.size(), 0u);
+      EXPECT_EQ(tested.joints.size(), 0u);
+      EXPECT_EQ(tested.seed, 1u);
+      EXPECT_GT(tested.report.coordination_number, 1.0) << "what a run reports of it stays";
+    }
 }
 
 // Tests that had not begun when the end was wanted are not in the results.

@@ -114,19 +114,21 @@ std::vector<std::uint32_t> pad(const Specimen<dim>& disc, const double mean_radi
 }
 
 template <int dim>
-SetUpTest<dim> set_up_brazilian(const Specimen<dim>& specimen, double /*confining_pressure*/,
-                                const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_brazilian(Specimen<dim> specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                                const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const auto& own = wanted.of<BrazilianParameters>();
-  const Specimen<dim> disc = cut_disc<dim>(placed(specimen), disc_size(specimen, wanted));
+  const double mean_radius = specimen.report.mean_radius;
+  const Vector<dim> size = disc_size(specimen, wanted);
+  Specimen<dim> disc = cut_disc<dim>(placed(std::exchange(specimen, {})), size);
   const double diameter = disc.size[0];
   const double length = dim == 2 ? disc.thickness : disc.size[1];
   // A pad of grains at either end is held as by a stiff cushion and moved as one.
-  std::vector<std::uint32_t> lower_pad = pad(disc, specimen.report.mean_radius, -1.0);
-  std::vector<std::uint32_t> upper_pad = pad(disc, specimen.report.mean_radius, 1.0);
+  std::vector<std::uint32_t> lower_pad = pad(disc, mean_radius, -1.0);
+  std::vector<std::uint32_t> upper_pad = pad(disc, mean_radius, 1.0);
 
-  SetUpTest<dim> test{Dynamics<dim>(disc, dynamics, ZeroForce::as_placed), {}};
+  SetUpTest<dim> test{Dynamics<dim>(std::move(disc), dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, -own.strain_rate);
   const Vector<dim> upwards = 0.5 * own.strain_rate * diameter * Vector<dim>::Unit(axis);
   const auto lower = test.dynamics.add_grip(std::move(lower_pad), upwards);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace feldspar
 {
@@ -23,12 +24,12 @@ double shape_factor_of_plate(const double ratio)
 }
 
 template <int dim>
-SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_centre_cracked_plate(Specimen<dim> specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   // Length of the plate is the longer side of the specimen.
-  Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : specimen;
+  Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : std::move(specimen);
   const double width = plate.size[0];
   const double ratio = wanted.of<NotchParameters>().ratio;
   const double a = 0.5 * ratio * width;
@@ -37,7 +38,7 @@ SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double
 
   const double area = plate.volume() / plate.size[axis];
   const double length = free_length(plate, wanted);
-  SetUpTest<dim> test = pull(plate, wanted, dynamics);
+  SetUpTest<dim> test = pull(std::move(plate), wanted, dynamics);
   test.loading.notch = {.intensity_over_stress = shape_factor_of_plate(ratio) * std::sqrt(std::numbers::pi * a),
                         .work_over_stress = area * length,
                         .ligament_area = area * (1.0 - ratio),

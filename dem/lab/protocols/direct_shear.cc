@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace feldspar
 {
@@ -32,8 +33,8 @@ double push(const Dynamics<dim>& dynamics, const WallPair& half)
 }
 
 template <int dim>
-SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double normal_stress,
-                                   const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_direct_shear(Specimen<dim> specimen, const double normal_stress, const TestParameters& wanted,
+                                   const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const auto own = wanted.of<ShearParameters>();
@@ -44,7 +45,7 @@ SetUpTest<dim> set_up_direct_shear(const Specimen<dim>& specimen, const double n
   const double half_gap = specimen.report.mean_radius;
   constexpr double endless = std::numeric_limits<double>::infinity();
 
-  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const WallPair platens = add_platens(test, 0.0);
   const WallPair lower = add_half_box(test, -endless, 0.5 * height - half_gap);
   const WallPair upper = add_half_box(test, 0.5 * height + half_gap, endless);

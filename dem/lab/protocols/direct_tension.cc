@@ -1,15 +1,17 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 
+#include <utility>
+
 namespace feldspar
 {
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up_direct_tension(const Specimen<dim>& specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_direct_tension(Specimen<dim> specimen, double /*confining_pressure*/,
                                      const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
-  return pull(specimen, wanted, dynamics);
+  return pull(std::move(specimen), wanted, dynamics);
 }
 } // namespace
 

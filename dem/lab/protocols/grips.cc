@@ -26,11 +26,12 @@ std::vector<Entry<TestParameters>> tension_entries()
 }
 
 template <int dim>
-SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> pull(Specimen<dim> body, const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   const auto& tension = wanted.of<TensionParameters>();
   constexpr int axis = dim - 1;
   const double height = body.size[axis];
+  const double area = body.volume() / height;
   const double grip_height = tension.grip_ratio * height;
   const double grip_speed = 0.5 * tension.strain_rate * free_length(body, wanted);
 
@@ -54,7 +55,7 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
                          "no bonds lead from one grip to the other, so that nothing is pulled: a flaw without "
                          "strength goes right through the specimen, whose tensile strength is 0; leave the test out");
 
-  SetUpTest<dim> test{Dynamics<dim>(body, dynamics, ZeroForce::as_placed), {}};
+  SetUpTest<dim> test{Dynamics<dim>(std::move(body), dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, tension.strain_rate);
   const Vector<dim> upwards = grip_speed * Vector<dim>::Unit(axis);
   const auto lower = test.dynamics.add_grip(std::move(lower_grains), -upwards);
@@ -62,13 +63,12 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
 
   test.loading.strain_rate = tension.strain_rate;
   test.loading.sampling_strain = tension.sampling_strain;
-  const double area = body.volume() / height;
   test.loading.end_stress = [=](const Dynamics<dim>& state) {
     return EndStress{state.grip_force(lower)[axis] / area, -state.grip_force(upper)[axis] / area};
   };
   return test;
 }
 
-template SetUpTest<2> pull<2>(const Specimen<2>&, const TestParameters&, const DynamicsParameters&);
-template SetUpTest<3> pull<3>(const Specimen<3>&, const TestParameters&, const DynamicsParameters&);
+template SetUpTest<2> pull<2>(Specimen<2>, const TestParameters&, const DynamicsParameters&);
+template SetUpTest<3> pull<3>(Specimen<3>, const TestParameters&, const DynamicsParameters&);
 } // namespace feldspar

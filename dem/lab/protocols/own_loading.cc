@@ -10,14 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace feldspar
 {
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confining_pressure*/,
-                                  const TestParameters& wanted, const DynamicsParameters& dynamics)
+SetUpTest<dim> set_up_own_loading(Specimen<dim> specimen, double /*confining_pressure*/, const TestParameters& wanted,
+                                  const DynamicsParameters& dynamics)
 {
   const auto& stages = wanted.of<LoadingTable>().stages;
   const auto own = wanted.of<CompressionParameters>();
@@ -28,7 +29,8 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   double fastest = 0.0;
   for (const LoadingStage& stage : stages)
     fastest = std::max(fastest, stage.lateral_strain ? own.strain_rate : stage.strain_rate.value_or(own.strain_rate));
-  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const double area = specimen.volume() / specimen.size[dim - 1];
+  SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
   const double about = middle(test.dynamics, ends);
@@ -37,7 +39,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   if (pressure_at_start > 0.0)
     around = surround(test, ends, pressure_at_start, wanted);
   else
-    around.end_area = [area = specimen.volume() / specimen.size[dim - 1]](const Dynamics<dim>&) { return area; };
+    around.end_area = [area](const Dynamics<dim>&) { return area; };
 
   const auto hold_sides = [=](Dynamics<dim>& state, const double pressure) {
     for (const Press<dim>& side : around.sides)
@@ -84,7 +86,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   };
   // The widening responds to the platens after some half of a wave's travel. Mending in it less than a sixth of what is
   // missed leaves the loop stable even where a broken specimen widens by several times what it is shortened.
-  const double closing_per_widening = 0.3 * wave_speed(specimen) / height; // [1/s]
+  const double closing_per_widening = 0.3 * wave_speed(test.dynamics.specimen()) / height; // [1/s]
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);
     if (demand.held_stress)

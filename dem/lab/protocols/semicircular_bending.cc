@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -41,12 +42,12 @@ Vector<dim> half_disc_size(const Specimen<dim>& specimen, const TestParameters& 
 }
 
 template <int dim>
-SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_semicircular_bending(Specimen<dim> specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
   const Vector<dim> size = half_disc_size(specimen, wanted);
-  Specimen<dim> whole = specimen.is_round() ? laid_on_side(specimen) : specimen;
+  Specimen<dim> whole = specimen.is_round() ? laid_on_side(specimen) : std::move(specimen);
   const double radius = size[axis];
   const double breadth = dim == 2 ? whole.thickness : size[1];
   Vector<dim> base = 0.5 * whole.size; // the middle of the flat side

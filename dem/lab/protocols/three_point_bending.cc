@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace feldspar
@@ -34,12 +35,12 @@ Vector<dim> beam_size(const Specimen<dim>& specimen, const TestParameters& /*wan
 }
 
 template <int dim>
-SetUpTest<dim> set_up_three_point_bending(const Specimen<dim>& specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_three_point_bending(Specimen<dim> specimen, double /*confining_pressure*/,
                                           const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  Specimen<dim> beam = specimen.size[0] >= specimen.size[axis] ? specimen : quarter_turned(specimen);
   const Vector<dim> size = beam_size(specimen, wanted);
+  Specimen<dim> beam = specimen.size[0] >= specimen.size[axis] ? std::move(specimen) : quarter_turned(specimen);
   const double depth = size[axis];
   const double base = 0.5 * (beam.size[axis] - depth);
   std::vector<bool> kept(beam.grains.size());

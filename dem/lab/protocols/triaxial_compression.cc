@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace feldspar
 {
@@ -31,11 +32,11 @@ void press_membrane(Dynamics<dim>& dynamics, const WallPair& ends, const double 
 }
 
 template <int dim>
-SetUpTest<dim> set_up_triaxial_compression(const Specimen<dim>& specimen, const double confining_pressure,
+SetUpTest<dim> set_up_triaxial_compression(Specimen<dim> specimen, const double confining_pressure,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   const auto own = wanted.of<CompressionParameters>();
-  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const WallPair ends = add_platens(test, wanted.platen_friction);
   const double height = distance(test.dynamics, ends);
   const double about = middle(test.dynamics, ends);

@@ -3,23 +3,25 @@
 #include "dem/lab/protocols/protocols.h"
 #include "laboratory/compression.h"
 
+#include <utility>
+
 namespace feldspar
 {
 namespace
 {
 template <int dim>
-SetUpTest<dim> set_up_uniaxial_compression(const Specimen<dim>& specimen, double /*confining_pressure*/,
+SetUpTest<dim> set_up_uniaxial_compression(Specimen<dim> specimen, double /*confining_pressure*/,
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   const auto& own = wanted.of<CompressionParameters>();
-  SetUpTest<dim> test{Dynamics<dim>(specimen, dynamics, ZeroForce::as_placed), {}};
+  const double area = specimen.volume() / specimen.size[dim - 1];
+  SetUpTest<dim> test{Dynamics<dim>(std::move(specimen), dynamics, ZeroForce::as_placed), {}};
   const auto platens = add_platens(test, wanted.platen_friction);
   start_steadily(test.dynamics, -own.strain_rate, middle(test.dynamics, platens));
   close(test.dynamics, platens, own.strain_rate * distance(test.dynamics, platens));
 
   test.loading.strain_rate = -own.strain_rate;
   test.loading.sampling_strain = own.sampling_strain;
-  const double area = specimen.volume() / specimen.size[dim - 1];
   test.loading.end_stress = [=](const Dynamics<dim>& state) { return stress_of(state, platens, area); };
   return test;
 }
