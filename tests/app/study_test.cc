@@ -686,6 +686,14 @@ TEST_P(Peers, StandInTheReadmeWithTheCommittedFigures)
     }
 }
 
+TEST(PlainCode, StandsInTheReadmeWithTheCommittedFigures)
+{
+  const std::string table = output_of_python("benchmarks/plain.py", "--table avx2");
+  EXPECT_NE(text_of(root / "benchmarks/README.md").find("<!-- plain avx2 -->\n" + table + "<!-- /plain avx2 -->\n"),
+            std::string::npos)
+    << table;
+}
+
 /// Tables that a script of the hidden rocks prints from its committed results.
 void expect_rows_in_readme(const std::string& script, const std::size_t n_expected)
 {
