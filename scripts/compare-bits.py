@@ -5,9 +5,9 @@
 
 OLD and NEW: a built `feldspar` each, or the folder of results that an earlier comparison kept of one. Each input of
 scripts/bits is run by both (the first word of its name is the command): ten seeds of laboratory tests, of paths of
-representative volumes by both solvers and of samples, and smaller pieces in space. Compared are all numbers and words of
-summary.json, curves/*.csv, cracks.csv and grains/*.csv. Numbers are written so that they can be read back to the last bit,
-so equal text is equal bits.
+representative volumes by both solvers and of samples, smaller pieces in space, and a calibration. Compared are all numbers
+and words of summary.json, calibration.json, curves/*.csv, cracks.csv and grains/*.csv. Numbers are written so that they
+can be read back to the last bit, so equal text is equal bits.
 
 What NEW has beyond OLD, a column, a key or an entry, is named and allowed; anything that is gone or different is a
 difference, but for versions, machines and times (MAY_DIFFER). Renamed keys and columns (RENAMED) are compared as one, and
@@ -205,7 +205,7 @@ def main():
         part = Comparison(whole.expected)
         folders = [os.path.join(results, name) for results in (old_results, new_results)]
         files = []
-        for pattern in ("summary.json", "exit-code.json", "cracks.csv", "curves/*.csv", "grains/*.csv"):
+        for pattern in ("summary.json", "calibration.json", "exit-code.json", "cracks.csv", "curves/*.csv", "grains/*.csv"):
             files += sorted(os.path.relpath(file, folders[0]) for file in glob.glob(os.path.join(folders[0], pattern)))
         if "summary.json" not in files:
             sys.exit(f"{folders[0]}: no results")
