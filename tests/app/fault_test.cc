@@ -305,7 +305,7 @@ TEST(Load, StepsMemoryAndTimeOfTestsAreSaidBeforehand)
   const auto outcome = run_feldspar(folder.path(), "lab rock.prm --output out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   static const std::regex words(
-    R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s with pictures)");
+    R"(1 test of some (\d+) steps: about (\d+) MB with specimens and program, (\d+) s\s+with\s+pictures)");
   std::smatch said;
   ASSERT_TRUE(std::regex_search(outcome.error, said, words)) << outcome.error;
   const auto summary = nlohmann::json::parse(content(folder.path() / "out/summary.json"));
