@@ -88,17 +88,18 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
   return findings;
 }
 
-/// The first picture of the sections: it stands beside the verdict, on the first screen, instead of in its own place.
-std::vector<PagePicture> lead_of(std::vector<PageSection>& sections)
+/// The first picture of the sections, or the first specimen, taken out of its place.
+std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, const bool specimen)
 {
   for (PageSection& section : sections)
     for (PageBlock& block : section.blocks)
-      if (block.folded.empty() && !block.pictures.empty())
-        {
-          std::vector<PagePicture> lead{std::move(block.pictures.front())};
-          block.pictures.erase(block.pictures.begin());
-          return lead;
-        }
+      for (auto shown = block.pictures.begin(); block.folded.empty() && shown != block.pictures.end(); ++shown)
+        if (!specimen || !shown->picture.story.empty())
+          {
+            std::vector<PagePicture> taken{std::move(*shown)};
+            block.pictures.erase(shown);
+            return taken;
+          }
   return {};
 }
 
@@ -135,7 +136,8 @@ Page page_of(const Findings& findings, PictureBook& book)
   else
     {
       std::vector<PagePicture>& lead = page.sections.front().blocks.front().lead;
-      lead = lead_of(page.sections);
+      lead = taken_out(page.sections, true);
+      append(lead, taken_out(page.sections, false));
       append(lead, book.keep(overview));
     }
   // After the lead was chosen: how the parameters were found does not tell whether the model is the rock.

@@ -2,10 +2,9 @@
 
 #include "base/readable_file.h"
 #include "base/whole_file.h"
+#include "report/chart/page_writer.h"
 #include "results/folder/result_folder.h"
 
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
@@ -17,24 +16,16 @@ namespace feldspar
 {
 extern const std::string_view page_template;   // report/page/page.html
 extern const std::string_view figure_template; // report/page/figure.html
-extern const std::string_view page_script;     // third_party/*/*.js and report/page/page.js
+extern const std::string_view page_script;     // third_party/*/*.js, report/page/viewer.js and page.js
 extern const std::string_view script_sha_256;  // of it, hexadecimal
 
 namespace
 {
 using kainjow::mustache::data;
+using live::base64;
 
 constexpr std::size_t most_bytes = 9'900'000; // of a page of 10 MB; sentences in place of pictures need a little
 constexpr int wide_picture = 900;             // from here on a picture takes the width of the page [px]
-
-std::string base64(const std::string& bytes)
-{
-  using namespace boost::archive::iterators;
-  using Encoder = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text(Encoder(bytes.begin()), Encoder(bytes.end()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
-}
 
 /// As a policy names the one script that may run: no other does, whatever text comes into the page.
 std::string hash_of_script()

@@ -30,7 +30,7 @@ struct PageBlock
   std::vector<Table> tables_as_files; ///< beside the page alone
   std::vector<PagePicture> pictures;
   std::vector<PagePicture>
-    lead; ///< the first beside the words above, where the screen is wide enough; others below them
+    lead; ///< the first left of the words above, where the screen is wide enough; others below them
 };
 
 struct PageSection
@@ -49,7 +49,7 @@ struct Page
 };
 
 /// Writes the page as one file that needs no other and no network. Pictures stand in it as data, as far as the text leaves
-/// room for them in 10 MB; the others are named instead. A script shows curves and cracks so that they answer to the
-/// pointer. `figures` is where they were drawn, beside the page.
+/// room for them in 10 MB; the others are named instead. A script shows curves and specimens so that they answer to
+/// the pointer. `figures` is where they were drawn, beside the page.
 void write_page(const Page& page, const std::filesystem::path& file, const std::filesystem::path& figures);
 } // namespace feldspar

@@ -69,7 +69,7 @@ const std::vector<Room> rooms = {
    {"report/pictures/figures.h", "report/pictures/picture.h", "report/pictures/plot_style.h"}},
   {"report/pictures",
    {"base", "results", "results/runs", "results/fits", "results/folder", "report/chart", "report/pictures/maps"}},
-  {"report/page", {"base", "results", "results/runs", "results/folder", "report/pictures"}},
+  {"report/page", {"base", "results", "results/runs", "results/folder", "report/chart", "report/pictures"}},
   {"report/sections",
    {"base", "results", "results/runs", "results/fits", "results/folder", "report/pictures", "report/pictures/curves",
     "report/pictures/maps", "report/page"}},

@@ -1,9 +1,9 @@
 #include "base/append.h"
 #include "base/prefixes.h"
 #include "report/pictures/figures.h"
-#include "report/pictures/maps/crack_story.h"
 #include "report/pictures/maps/group_colour.h"
 #include "report/pictures/maps/map.h"
+#include "report/pictures/maps/specimen_data.h"
 
 #include <fmt/format.h>
 
@@ -129,8 +129,7 @@ Pictures crack_map(const FinishedTest& test, const std::string& title)
            .vector = false,
            .panels = std::move(panels),
            .columns = columns,
-           .story = crack_story(test),
-           .live_caption =
-             fmt::format("{}, {}: segments broken up to the place of the slider{}", title, seed_of(test), view)}};
+           .story = specimen_data(test),
+           .live_caption = fmt::format("{}, {}: segments broken up to the place of the slider", title, seed_of(test))}};
 }
 } // namespace feldspar

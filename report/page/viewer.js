@@ -1,0 +1,600 @@
+// Shows the grains and cracks of one test by WebGL 2: in the plane as discs and lines, in space as spheres and discs. The
+// grains lie where the loading began, so that a crack stands where it broke. Picking draws numbers in the place of colours.
+"use strict";
+const specimenView = (figure, data, {element, theme, dark, digits}) => {
+  const begun = performance.now();
+  const inSpace = data.space;
+
+  const vertexHead = `#version 300 es
+    precision highp float;
+    precision highp int;
+    layout(location = 0) in vec4 place; // x, y, z and radius or size, as shares
+    layout(location = 1) in vec3 colour;
+    layout(location = 2) in vec3 along; // normal of a crack, direction of a flaw
+    uniform mat3 turn;
+    uniform vec3 middle;
+    uniform vec2 zoom, pan, pixel;
+    uniform vec4 cut;
+    uniform float extent, depth;
+    uniform int form; // 0: disc in space; 1: trace of a crack in the plane; 2: line
+    uniform uint first, chosen;
+    uniform bool picking;
+    out vec2 corner;
+    out float nearness;
+    flat out vec3 tone, facing;
+    flat out float thick;
+    vec3 numbered() {
+      uint id = first + uint(gl_InstanceID) + 1u;
+      if (picking)
+        return vec3(id & 255u, (id >> 8) & 255u, id >> 16) / 255.0;
+      return id == chosen ? vec3(1.0, 0.88, 0.0) : colour;
+    }
+    void main() {
+      corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+      tone = numbered();
+      vec3 at = place.xyz - middle;
+      vec3 seen = turn * at;
+      vec2 aside = vec2(0.0);
+      float size = place.w * extent;
+      thick = size * depth;
+      facing = vec3(0.0);
+      bool hidden = dot(cut.xyz, at) > cut.w;`;
+  const vertexEnd = `
+      nearness = -seen.z * depth;
+      gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(seen.xy * zoom + pan + aside * pixel, nearness, 1.0);
+    }`;
+  const grainVertex = vertexHead + "seen.xy += corner * size;" + vertexEnd;
+  const crackVertex = vertexHead + `
+      if (form == 0) {
+        vec3 one = normalize(cross(along, abs(along.x) < 0.8 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+        seen += turn * (corner.x * one + corner.y * normalize(cross(along, one))) * size * 0.564; // √(1/π)
+        facing = turn * normalize(along);
+      } else {
+        vec2 line = (turn * (form == 1 ? vec3(-along.y, along.x, 0.0) : along)).xy;
+        line = length(line) > 0.0 ? line / length(line) : vec2(1.0, 0.0);
+        float half_width = max(form == 1 ? 0.8 : 1.2, 0.06 * size * zoom.x / pixel.x);
+        seen.xy += line * corner.x * size * 0.5;
+        aside = vec2(-line.y, line.x) * corner.y * half_width;
+      }` + vertexEnd;
+  const fragmentHead = `#version 300 es
+    precision highp float;
+    precision highp int;
+    in vec2 corner;
+    in float nearness;
+    flat in vec3 tone, facing;
+    flat in float thick;
+    uniform int form;
+    uniform bool picking, space;
+    out vec4 shown;
+    void main() {
+      float away = length(corner);
+      float light = 1.0, cover = 1.0;
+      gl_FragDepth = 0.5 + 0.5 * nearness;`;
+  const fragmentEnd = `
+      shown = picking ? vec4(tone, 1.0) : vec4(tone * light * cover, cover);
+    }`;
+  const grainFragment = fragmentHead + `
+      if (away > 1.0)
+        discard;
+      if (space) {
+        float height = sqrt(1.0 - away * away);
+        light = 0.42 + 0.62 * max(0.0, dot(vec3(corner, height), vec3(-0.37, 0.47, 0.8)));
+        gl_FragDepth = 0.5 + 0.5 * (nearness - height * thick);
+      } else
+        cover = min(1.0, (1.0 - away) / fwidth(away));` + fragmentEnd;
+  const crackFragment = fragmentHead + `
+      if (form == 0 && away > 1.0)
+        discard;
+      if (form == 0)
+        light = 0.6 + 0.4 * abs(facing.z);` + fragmentEnd;
+
+  const box = element("div", figure.stage, {className: "specimen"});
+  const canvas = element("canvas", box, {tabIndex: 0});
+  const gl = canvas.getContext("webgl2", {antialias: true});
+  if (!gl)
+    throw new Error("no WebGL 2");
+  canvas.setAttribute("role", "application");
+  canvas.setAttribute(
+    "aria-label",
+    figure.alternative + " Arrow keys turn or move, plus and minus enlarge, 0 shows all, Enter reads what is in the middle.");
+
+  const program = (vertex, fragment) => {
+    const made = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(made, shader);
+    }
+    gl.linkProgram(made);
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(gl.getProgramInfoLog(made) + gl.getShaderInfoLog(gl.getAttachedShaders(made)[0]));
+    const at = {};
+    for (const name of ["turn", "middle", "zoom", "pan", "pixel", "cut", "extent", "depth", "form", "first", "chosen", "picking", "space"])
+      at[name] = gl.getUniformLocation(made, name);
+    return {made, at};
+  };
+  const ofGrains = program(grainVertex, grainFragment);
+  const ofCracks = program(crackVertex, crackFragment);
+
+  const decoded = (text, Kind) => {
+    const bytes = atob(text);
+    const buffer = new Uint8Array(bytes.length);
+    for (let k = 0; k < bytes.length; ++k)
+      buffer[k] = bytes.charCodeAt(k);
+    return new Kind(buffer.buffer);
+  };
+  const shares = 65535;
+  const grains = {place: decoded(data.grains.place, Uint16Array), moved: decoded(data.grains.moved, Int16Array),
+                  fragment: decoded(data.grains.fragment, Uint16Array), tone: decoded(data.grains.tone, Uint8Array)};
+  const cracks = {place: decoded(data.cracks.place, Uint16Array), normal: decoded(data.cracks.normal, Int8Array),
+                  row: decoded(data.cracks.row, Uint16Array), joint: decoded(data.cracks.joint, Uint32Array)};
+  const nGrains = grains.fragment.length;
+  const nCracks = cracks.row.length;
+  const coordinate = (place, k, axis) => data.low[axis] + (data.span * place[4 * k + axis]) / shares; // [mm]
+
+  // Flaws as lines of the same form as cracks.
+  const pieces = data.flaws.flatMap(flaw => flaw.outline.slice(1).map((to, k) => [flaw.outline[k], to]));
+  const flaws = {place: new Float32Array(4 * pieces.length), along: new Float32Array(3 * pieces.length)};
+  pieces.forEach(([from, to], k) => {
+    for (const c of [0, 1, 2]) {
+      flaws.place[4 * k + c] = ((from[c] + to[c]) / 2 - data.low[c]) / data.span;
+      flaws.along[3 * k + c] = to[c] - from[c];
+    }
+    flaws.place[4 * k + 3] = Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) / data.span;
+  });
+
+  const feed = (location, values, n, type, normalised, stride = 0) => {
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, n, type, normalised, stride, 0);
+    gl.vertexAttribDivisor(location, 1);
+    return buffer;
+  };
+  const shapes = (place, type, along, colours) => {
+    const array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    feed(0, place, 4, type, true);
+    const colour = feed(1, colours, 3, gl.UNSIGNED_BYTE, true);
+    if (along)
+      feed(2, along, 3, along instanceof Int8Array ? gl.BYTE : gl.FLOAT, true, along instanceof Int8Array ? 4 : 0);
+    return {array, colour, colours};
+  };
+  const drawnGrains = shapes(grains.place, gl.UNSIGNED_SHORT, null, new Uint8Array(3 * nGrains));
+  const drawnCracks = shapes(cracks.place, gl.UNSIGNED_SHORT, cracks.normal, new Uint8Array(3 * nCracks));
+  const drawnFlaws = shapes(flaws.place, gl.FLOAT, flaws.along, new Uint8Array(3 * pieces.length));
+
+  // Colours.
+  const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
+  const ramp = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+  const onRamp = share => {
+    const place = Math.min(0.9999, Math.max(0, share)) * (ramp.length - 1);
+    const k = Math.floor(place);
+    return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
+  };
+  const pieceTones = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb);
+  const movedBy = k => (Math.hypot(...grains.moved.subarray(3 * k, 3 * k + 3)) * data.grains.most_moved) / 32767; // [mm]
+  // Single grains that flew off would leave one colour for all others.
+  const mostMoved = Float32Array.from({length: nGrains}, (none, k) => movedBy(k)).sort()[Math.floor(0.98 * (nGrains - 1))] || 1;
+  const sizes = new Map();
+  for (const piece of grains.fragment)
+    sizes.set(piece, (sizes.get(piece) || 0) + 1);
+  const plain = () => (dark.matches ? [92, 99, 108] : [206, 209, 213]);
+  const kindTones = () => [[213, 94, 0], dark.matches ? [74, 168, 224] : [0, 114, 178]];
+  const grainColours = {
+    plain: () => plain(),
+    "mineral grain": k => [...grains.tone.subarray(3 * k, 3 * k + 3)].map(value => (dark.matches ? 0.55 : 1) * value),
+    fragment: k => {
+      const piece = grains.fragment[k];
+      return piece === 0 ? plain() : sizes.get(piece) === 1 ? [240, 226, 150] : pieceTones[piece % pieceTones.length];
+    },
+    displacement: k => onRamp(movedBy(k) / mostMoved),
+  };
+  const crackColours = {
+    kind: k => kindTones()[cracks.normal[4 * k + 3]],
+    strain: k => onRamp(cracks.row[k] / (data.rows.length - 1)),
+  };
+  const colourAll = (shape, n, colourOf) => {
+    for (let k = 0; k < n; ++k)
+      shape.colours.set(colourOf(k), 3 * k);
+    gl.bindBuffer(gl.ARRAY_BUFFER, shape.colour);
+    gl.bufferData(gl.ARRAY_BUFFER, shape.colours, gl.STATIC_DRAW);
+  };
+
+  // What the reader set, kept while the figure is drawn anew.
+  let highest = 0;
+  data.rows.forEach((row, k) => {
+    if (row[1] > data.rows[highest][1])
+      highest = k;
+  });
+  const set = (figure.kept ||= {
+    row: data.rows.length - 1,
+    azimuth: inSpace ? -0.45 : 0,
+    elevation: inSpace ? 0.3 : Math.PI / 2,
+    zoom: 1,
+    pan: [0, 0],
+    cut: inSpace ? "y" : "whole",
+    grains: grains.tone.length ? "mineral grain" : "plain",
+    cracks: "kind",
+    chosen: 0,
+  });
+
+  // Limits, in shares of the box.
+  const high = [0, 0, 0];
+  for (let k = 0; k < nGrains; ++k)
+    for (const c of [0, 1, 2])
+      high[c] = Math.max(high[c], grains.place[4 * k + c] / shares);
+  const rim = data.radius / data.span;
+  const middle = high.map(value => value / 2);
+  const reach = Math.hypot(...middle) + rim;
+  const turned = () => {
+    const [ca, sa, ce, se] = [Math.cos(set.azimuth), Math.sin(set.azimuth), Math.cos(set.elevation), Math.sin(set.elevation)];
+    return [[ca, sa, 0], [-sa * se, ca * se, ce], [sa * ce, -ca * ce, se]]; // to the right, upwards, to the reader
+  };
+  const unit = () => { // CSS pixels of the whole box at the present size
+    const axes = turned();
+    const half = axes.slice(0, 2).map(axis => axis.reduce((sum, value, c) => sum + Math.abs(value) * middle[c], rim));
+    return set.zoom * Math.min((canvas.clientWidth - 16) / 2 / half[0], (canvas.clientHeight - 16) / 2 / half[1]);
+  };
+  const nBroken = () => {
+    let n = nCracks;
+    while (n > 0 && cracks.row[n - 1] > set.row)
+      --n;
+    return n;
+  };
+
+  const paint = picking => {
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const size = unit();
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    (inSpace ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
+    (inSpace || picking ? gl.disable : gl.enable).call(gl, gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    const axes = turned();
+    const axis = "xyz".indexOf(set.cut);
+    const outwards = axis < 0 ? 0 : axes[2][axis] > 0 ? 1 : -1; // the half towards the reader is taken away
+    const show = (one, shape, n, first, form, extent, margin) => {
+      gl.useProgram(one.made);
+      gl.uniformMatrix3fv(one.at.turn, true, axes.flat());
+      gl.uniform3fv(one.at.middle, middle);
+      gl.uniform2f(one.at.zoom, (2 * size) / width, (2 * size) / height);
+      gl.uniform2f(one.at.pan, (2 * set.pan[0]) / width, (2 * set.pan[1]) / height);
+      gl.uniform2f(one.at.pixel, 2 / width, 2 / height);
+      gl.uniform4fv(one.at.cut, [...[0, 1, 2].map(c => (c === axis ? outwards : 0)), outwards ? margin : 1]);
+      gl.uniform1f(one.at.extent, extent);
+      gl.uniform1f(one.at.depth, 0.99 / reach);
+      gl.uniform1i(one.at.form, form);
+      gl.uniform1ui(one.at.first, first);
+      gl.uniform1ui(one.at.chosen, set.chosen);
+      gl.uniform1i(one.at.picking, picking);
+      gl.uniform1i(one.at.space, inSpace);
+      gl.bindVertexArray(shape.array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, n);
+    };
+    if (set.grains !== "hidden")
+      show(ofGrains, drawnGrains, nGrains, 0, 0, rim, 0);
+    if (!picking)
+      show(ofCracks, drawnFlaws, pieces.length, shares * shares, 2, 1, 0);
+    // Those at the cut stand out of it.
+    if (set.cracks !== "hidden")
+      show(ofCracks, drawnCracks, nBroken(), nGrains, inSpace ? 0 : 1, data.size / data.span, 1.5 * rim);
+  };
+
+  // The picture of numbers, of the whole canvas: 0 where there is nothing.
+  const numbers = (x, y, width, height) => {
+    const target = gl.createFramebuffer();
+    const layers = [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]].map(([where, format]) => {
+      const layer = gl.createRenderbuffer();
+      gl.bindRenderbuffer(gl.RENDERBUFFER, layer);
+      gl.renderbufferStorage(gl.RENDERBUFFER, format, canvas.width, canvas.height);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, where, gl.RENDERBUFFER, layer);
+      return layer;
+    });
+    paint(true);
+    const bytes = new Uint8Array(4 * width * height);
+    gl.readPixels(x, y, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    layers.forEach(layer => gl.deleteRenderbuffer(layer));
+    gl.deleteFramebuffer(target);
+    return Array.from({length: width * height}, (none, k) => bytes[4 * k] + 256 * bytes[4 * k + 1] + 65536 * bytes[4 * k + 2]);
+  };
+
+  // What stands around the canvas.
+  const scale = element("div", box, {className: "scale"});
+  const arrows = element("canvas", box, {className: "arrows"});
+  const key = element("div", box, {className: "key"});
+  const curve = element("canvas", box, {className: "course"});
+  const controls = element("div", box, {className: "controls"});
+  const player = element("button", controls, {type: "button", textContent: "▶ play"});
+  const slider = element("input", controls, {type: "range", min: 0, max: data.rows.length - 1, step: 1});
+  slider.value = set.row;
+  slider.setAttribute("aria-label", "How far the test has gone");
+  const output = element("output", box);
+  const reading = element("p", box, {className: "reading"});
+  reading.setAttribute("aria-live", "polite");
+
+  const describeAxes = () => {
+    const size = unit() / data.span; // [px/mm]
+    const length = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find(one => one * size <= 110) || 0.05;
+    scale.style.width = `${length * size}px`;
+    scale.textContent = `${length} mm`;
+    const pen = arrows.getContext("2d");
+    const pixels = devicePixelRatio || 1;
+    arrows.width = arrows.height = 64 * pixels;
+    pen.scale(pixels, pixels);
+    pen.strokeStyle = pen.fillStyle = theme("--text");
+    pen.font = "12px system-ui, sans-serif";
+    pen.textAlign = "center";
+    const axes = turned();
+    for (const c of inSpace ? [0, 1, 2] : [0, 1]) {
+      const [x, y] = [axes[0][c], -axes[1][c]];
+      if (Math.hypot(x, y) < 0.1)
+        continue;
+      pen.beginPath();
+      pen.moveTo(32, 32);
+      pen.lineTo(32 + 18 * x, 32 + 18 * y);
+      pen.stroke();
+      pen.fillText("xyz"[c], 32 + 26 * x, 36 + 26 * y);
+    }
+  };
+  const describeCurve = () => {
+    const pen = curve.getContext("2d");
+    const pixels = devicePixelRatio || 1;
+    const [width, height, edge] = [curve.clientWidth, curve.clientHeight, 6];
+    curve.width = width * pixels;
+    curve.height = height * pixels;
+    pen.scale(pixels, pixels);
+    const last = data.rows.length - 1;
+    // Over the rows, as the slider is.
+    const lowest = Math.min(0, ...data.rows.map(row => row[1]));
+    const at = k => [8 + ((width - 16) * k) / last, height - edge - ((height - 2 * edge) * (data.rows[k][1] - lowest)) / (data.rows[highest][1] - lowest || 1)];
+    pen.strokeStyle = theme("--text");
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    data.rows.forEach((row, k) => pen.lineTo(...at(k)));
+    pen.stroke();
+    pen.fillStyle = theme("--bad");
+    pen.beginPath();
+    pen.arc(...at(set.row), 4.5, 0, 2 * Math.PI);
+    pen.fill();
+  };
+  const css = colour => `rgb(${colour.map(Math.round).join(" ")})`;
+  const describeKey = () => {
+    key.textContent = "";
+    const chip = (background, text) => {
+      const entry = element("span", key, {className: "entry"});
+      element("span", entry, {className: "chip"}).style.background = background;
+      entry.append(text);
+    };
+    const bar = (from, to) => {
+      const entry = element("span", key, {className: "entry"});
+      entry.append(from + " ");
+      element("span", entry, {className: "ramp"}).style.background = `linear-gradient(to right, ${ramp.map(css).join(", ")})`;
+      entry.append(" " + to);
+    };
+    if (set.cracks === "kind") {
+      chip(css(kindTones()[0]), "tension crack");
+      chip(css(kindTones()[1]), "shear crack");
+    } else if (set.cracks === "strain")
+      bar(`cracks: ${digits(data.rows[0][0])}`, `${digits(data.rows.at(-1)[0])} ${data.strain}`);
+    if (set.grains === "displacement")
+      bar("grains: 0", `${digits(mostMoved)} mm, at the end`);
+    else if (set.grains === "fragment") {
+      chip(css(plain()), "largest piece");
+      chip(css([240, 226, 150]), "single grains");
+      chip(css(pieceTones[1]), "other fragments, at the end");
+    }
+  };
+  const draw = () => {
+    const pixels = devicePixelRatio || 1;
+    const [width, height] = [Math.round(canvas.clientWidth * pixels), Math.round(canvas.clientHeight * pixels)];
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, {width, height});
+    paint(false);
+    describeAxes();
+    describeCurve();
+    const row = data.rows[set.row];
+    output.textContent =
+      `${data.strain}: ${digits(row[0])}; ${data.stress}: ${digits(row[1])}; broken segments: ${row[2]} in tension, ${row[3]} in shear`;
+  };
+  const colour = () => {
+    if (set.grains !== "hidden")
+      colourAll(drawnGrains, nGrains, grainColours[set.grains]);
+    if (set.cracks !== "hidden")
+      colourAll(drawnCracks, nCracks, crackColours[set.cracks]);
+    describeKey();
+  };
+
+  const millimetres = (place, k) => `(${(inSpace ? [0, 1, 2] : [0, 1]).map(axis => digits(coordinate(place, k, axis))).join(", ")}) mm`;
+  const read = id => {
+    set.chosen = id;
+    const k = id > nGrains ? id - nGrains - 1 : id - 1;
+    if (id === 0)
+      reading.textContent = "";
+    else if (id <= nGrains)
+      reading.textContent =
+        `Grain ${k * data.grains.every + 1} at ${millimetres(grains.place, k)}: radius ${digits((grains.place[4 * k + 3] / shares) * data.radius)} mm, ` +
+        `displacement at the end ${digits(movedBy(k))} mm, ` +
+        (grains.fragment[k] ? `fragment ${grains.fragment[k]} of ${sizes.get(grains.fragment[k])} grains.` : "in the largest piece.");
+    else
+      reading.textContent =
+        `Crack ${k * data.cracks.every + 1}, ${cracks.normal[4 * k + 3] ? "shear" : "tension"}, of joint ${cracks.joint[k]} at ${millimetres(cracks.place, k)}: ` +
+        `size ${digits((cracks.place[4 * k + 3] / shares) * data.size)} mm, ${data.strain} ${digits(data.rows[cracks.row[k]][0])}.`;
+    draw();
+  };
+  const pick = (x, y) => {
+    // The nearest to the pointer: a trace is some two pixels wide.
+    const pixels = devicePixelRatio || 1, around = Math.round(3 * pixels), side = 2 * around + 1;
+    const seen = numbers(Math.round(x * pixels) - around, Math.round(canvas.height - y * pixels) - around, side, side);
+    const distance = k => Math.hypot((k % side) - around, Math.floor(k / side) - around);
+    let best = seen[around * side + around];
+    let least = Infinity;
+    seen.forEach((id, k) => {
+      if (id > nGrains && distance(k) < least)
+        [best, least] = [id, distance(k)];
+    });
+    read(best);
+  };
+
+  // How it is moved.
+  const move = (right, up) => {
+    set.pan[0] += right;
+    set.pan[1] += up;
+  };
+  const rotate = (right, up) => {
+    set.azimuth -= right;
+    set.elevation = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, set.elevation + up));
+  };
+  const enlarge = factor => {
+    const before = set.zoom;
+    set.zoom = Math.min(200, Math.max(0.5, set.zoom * factor));
+    set.pan = set.pan.map(value => (value * set.zoom) / before);
+    draw();
+  };
+  const view = (azimuth, elevation) => {
+    Object.assign(set, {azimuth, elevation, zoom: 1, pan: [0, 0]});
+    draw();
+  };
+  const whole = () => view(inSpace ? -0.45 : 0, inSpace ? 0.3 : Math.PI / 2);
+  let held = null;
+  canvas.addEventListener("pointerdown", event => {
+    held = {x: event.clientX, y: event.clientY, far: 0};
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (!held)
+      return;
+    const [right, down] = [event.clientX - held.x, event.clientY - held.y];
+    held = {x: event.clientX, y: event.clientY, far: held.far + Math.hypot(right, down)};
+    if (inSpace && !event.shiftKey)
+      rotate(right / 150, down / 150);
+    else
+      move(right, -down);
+    requestAnimationFrame(draw);
+  });
+  canvas.addEventListener("pointerup", event => {
+    if (held && held.far < 4) {
+      const frame = canvas.getBoundingClientRect();
+      pick(event.clientX - frame.left, event.clientY - frame.top);
+    }
+    held = null;
+  });
+  canvas.addEventListener("pointercancel", () => (held = null));
+  canvas.addEventListener("wheel", event => {
+    if (!event.ctrlKey)
+      return; // the page scrolls
+    event.preventDefault();
+    enlarge(Math.exp(-event.deltaY / 300));
+  }, {passive: false});
+  canvas.addEventListener("keydown", event => {
+    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    if (step && inSpace && !event.shiftKey)
+      rotate(step[0] * 0.1, -step[1] * 0.1);
+    else if (step)
+      move(-24 * step[0], -24 * step[1]);
+    else if (event.key === "+" || event.key === "=")
+      enlarge(1.25);
+    else if (event.key === "-")
+      enlarge(0.8);
+    else if (event.key === "0")
+      whole();
+    else if (event.key === "Enter")
+      pick(canvas.clientWidth / 2, canvas.clientHeight / 2);
+    else
+      return;
+    event.preventDefault();
+    draw();
+  });
+
+  let playing = 0;
+  const go = row => {
+    set.row = row;
+    slider.value = row;
+    draw();
+  };
+  const stop = () => {
+    cancelAnimationFrame(playing);
+    playing = 0;
+    player.textContent = "▶ play";
+  };
+  player.onclick = () => {
+    if (playing)
+      return stop();
+    const last = data.rows.length - 1, seconds = 8;
+    const from = set.row === last ? 0 : set.row;
+    let start;
+    const next = now => {
+      const row = Math.min(last, from + Math.floor(((now - (start ??= now)) * last) / seconds / 1000));
+      playing = row < last ? requestAnimationFrame(next) : 0;
+      go(row);
+      if (!playing)
+        stop();
+    };
+    player.textContent = "❚❚ pause";
+    playing = requestAnimationFrame(next);
+  };
+  slider.addEventListener("input", () => {
+    stop();
+    go(Number(slider.value));
+  });
+  curve.addEventListener("click", event => {
+    stop();
+    const share = (event.clientX - curve.getBoundingClientRect().left - 8) / (curve.clientWidth - 16);
+    go(Math.round(Math.min(1, Math.max(0, share)) * (data.rows.length - 1)));
+  });
+
+  const choice = (name, all) => {
+    const label = element("label", figure.bar, {textContent: name + " "});
+    const select = element("select", label);
+    for (const [value, text] of all)
+      element("option", select, {value, textContent: text});
+    select.value = set[name];
+    select.onchange = () => {
+      set[name] = select.value;
+      colour();
+      draw();
+    };
+  };
+  if (inSpace) {
+    figure.buttons([["XZ", () => view(0, 0)], ["YZ", () => view(Math.PI / 2, 0)], ["XY", () => view(0, Math.PI / 2)]]);
+    choice("cut", [["whole", "none"], ["x", "in half, across x"], ["y", "in half, across y"], ["z", "in half, across z"]]);
+  }
+  choice("grains", [...(grains.tone.length ? [["mineral grain", "by mineral grain"]] : []), ["plain", "one colour"],
+                    ["fragment", "by fragment"], ["displacement", "by displacement"], ["hidden", "hidden"]]);
+  choice("cracks", [["kind", "by kind"], ["strain", "by strain"], ["hidden", "hidden"]]);
+  figure.buttons([["+", () => enlarge(1.25)], ["−", () => enlarge(0.8)], ["whole", whole]]);
+  figure.hint("specimen", (inSpace ? "Drag to turn, with Shift to move" : "Drag to move") +
+    "; Ctrl and the wheel enlarge; click a grain or a crack for its numbers. Grains lie where they were when the loading began, cracks where they broke." +
+    (data.grains.every > 1 ? ` One of ${data.grains.every} grains is shown.` : "") + (data.cracks.every > 1 ? ` One of ${data.cracks.every} cracks is shown.` : ""));
+
+  drawnFlaws.colours.fill(dark.matches ? 230 : 27);
+  colourAll(drawnFlaws, 0, null);
+  colour();
+  // As wide as there is room for, as high as the specimen asks for.
+  canvas.style.aspectRatio = `${Math.max(0.6, Math.min(2, (high[0] + 2 * rim) / (high[inSpace ? 2 : 1] + 2 * rim)))}`;
+  const watch = new ResizeObserver(draw);
+  watch.observe(canvas);
+  draw();
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the frame
+  canvas.dataset.firstFrame = Math.round(performance.now() - begun); // [ms]
+  const lose = () => figure.printed();
+  canvas.addEventListener("webglcontextlost", lose);
+  // For tests: how many grains and cracks have a pixel.
+  canvas.countSeen = () => {
+    const seen = new Set(numbers(0, 0, canvas.width, canvas.height));
+    seen.delete(0);
+    const nSeen = [...seen].filter(id => id <= nGrains).length;
+    return [nSeen, seen.size - nSeen];
+  };
+  return () => {
+    stop();
+    watch.disconnect();
+    canvas.removeEventListener("webglcontextlost", lose);
+    gl.getExtension("WEBGL_lose_context")?.loseContext();
+  };
+};
