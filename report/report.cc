@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -88,19 +89,26 @@ Findings findings_of(const std::vector<Series>& all, const std::vector<Series>& 
   return findings;
 }
 
-/// The first picture of the sections, or the first specimen, taken out of its place.
+/// A picture of the sections, taken out of its place: the specimen with most to show, or the first.
 std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, const bool specimen)
 {
+  std::vector<PagePicture>* where = nullptr;
+  std::size_t which = 0;
   for (PageSection& section : sections)
     for (PageBlock& block : section.blocks)
-      for (auto shown = block.pictures.begin(); block.folded.empty() && shown != block.pictures.end(); ++shown)
-        if (!specimen || !shown->picture.story.empty())
+      for (std::size_t k = 0; block.folded.empty() && k < block.pictures.size(); ++k)
+        if (where == nullptr
+              ? !specimen || !block.pictures[k].picture.story.empty()
+              : specimen && block.pictures[k].picture.story.size() > (*where)[which].picture.story.size())
           {
-            std::vector<PagePicture> taken{std::move(*shown)};
-            block.pictures.erase(shown);
-            return taken;
+            where = &block.pictures;
+            which = k;
           }
-  return {};
+  if (where == nullptr)
+    return {};
+  std::vector<PagePicture> taken{std::move((*where)[which])};
+  where->erase(where->begin() + std::ptrdiff_t(which));
+  return taken;
 }
 
 /// By what a reference calls its rock.

@@ -52,7 +52,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       } else {
         vec2 line = (turn * (form == 1 ? vec3(-along.y, along.x, 0.0) : along)).xy;
         line = length(line) > 0.0 ? line / length(line) : vec2(1.0, 0.0);
-        float half_width = max(form == 1 ? 0.8 : 1.2, 0.06 * size * zoom.x / pixel.x);
+        float half_width = max(form == 1 ? 1.1 : 1.4, 0.06 * size * zoom.x / pixel.x);
         seen.xy += line * corner.x * size * 0.5;
         aside = vec2(-line.y, line.x) * corner.y * half_width;
       }` + vertexEnd;
@@ -464,7 +464,8 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   let held = null;
   canvas.addEventListener("pointerdown", event => {
     held = {x: event.clientX, y: event.clientY, far: 0};
-    canvas.setPointerCapture(event.pointerId);
+    if (event.isTrusted)
+      canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", event => {
     if (!held)
@@ -580,7 +581,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const watch = new ResizeObserver(draw);
   watch.observe(canvas);
   draw();
-  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the frame
+  gl.finish();
   canvas.dataset.firstFrame = Math.round(performance.now() - begun); // [ms]
   const lose = () => figure.printed();
   canvas.addEventListener("webglcontextlost", lose);
@@ -590,6 +591,12 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     seen.delete(0);
     const nSeen = [...seen].filter(id => id <= nGrains).length;
     return [nSeen, seen.size - nSeen];
+  };
+  // For tests: the place of a grain on the canvas, of which the first is 1.
+  canvas.placeOf = id => {
+    const at = [0, 1, 2].map(c => grains.place[4 * (id - 1) + c] / shares - middle[c]);
+    const [x, y] = turned().map(axis => axis.reduce((sum, value, c) => sum + value * at[c], 0) * unit());
+    return [canvas.clientWidth / 2 + set.pan[0] + x, canvas.clientHeight / 2 - set.pan[1] - y];
   };
   return () => {
     stop();

@@ -741,7 +741,8 @@ public:
     const TemporaryFolder profile; // with its crash reports and caches
     const std::string out = (profile.path() / "out").string();
     const std::string command = fmt::format(
-      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "HOME='{0}' timeout 60 chromium --headless=new --no-sandbox --disable-gpu "
+      "--enable-unsafe-swiftshader --disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --hide-scrollbars --enable-logging=stderr {1} 'file://{2}' >'{3}' 2>'{3}.err'",
       profile.path().string(), arguments, page.string(), out);
     Outcome outcome{};
@@ -831,7 +832,9 @@ TEST_F(Report, AnswersToTheMouse)
                                           content(std::string(FELDSPAR_SOURCE_DIR) + "/tests/app/page_probe.js")));
   const auto shown =
     Browser::show(folder.path() / "probed.html", "--window-size=1280,900 --virtual-time-budget=15000 --dump-dom");
-  EXPECT_EQ(title_of(shown), "probed +hover +zoom +whole range +hide +show +as printed +interactive again +slider");
+  EXPECT_EQ(title_of(shown),
+            "probed +hover +zoom +whole range +hide +show +as printed +interactive again +grains +cracks "
+            "+slider +pick +enlarge +whole");
 }
 
 TEST_F(Report, ShowsItsPicturesWithoutItsScript)
