@@ -236,7 +236,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const unit = () => { // CSS pixels of the whole box at the present size
     const axes = turned();
     const half = axes.slice(0, 2).map(axis => axis.reduce((sum, value, c) => sum + Math.abs(value) * middle[c], rim));
-    return set.zoom * Math.min((canvas.clientWidth - 16) / 2 / half[0], (canvas.clientHeight - 16) / 2 / half[1]);
+    return set.zoom * Math.min((canvas.clientWidth - 16) / 2 / half[0], (canvas.clientHeight - 56) / 2 / half[1]);
   };
   const nBroken = () => {
     let n = nCracks;
