@@ -8,9 +8,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   const vertexHead = `#version 300 es
     precision highp float;
     precision highp int;
-    layout(location = 0) in vec4 place; // x, y, z and radius or size, as shares
-    layout(location = 1) in vec3 colour;
-    layout(location = 2) in vec3 along; // normal of a crack, direction of a flaw
+    // One texel a shape, six vertices each: instances are slow where a processor draws.
+    uniform highp usampler2D places; // x, y, z and radius or size, as shares
+    uniform highp sampler2D tones, directions; // normal of a crack, direction of a flaw
     uniform mat3 turn;
     uniform vec3 middle;
     uniform vec2 zoom, pan, pixel;
@@ -23,15 +23,19 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     out float nearness;
     flat out vec3 tone, facing;
     flat out float thick;
-    vec3 numbered() {
-      uint id = first + uint(gl_InstanceID) + 1u;
+    vec3 numbered(int n, vec3 colour) {
+      uint id = first + uint(n) + 1u;
       if (picking)
         return vec3(id & 255u, (id >> 8) & 255u, id >> 16) / 255.0;
       return id == chosen ? vec3(1.0, 0.88, 0.0) : colour;
     }
     void main() {
-      corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-      tone = numbered();
+      int n = gl_VertexID / 6, of = gl_VertexID % 6, turning = of == 3 ? 2 : of == 4 ? 1 : of;
+      corner = of == 5 ? vec2(1.0) : vec2(turning & 1, turning >> 1) * 2.0 - 1.0;
+      ivec2 texel = ivec2(n % 2048, n / 2048);
+      vec4 place = vec4(texelFetch(places, texel, 0)) / 65535.0;
+      vec3 along = texelFetch(directions, texel, 0).xyz;
+      tone = numbered(n, texelFetch(tones, texel, 0).rgb);
       vec3 at = place.xyz - middle;
       vec3 seen = turn * at;
       vec2 aside = vec2(0.0);
@@ -90,7 +94,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
 
   const box = element("div", figure.stage, {className: "specimen"});
   const canvas = element("canvas", box, {tabIndex: 0});
-  const gl = canvas.getContext("webgl2", {antialias: true});
+  const gl = canvas.getContext("webgl2", {antialias: !inSpace}); // four samples a pixel are slow where a processor draws
   if (!gl)
     throw new Error("no WebGL 2");
   canvas.setAttribute("role", "application");
@@ -110,7 +114,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error(gl.getProgramInfoLog(made) + gl.getShaderInfoLog(gl.getAttachedShaders(made)[0]));
     const at = {};
-    for (const name of ["turn", "middle", "zoom", "pan", "pixel", "cut", "extent", "depth", "form", "first", "chosen", "picking", "space"])
+    for (const name of ["turn", "middle", "zoom", "pan", "pixel", "cut", "extent", "depth", "form", "first", "chosen", "picking", "space", "places", "tones", "directions"])
       at[name] = gl.getUniformLocation(made, name);
     return {made, at};
   };
@@ -135,36 +139,38 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
 
   // Flaws as lines of the same form as cracks.
   const pieces = data.flaws.flatMap(flaw => flaw.outline.slice(1).map((to, k) => [flaw.outline[k], to]));
-  const flaws = {place: new Float32Array(4 * pieces.length), along: new Float32Array(3 * pieces.length)};
+  const flaws = {place: new Uint16Array(4 * pieces.length), along: new Int8Array(4 * pieces.length)};
   pieces.forEach(([from, to], k) => {
+    const length = Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) || 1;
     for (const c of [0, 1, 2]) {
-      flaws.place[4 * k + c] = ((from[c] + to[c]) / 2 - data.low[c]) / data.span;
-      flaws.along[3 * k + c] = to[c] - from[c];
+      flaws.place[4 * k + c] = Math.min(1, Math.max(0, ((from[c] + to[c]) / 2 - data.low[c]) / data.span)) * shares;
+      flaws.along[4 * k + c] = (127 * (to[c] - from[c])) / length;
     }
-    flaws.place[4 * k + 3] = Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) / data.span;
+    flaws.place[4 * k + 3] = (Math.min(data.span, length) / data.span) * shares;
   });
 
-  const feed = (location, values, n, type, normalised, stride = 0) => {
-    const buffer = gl.createBuffer();
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(location);
-    gl.vertexAttribPointer(location, n, type, normalised, stride, 0);
-    gl.vertexAttribDivisor(location, 1);
-    return buffer;
+  const columns = 2048; // of a texture
+  const fill = (texture, values, [inside, format, type]) => {
+    const rows = Math.max(1, Math.ceil(values.length / 4 / columns));
+    const whole = new values.constructor(4 * columns * rows);
+    whole.set(values);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+    gl.texImage2D(gl.TEXTURE_2D, 0, inside, columns, rows, 0, format, type, whole);
   };
-  const shapes = (place, type, along, colours) => {
-    const array = gl.createVertexArray();
-    gl.bindVertexArray(array);
-    feed(0, place, 4, type, true);
-    const colour = feed(1, colours, 3, gl.UNSIGNED_BYTE, true);
-    if (along)
-      feed(2, along, 3, along instanceof Int8Array ? gl.BYTE : gl.FLOAT, true, along instanceof Int8Array ? 4 : 0);
-    return {array, colour, colours};
+  const ofPlaces = [gl.RGBA16UI, gl.RGBA_INTEGER, gl.UNSIGNED_SHORT];
+  const ofDirections = [gl.RGBA8_SNORM, gl.RGBA, gl.BYTE];
+  const ofTones = [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE];
+  const shapes = (place, along) => {
+    const made = {n: place.length / 4, textures: [0, 1, 2].map(() => gl.createTexture())};
+    fill(made.textures[0], place, ofPlaces);
+    fill(made.textures[2], along, ofDirections);
+    return made;
   };
-  const drawnGrains = shapes(grains.place, gl.UNSIGNED_SHORT, null, new Uint8Array(3 * nGrains));
-  const drawnCracks = shapes(cracks.place, gl.UNSIGNED_SHORT, cracks.normal, new Uint8Array(3 * nCracks));
-  const drawnFlaws = shapes(flaws.place, gl.FLOAT, flaws.along, new Uint8Array(3 * pieces.length));
+  const drawnGrains = shapes(grains.place, new Int8Array(0));
+  const drawnCracks = shapes(cracks.place, cracks.normal);
+  const drawnFlaws = shapes(flaws.place, flaws.along);
 
   // Colours.
   const rgb = text => [1, 3, 5].map(k => parseInt(text.slice(k, k + 2), 16));
@@ -175,32 +181,33 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     return ramp[k].map((value, c) => value + (place - k) * (ramp[k + 1][c] - value));
   };
   const pieceTones = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"].map(rgb);
-  const movedBy = k => (Math.hypot(...grains.moved.subarray(3 * k, 3 * k + 3)) * data.grains.most_moved) / 32767; // [mm]
+  const movedBy = k => (Math.hypot(grains.moved[3 * k], grains.moved[3 * k + 1], grains.moved[3 * k + 2]) * data.grains.most_moved) / 32767; // [mm]
   // Single grains that flew off would leave one colour for all others.
   const mostMoved = Float32Array.from({length: nGrains}, (none, k) => movedBy(k)).sort()[Math.floor(0.98 * (nGrains - 1))] || 1;
   const sizes = new Map();
   for (const piece of grains.fragment)
     sizes.set(piece, (sizes.get(piece) || 0) + 1);
-  const plain = () => (dark.matches ? [92, 99, 108] : [206, 209, 213]);
-  const kindTones = () => [[213, 94, 0], dark.matches ? [74, 168, 224] : [0, 114, 178]];
+  const isDark = dark.matches;
+  const plain = isDark ? [92, 99, 108] : [206, 209, 213];
+  const kindTones = [[213, 94, 0], isDark ? [74, 168, 224] : [0, 114, 178]];
   const grainColours = {
-    plain: () => plain(),
-    "mineral grain": k => [...grains.tone.subarray(3 * k, 3 * k + 3)].map(value => (dark.matches ? 0.55 : 1) * value),
+    plain: () => plain,
+    "mineral grain": k => [...grains.tone.subarray(3 * k, 3 * k + 3)].map(value => (isDark ? 0.55 : 1) * value),
     fragment: k => {
       const piece = grains.fragment[k];
-      return piece === 0 ? plain() : sizes.get(piece) === 1 ? [240, 226, 150] : pieceTones[piece % pieceTones.length];
+      return piece === 0 ? plain : sizes.get(piece) === 1 ? [240, 226, 150] : pieceTones[piece % pieceTones.length];
     },
     displacement: k => onRamp(movedBy(k) / mostMoved),
   };
   const crackColours = {
-    kind: k => kindTones()[cracks.normal[4 * k + 3]],
+    kind: k => kindTones[cracks.normal[4 * k + 3]],
     strain: k => onRamp(cracks.row[k] / (data.rows.length - 1)),
   };
-  const colourAll = (shape, n, colourOf) => {
-    for (let k = 0; k < n; ++k)
-      shape.colours.set(colourOf(k), 3 * k);
-    gl.bindBuffer(gl.ARRAY_BUFFER, shape.colour);
-    gl.bufferData(gl.ARRAY_BUFFER, shape.colours, gl.STATIC_DRAW);
+  const colourAll = (shape, colourOf) => {
+    const tones = new Uint8Array(4 * shape.n);
+    for (let k = 0; k < shape.n; ++k)
+      [tones[4 * k], tones[4 * k + 1], tones[4 * k + 2]] = colourOf(k);
+    fill(shape.textures[1], tones, ofTones);
   };
 
   // What the reader set, kept while the figure is drawn anew.
@@ -272,8 +279,12 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       gl.uniform1ui(one.at.chosen, set.chosen);
       gl.uniform1i(one.at.picking, picking);
       gl.uniform1i(one.at.space, inSpace);
-      gl.bindVertexArray(shape.array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, n);
+      ["places", "tones", "directions"].forEach((name, k) => {
+        gl.activeTexture(gl.TEXTURE0 + k);
+        gl.bindTexture(gl.TEXTURE_2D, shape.textures[k]);
+        gl.uniform1i(one.at[name], k);
+      });
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * n);
     };
     if (set.grains !== "hidden")
       show(ofGrains, drawnGrains, nGrains, 0, 0, rim, 0);
@@ -378,14 +389,14 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
       entry.append(" " + to);
     };
     if (set.cracks === "kind") {
-      chip(css(kindTones()[0]), "tension crack");
-      chip(css(kindTones()[1]), "shear crack");
+      chip(css(kindTones[0]), "tension crack");
+      chip(css(kindTones[1]), "shear crack");
     } else if (set.cracks === "strain")
       bar(`cracks: ${digits(data.rows[0][0])}`, `${digits(data.rows.at(-1)[0])} ${data.strain}`);
     if (set.grains === "displacement")
       bar("grains: 0", `${digits(mostMoved)} mm, at the end`);
     else if (set.grains === "fragment") {
-      chip(css(plain()), "largest piece");
+      chip(css(plain), "largest piece");
       chip(css([240, 226, 150]), "single grains");
       chip(css(pieceTones[1]), "other fragments, at the end");
     }
@@ -404,9 +415,9 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
   };
   const colour = () => {
     if (set.grains !== "hidden")
-      colourAll(drawnGrains, nGrains, grainColours[set.grains]);
+      colourAll(drawnGrains, grainColours[set.grains]);
     if (set.cracks !== "hidden")
-      colourAll(drawnCracks, nCracks, crackColours[set.cracks]);
+      colourAll(drawnCracks, crackColours[set.cracks]);
     describeKey();
   };
 
@@ -573,8 +584,7 @@ const specimenView = (figure, data, {element, theme, dark, digits}) => {
     "; Ctrl and the wheel enlarge; click a grain or a crack for its numbers. Grains lie where they were when the loading began, cracks where they broke." +
     (data.grains.every > 1 ? ` One of ${data.grains.every} grains is shown.` : "") + (data.cracks.every > 1 ? ` One of ${data.cracks.every} cracks is shown.` : ""));
 
-  drawnFlaws.colours.fill(dark.matches ? 230 : 27);
-  colourAll(drawnFlaws, 0, null);
+  colourAll(drawnFlaws, () => (isDark ? [230, 233, 236] : [27, 31, 36]));
   colour();
   // As wide as there is room for, as high as the specimen asks for.
   canvas.style.aspectRatio = `${Math.max(0.6, Math.min(2, (high[0] + 2 * rim) / (high[inSpace ? 2 : 1] + 2 * rim)))}`;
