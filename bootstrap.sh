@@ -102,22 +102,23 @@ check_format()
 {
   say "checking the format"
   git ls-files -z '*.h' '*.cc' | xargs --null clang-format --dry-run -Werror
+  scripts/check-words.py
 }
 
-# Of dem/, by the units that build/asan joined, and the files that it did not join as one more: file by file takes six times as
-# long, nearly all of it for headers that the files share.
+# Checks the lint of laboratory/ and dem/, by the units that build/asan joined, and the files that it did not join as one
+# more: file by file takes six times as long, nearly all of it for headers that the files share.
 check_lint()
 {
   say "checking the lint"
   local joined=build/asan/lint_of_dem.cc units
-  units=$(sed -n "s|^ *\"file\": \"\($PWD/\(build/asan/\)\?dem/.*\)\",\?$|\1|p" build/asan/compile_commands.json)
-  sed -n "s|^$PWD/dem/.*|#include \"&\"|p" <<<"$units" >"$joined"
-  { grep --invert-match "^$PWD/dem/" <<<"$units" && echo "$PWD/$joined"; } |
+  units=$(sed -En "s@^ *\"file\": \"($PWD/(build/asan/)?(laboratory|dem)/.*)\",?\$@\1@p" build/asan/compile_commands.json)
+  sed -En "s@^$PWD/(laboratory|dem)/.*@#include \"&\"@p" <<<"$units" >"$joined"
+  { grep -E --invert-match "^$PWD/(laboratory|dem)/" <<<"$units" && echo "$PWD/$joined"; } |
     xargs --max-args=1 --max-procs="$(nproc)" clang-tidy -p build/asan --quiet --warnings-as-errors='*' \
       --checks=-bugprone-suspicious-include
 }
 
-# Of what build/asan leaves out.
+# Reads with clang the units that build/asan leaves out.
 check_other_compiler()
 {
   say "reading the rest with clang"

@@ -11,7 +11,8 @@
 
 namespace
 {
-/// Levels of instructions as compilers name them (psABI of x86-64). Of each only what separates it from the one before.
+/// Levels of instructions as compilers name them (psABI of x86-64). Each function asks only for what separates its
+/// level from the one before.
 bool has_avx2()
 {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&

@@ -1,4 +1,3 @@
-#include "app/commands/check_input.h"
 #include "app/commands/commands.h"
 #include "app/commands/manual.h"
 #include "app/input/nearest_name.h"
@@ -41,7 +40,8 @@ std::vector<std::string> names_of_commands_with_input()
 
 constexpr std::size_t longest_line = 2000; // of standard error, whatever it repeats
 
-/// On standard error in one printable line, without an exception, should it lie on the disk that is full.
+/// Prints on standard error in one printable line, without an exception if standard error lies on the disk that is
+/// full.
 void say(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -56,18 +56,13 @@ public:
   {
     app.set_version_flag("--version", fmt::format("feldspar {}", version));
     app.require_subcommand(0, 1);
-    add_resume(add_run("lab", "DEM laboratory tests: genesis, tests, results, report", run_lab));
-    add_resume(add_run("rve", "a periodic cell of grains along a path of strain or stress", run_rve));
-    add_extract(add_resume(
-      add_run("multiscale", "laboratory tests on a mesh with a representative volume at every point", run_multiscale)));
-    add_resume(add_run("calibrate", "micro-parameters of a rock from its laboratory values", run_calibrate));
-    add_run("specimen", "genesis only; writes specimen.h5", run_specimen);
-    add_run("contact", "one contact along a displacement path; writes contact.csv", run_contact);
+    for (const CommandWithInput& command : commands_with_input)
+      add_run(command);
+    add_extract(*app.get_subcommand("multiscale"));
     add_report();
     add_parameters();
     add_help();
     add_manual();
-    add_examples();
   }
 
   /// Returns the exit code.
@@ -94,9 +89,9 @@ public:
   }
 
 private:
-  CLI::App& add_run(const std::string& name, const std::string& description, int (*run_command)(const CommonOptions&))
+  void add_run(const CommandWithInput& of)
   {
-    CLI::App& command = *app.add_subcommand(name, description);
+    CLI::App& command = *app.add_subcommand(std::string(of.name), std::string(of.description));
     command.add_option("INPUT", common.input, "parameter file, .prm or .json")->required();
     command.add_option("--output", common.output, "folder of the results (default: INPUT-results-001, ...)")
       ->type_name("DIR");
@@ -104,8 +99,10 @@ private:
     add_settings(command, common.settings);
     add_threads(command);
     command.add_flag("--quiet", common.quiet, "no progress, and of the results only where they are");
-    command.callback([this, run_command] { chosen = [this, run_command] { return run_command(common); }; });
-    return command;
+    command.callback([this, &of] { chosen = [this, &of] { return of.run(common); }; });
+    add_examples(command, of.examples);
+    if (of.runs_long)
+      add_resume(command);
   }
 
   static CLI::Option* add_settings(CLI::App& command, std::vector<std::string>& settings)
@@ -115,7 +112,7 @@ private:
       ->allow_extra_args(false);
   }
 
-  CLI::App& add_resume(CLI::App& command)
+  void add_resume(CLI::App& command)
   {
     CLI::Option* const resume =
       command.add_option("--resume", common.resume, "take up the run of this folder; instead of INPUT")
@@ -124,7 +121,6 @@ private:
     command.get_option("--set")->excludes(resume);
     command.get_option("--output")->excludes(resume);
     command.get_option("--force")->excludes(resume);
-    return command;
   }
 
   void add_extract(CLI::App& command)
@@ -165,6 +161,8 @@ private:
     add_threads(command);
     command.add_flag("--quiet", report.quiet, "do not say what is missing in it");
     command.callback([this] { chosen = [this] { return run_report(report); }; });
+    add_examples(command, "feldspar report granite slate --reference rock.json\n"
+                          "  feldspar report granite --curve core.csv");
   }
 
   void add_parameters()
@@ -186,9 +184,11 @@ private:
       ->excludes(check);
     command.add_flag("--markdown", parameters.markdown, "as tables for docs/parameters.md");
     command.callback([this] { chosen = [this] { return run_parameters(parameters); }; });
+    add_examples(command, "feldspar parameters Tests\n  feldspar parameters friction\n"
+                          "  feldspar parameters --check granite.prm --for lab");
   }
 
-  /// On this command; null: on the program.
+  /// Prints the help on this command; null: on the program.
   void print_help(const CLI::App* const command) const
   {
     print_result(
@@ -231,24 +231,9 @@ private:
   }
 
   /// With what a user would type.
-  void add_examples()
+  static void add_examples(CLI::App& command, const std::string_view examples)
   {
-    for (const auto& [command, example] :
-         {std::pair("lab", "feldspar lab granite.prm --output granite --threads 4\n"
-                           "  feldspar lab granite.prm --set 'Seeds/Seeds = 1..10'\n"
-                           "  feldspar lab --resume granite"),
-          {"rve", "feldspar rve cell.prm"},
-          {"multiscale", "feldspar multiscale sample.prm\n  mpirun -np 8 feldspar multiscale sample.prm\n"
-                         "  feldspar multiscale sample-results-001 --extract 12:0"},
-          {"calibrate", "feldspar calibrate rock.prm --output rock\n  feldspar lab rock/best.prm\n"
-                        "  feldspar calibrate --resume rock"},
-          {"specimen", "feldspar specimen granite.prm"},
-          {"contact", "feldspar contact contact.prm"},
-          {"report", "feldspar report granite slate --reference rock.json\n"
-                     "  feldspar report granite --curve core.csv"},
-          {"parameters", "feldspar parameters Tests\n  feldspar parameters friction\n"
-                         "  feldspar parameters --check granite.prm --for lab"}})
-      app.get_subcommand(command)->footer(fmt::format("Examples:\n  {}", example));
+    command.footer(fmt::format("Examples:\n  {}", examples));
   }
 
   /// Prints help or version, which CLI11 throws too, or what is wrong.
@@ -312,8 +297,8 @@ private:
   std::function<int()> chosen;
 };
 
-/// Where a standard stream is closed, the first file to be opened would take its number, and what is printed would go
-/// into it.
+/// Opens standard streams that are closed: the first file to be opened would take the number of such a stream, and what
+/// is printed would go into it.
 void open_standard_streams()
 {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})

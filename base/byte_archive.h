@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// States as plain bytes, by the description that HDF5 files take too (base/hdf5_archive.h): `transfer(archive, state)` names
+/// States as plain bytes, by the description that HDF5 files take too (base/system/hdf5_archive.h): `transfer(archive, state)` names
 /// each value once and serves writing and reading.
 namespace feldspar
 {
@@ -23,7 +23,7 @@ void transfer_flag(Archive& archive, const std::string& name, bool& flag)
   flag = stored != 0;
 }
 
-/// As they lie in memory, for processes of the same program.
+/// Bytes of the values as they lie in memory, for processes of the same program.
 template <typename T>
 std::string bytes_of(const std::vector<T>& values)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/body.h"
+#include "base/parameter_id.h"
 
 #include <cstddef>
 #include <functional>
@@ -52,14 +53,26 @@ inline constexpr Range from_zero{'[', 0.0, infinity, ')'};
 inline constexpr Range fraction{'[', 0.0, 1.0, ']'};
 } // namespace ranges
 
+/// Condition of an entry on another one.
+struct Demand
+{
+  std::string_view of_value;             ///< only of this value of its own; empty: of any but the default
+  std::string_view other;                ///< Section/Entry
+  std::vector<std::string_view> allowed; ///< values of the other one; none: its default
+  std::string_view otherwise;            ///< the error: what is wrong, what to do
+};
+
 /// Further properties of an entry.
 struct EntryFlags
 {
-  bool varies = false;           ///< may take one value after the other (section Variants)
-  bool of_specimen = false;      ///< a part of the specimen's identity: genesis reads it
-  std::vector<Body> bodies = {}; ///< that have a use for it; none named: all. Of other bodies it must keep its default
-  std::string_view needs = {};   ///< such a body in words, for the error
-  bool basic = false;            ///< needed in a first study: the reference shows it before the others
+  bool varies = false;              ///< may take one value after the other (section Variants)
+  bool of_specimen = false;         ///< a part of the specimen's identity: genesis reads it
+  std::vector<Body> bodies = {};    ///< that have a use for it; none named: all. In other bodies the entry keeps its
+                                    ///< default
+  std::string_view needs = {};      ///< such a body in words, for the error
+  bool basic = false;               ///< needed in a first study: the reference shows it before the others
+  std::string_view in_space = {};   ///< the default in three dimensions; empty: that of the plane
+  std::vector<Demand> demands = {}; ///< on other entries; the first that is not met is the error
 };
 
 /// The place of a value within `Parameters`: a member, or one of a part of them.
@@ -132,6 +145,7 @@ struct Entry
   std::variant<Number, OptionalNumber, Integer, File, Choice, Text> value;
   std::string_view meaning;
   EntryFlags flags;
+  std::optional<ParameterId> id = {}; ///< of the member that it fills; none of a text, which fills several
 };
 
 /// Makers of entries, one for each kind.
@@ -142,7 +156,7 @@ Entry<P> quantity(const std::string_view name, double P::*const member, const Me
                   const std::string_view unit, const Range& range, const std::string_view meaning,
                   const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags};
+  return {name, typename Entry<P>::Number{member, measure, unit, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
@@ -157,7 +171,7 @@ Entry<P> optional_quantity(const std::string_view name, std::optional<double> P:
                            const std::string_view unit, const Range& range, const std::string_view meaning,
                            const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags};
+  return {name, typename Entry<P>::OptionalNumber{member, measure, unit, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
@@ -171,14 +185,14 @@ template <typename P>
 Entry<P> integer(const std::string_view name, unsigned int P::*const member, const Range& range,
                  const std::string_view meaning, const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::Integer{member, range}, meaning, flags};
+  return {name, typename Entry<P>::Integer{member, range}, meaning, flags, id_of_member(member)};
 }
 
 template <typename P>
 Entry<P> file(const std::string_view name, std::string P::*const member, const std::string_view meaning,
               const EntryFlags& flags = {})
 {
-  return {name, typename Entry<P>::File{member}, meaning, flags};
+  return {name, typename Entry<P>::File{member}, meaning, flags, id_of_member(member)};
 }
 
 /// `options`: what is written, and the value it stands for.
@@ -197,7 +211,7 @@ Entry<P> choice(const std::string_view name, T P::*const member,
       ++k;
     return k;
   };
-  return {name, std::move(value), meaning, flags};
+  return {name, std::move(value), meaning, flags, id_of_member(member)};
 }
 } // namespace entry
 
@@ -232,6 +246,6 @@ Entry<Whole> within(const Entry<Parameters>& entry, const Get& get, const At& at
                                  [=](const Whole& whole) { return form.write(get(whole)); }};
     }, // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): what std::function holds is its own
     entry.value);
-  return {entry.name, std::move(value), entry.meaning, entry.flags};
+  return {entry.name, std::move(value), entry.meaning, entry.flags, entry.id};
 }
 } // namespace feldspar

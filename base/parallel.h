@@ -10,7 +10,8 @@
 
 namespace feldspar
 {
-/// That may work at a time: as many as --threads allows and the machine has. An arena of TBB tells of the machine alone.
+/// Number of threads that may work at a time: as many as --threads allows and the machine has. An arena of TBB tells of
+/// the machine alone.
 inline std::size_t number_of_threads()
 {
   using oneapi::tbb::global_control;
@@ -26,8 +27,8 @@ inline std::size_t n_blocks(const std::size_t n) { return (n + block_size - 1) /
 /// Blocks that a thread works on one after the other, at least.
 inline constexpr std::size_t fewest_blocks_in_a_row = 4;
 
-/// Whether for_each_block() and for_each_run_of_blocks() do a job of this size on this thread alone. Small jobs are not handed
-/// out, which costs more.
+/// Returns whether for_each_block() and for_each_run_of_blocks() do a job of this size on this thread alone. Small jobs
+/// are not distributed, which would cost more.
 inline bool stays_on_this_thread(const std::size_t n)
 {
   constexpr std::size_t few_blocks = 8;

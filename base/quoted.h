@@ -20,7 +20,7 @@ std::string shortened(std::string_view text, std::size_t most_characters);
 /// An excerpt between double quotation marks, as messages repeat an entry or a cell.
 std::string in_quotes(std::string_view text);
 
-/// Whether text may name a file, a part of a script or a table without any quoting: at most 235 letters, digits, `.`,
-/// `_`, `-` and `+` of ASCII, a letter or a digit first.
+/// Returns whether text may name a file, a part of a script or a table without any quoting: at most 235 letters,
+/// digits, `.`, `_`, `-` and `+` of ASCII, a letter or a digit first.
 bool is_plain_name(std::string_view text);
 } // namespace feldspar

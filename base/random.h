@@ -33,7 +33,7 @@ public:
     engine.seed(sequence);
   }
 
-  /// In [0, 1).
+  /// Random number in [0, 1).
   double uniform() { return double(engine() >> 11) * 0x1p-53; }
 
   double uniform(const double low, const double high) { return low + (high - low) * uniform(); }

@@ -33,7 +33,7 @@ std::string objection_to_kind(const mode_t mode)
   return fmt::format("is a {}; {}", S_ISSOCK(mode) ? "socket" : "device", instead);
 }
 
-/// Looks at the name first, as opening some devices does something. An open file is looked at once more: its name may have
+/// Checks the name first, as opening some devices does something. An open file is checked once more: its name may have
 /// become another's meanwhile.
 int open_regular(const std::filesystem::path& file)
 {

@@ -7,7 +7,7 @@
 #include <string>
 
 /// Files to read from, and nothing else. A run reads its files more than once (it checks them, takes their checksum and
-/// copies them), which a pipe does not bear; a pipe without a writer or a device would also keep it waiting for ever.
+/// copies them), which a pipe does not allow; a pipe without a writer or a device would also keep it waiting for ever.
 namespace feldspar
 {
 /// The reason why a file cannot be read, in the words that follow its name in a message: it is missing, a folder, a pipe, a

@@ -8,10 +8,10 @@
 /// Text as people and tables write it: white space, commas, decimal numbers.
 namespace feldspar
 {
-/// Without the white space at both ends.
+/// Returns the text without the white space at both ends.
 std::string_view trim(std::string_view text);
 
-/// With the letters of ASCII small; those of other alphabets stay.
+/// Returns the text with the letters of ASCII small; those of other alphabets stay.
 std::string in_small_letters(std::string_view text);
 
 /// Characters of UTF-8, which is the width on a terminal but for combining and double ones.
@@ -26,7 +26,7 @@ std::string duration_in_words(double seconds);
 /// The pieces between commas, trimmed; one at least.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Whether all of the text is [sign] digits [. digits] [e [sign] digits].
+/// Returns whether all of the text is [sign] digits [. digits] [e [sign] digits].
 bool is_decimal_number(std::string_view text);
 
 /// One decimal number; `nan` and `inf` are none. The decimal sign is a point in every locale. Throws InputError.

@@ -1,6 +1,6 @@
 #include "base/whole_file.h"
 
-#include "base/system/write_at.h"
+#include "base/write_at.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -27,7 +27,7 @@ BODIES = {
     "cylinder": ["Specimen/Dimension = 3", "Specimen/Shape = cylinder", "Specimen/Width = 8 mm", "Specimen/Height = 16 mm",
                  "Specimen/Minimum radius = 0.8 mm"],
 }
-# Of each test the number of specimens of each body.
+# Number of specimens of each body, for each test.
 TESTS = {
     "direct_tension": {"plane": 24, "box": 8, "cylinder": 8},
     "uniaxial_compression": {"plane": 48, "box": 8, "cylinder": 10},

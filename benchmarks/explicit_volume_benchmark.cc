@@ -21,7 +21,7 @@ const Specimen<2>& specimen()
 {
   static const auto made = [] {
     SpecimenParameters wanted;
-    wanted.shape = "periodic";
+    wanted.shape = BodyShape::periodic;
     wanted.width = wanted.height = 0.0325;
     FlatJointParameters joint;
     joint.coordination_number = 4.2;

@@ -25,7 +25,7 @@ const Network<dim>& network(const double width)
     return found->second;
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = width;
   wanted.porosity = dim == 2 ? 0.16 : 0.36;
   FlatJointParameters joint;

@@ -28,7 +28,7 @@ def git(*words):
 
 
 def statistic(log, name):
-    """Of libFuzzer's words at its end; none where it ended before."""
+    """Returns a number of the statistics that libFuzzer prints at its end; none where it ended before."""
     found = re.search(rf"^stat::{name}: *(\d+)", log, re.MULTILINE)
     return int(found[1]) if found else None
 
@@ -46,7 +46,7 @@ def main():
     commit = git("rev-parse", "--short", "HEAD")
     readers = wanted.readers or sorted(os.listdir(os.path.join(ROOT, "tests", "fuzz", "corpus")))
     script = os.path.join(ROOT, "scripts", "fuzz.sh")
-    # It says what it found by its exit code too; the figures are written either way.
+    # The script tells by its exit code too whether it found anything; the figures are written either way.
     ended = subprocess.run([script, str(wanted.seconds), *readers], check=False).returncode
     if git("rev-parse", "--short", "HEAD") != commit:
         sys.exit("the work tree has gone to another commit meanwhile")

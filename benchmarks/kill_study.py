@@ -109,7 +109,7 @@ def state(run):
 
 
 def largest_difference(one, other):
-    """Of the worst column, over the largest value of any column of that unit."""
+    """Returns the difference in the worst column, over the largest value of any column of that unit."""
     assert one.keys() == other.keys()
     scales = {}
     for name, values in one.items():

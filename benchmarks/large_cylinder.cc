@@ -34,7 +34,7 @@ long peak_memory_kB()
   return usage.ru_maxrss;
 }
 
-/// Of one step of what calls check() at each [s]; it is left after n_steps.
+/// Time of one step of work that calls check() at each step [s]; the work is left after n_steps.
 template <typename Work>
 double seconds_of_a_step(const Work& work)
 {
@@ -76,17 +76,17 @@ int main()
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.05;
 
-  wanted.shape = "cylinder";
+  wanted.shape = BodyShape::cylinder;
   wanted.width = n_across * 0.0265;
   wanted.height = 2.0 * wanted.width;
   const double packing_step =
     seconds_of_a_step([&](const auto& check) { make_specimen<3>(wanted, joint, {}, 1, check); });
   const long memory_of_packing = peak_memory_kB();
 
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.0265;
-  const auto specimen =
-    cored<3>(repeated<3>(make_specimen<3>(wanted, joint, {}, 1), {n_across, n_across, 2 * n_across}), true);
+  const auto specimen = cored<3>(
+    repeated<3>(make_specimen<3>(wanted, joint, {}, 1), {n_across, n_across, 2 * n_across}), BodyShape::cylinder);
   std::string tests;
   for (const LaboratoryCase& test : {LaboratoryCase{direct_tension}, LaboratoryCase{uniaxial_compression},
                                      LaboratoryCase{triaxial_compression, 10e6}})

@@ -28,12 +28,12 @@ from on_ranks import committed_version
 HERE = os.path.dirname(os.path.abspath(__file__))
 RESULT = os.path.join(HERE, "results", "load.json")
 RADIUS = 0.62e-3  # [m]
-# Of neighbours on the lattice, so that each gets a face: a hundredth of the radius is more than their gaps.
+# Gap up to which neighbours on the lattice get a face: a hundredth of the radius is more than their gaps.
 GAP = 0.02
 
 
 def number(k):
-    """Of a fixed scatter, in [0, 1)."""
+    """Returns a number of a fixed scatter, in [0, 1)."""
     return math.modf(math.sin(12.9898 * (k + 1)) * 43758.5453)[0] % 1.0
 
 

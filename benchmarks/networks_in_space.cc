@@ -14,7 +14,7 @@ int main()
   const std::string version_of_results = committed_version();
   SpecimenParameters wanted;
   wanted.dimension = 3;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.0148;
   wanted.porosity = 0.36;
   wanted.packed_by_descent = false; // as what it is compared with

@@ -1,4 +1,4 @@
-"""How the scripts here start the command on several ranks, and which builds of it they take."""
+"""Start of the command on several ranks, and choice of the builds for it, for the scripts here."""
 
 import os
 import subprocess
@@ -16,6 +16,6 @@ def launcher(n_ranks):
 
 
 def committed_version(feldspar):
-    """Of a build whose results can be committed; ends the script for others."""
+    """Returns the version of a build whose results can be committed; ends the script for others."""
     check = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../scripts/provenance.sh")
     return subprocess.run([check, feldspar], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()

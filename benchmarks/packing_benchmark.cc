@@ -20,7 +20,7 @@ void pack(benchmark::State& state, const bool by_descent)
   if (dim == 3)
     {
       wanted.dimension = 3;
-      wanted.shape = "cylinder";
+      wanted.shape = BodyShape::cylinder;
       wanted.width = 0.020;
       wanted.height = 0.040;
       wanted.porosity = 0.39; // the walls of so narrow a cylinder leave voids

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Where the time of a laboratory test goes: a uniaxial test of Beishan granite on one thread under perf (Debian:
+# Shows where the time of a laboratory test goes: a uniaxial test of Beishan granite on one thread under perf (Debian:
 # linux-perf), as shares of its second tenth, still intact, and of its last, broken.
 #
 #   benchmarks/profile.sh FELDSPAR

@@ -36,7 +36,7 @@ N_ROWS = 30
 ITERATIONS_A_ROW = 8
 RELAXATIONS_A_ROW = 4
 POINTS_A_CELL = 4
-POLICIES = {  # how cells are dealt to ranks, cores of each, whether these take first what took longest in the row before
+POLICIES = {  # how ranks get cells, cores of each, whether these take first what took longest in the row before
     "equal": ("equal", 1, False),
     "measured": ("measured", 1, False),
     "last row": ("last row", 1, False),
@@ -44,7 +44,8 @@ POLICIES = {  # how cells are dealt to ranks, cores of each, whether these take 
     "measured, 16 cores": ("measured", 16, False),
     "measured, 16 cores, longest first": ("measured", 16, True),
 }
-# Of a message between nodes, and what a network between them carries; as their makers state it, not measured here.
+# Latency of a message between nodes, and bandwidth of a network between them; as their makers state it, not measured
+# here.
 LATENCY_S = 2e-6
 BANDWIDTH_B_PER_S = 10e9
 BYTES_OF_A_VOLUME = 7000  # damaged, some 240 discs; benchmarks/README.md has 12 kB for 408
@@ -83,7 +84,7 @@ def costs_of_rows(paths, n_cells_across, rng):
 
 
 def cut(weights, n_ranks):
-    """As fem/mesh/partition.cc: where each rank begins, and the end."""
+    """Returns where each rank begins, and the end, as fem/mesh/partition.cc does."""
     n = len(weights)
     mean = sum(weights) / n
     limited = [w / mean + LEAST_SHARE_OF_MEAN for w in weights] if mean > 0 else [1.0] * n
@@ -112,7 +113,8 @@ def of_cells(seconds):
 
 
 def time_on_cores(seconds, n_cores, expected):
-    """Of RVEs that free cores take one by one; those first of which the longest time is expected, if any is."""
+    """Returns the time of RVEs that free cores take one by one; those with the longest expected time first, if any is
+    expected."""
     if n_cores == 1:
         return sum(seconds)
     if len(seconds) <= n_cores:

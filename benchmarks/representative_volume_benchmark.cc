@@ -6,7 +6,7 @@
 #include <memory>
 
 /// A representative volume of Table 1, some 400 discs or 600 spheres, on one core: what an update costs before and after its
-/// first crack, and what a copy remembers.
+/// first crack, and what a copy keeps.
 namespace feldspar
 {
 namespace
@@ -15,7 +15,7 @@ template <int dim>
 Specimen<dim> specimen()
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.0325 : 0.0133;
   wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;

@@ -26,7 +26,7 @@ double processor_time()
 std::shared_ptr<const Network<2>> network(const std::uint64_t seed)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.025;
   wanted.packed_by_descent = false; // as in the results that are committed
   FlatJointParameters joint;
@@ -72,7 +72,7 @@ std::string path(const std::shared_ptr<const Network<2>>& of, const double step,
       Calls iterations, relaxations;
       try
         {
-          // As Newton's method comes near.
+          // Trials approach the strain as Newton's method does.
           for (const double share : {0.9, 1.0})
             iterations.time([&] { point.trial(before + share * (strain - before)); });
           std::size_t n_events = 1;

@@ -46,7 +46,7 @@ def resident_memory(pid):
 
 
 def newest(folder):
-    """When the last file of the folder was written; none where there is none. Files come and go meanwhile."""
+    """Returns when the last file of the folder was written; none where there is none. Files come and go meanwhile."""
     times = []
     if os.path.isdir(folder):
         for name in os.listdir(folder):

@@ -86,7 +86,7 @@ SAMPLES = {
 
 
 def of_specimen(text):
-    """Its command, and what stands on the line before the output."""
+    """Returns the command for a specimen, and what stands on the line before the output."""
 
     def arguments(folder):
         path = os.path.join(folder, "test.prm")

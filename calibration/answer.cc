@@ -3,7 +3,7 @@
 #include "base/prefixes.h"
 
 #include "calibration/posterior.h"
-#include "results/paired_moments.h"
+#include "laboratory/paired_moments.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -18,7 +18,7 @@ namespace feldspar::calibration
 {
 namespace
 {
-/// Of the posterior's walk: the unknowns, then those scales that are free.
+/// Coordinates of the posterior's walk: the unknowns, then those scales that are free.
 class Coordinates
 {
 public:
@@ -80,7 +80,8 @@ double log_density(const ResponseModel& model, const std::vector<Target>& target
   return sum;
 }
 
-/// Of the normal distribution that is near the posterior at its best place: (Jᵀ W J + prior)⁻¹, by central differences.
+/// Covariance of the normal distribution that is near the posterior at its best place: (Jᵀ W J + prior)⁻¹, by central
+/// differences.
 std::vector<std::vector<double>> nearby_covariance(const ResponseModel& model, const std::vector<Target>& targets,
                                                    const Coordinates& coordinates, const Place& best)
 {
@@ -179,7 +180,7 @@ Determination determination_of(const double share)
                                 : Determination::not_determined;
 }
 
-/// In the unit of tables, to three figures.
+/// Value in the unit of tables, to three figures.
 std::string shown(const ParameterAnswer& answer, const double value)
 {
   return fmt::format("{:.3g}", value / answer.unit_size);

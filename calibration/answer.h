@@ -9,7 +9,7 @@
 
 namespace feldspar::calibration
 {
-/// How well the tests tell a parameter.
+/// Measure of how well the tests determine a parameter.
 enum class Determination
 {
   determined,    ///< its 90 % interval is a quarter of what the bounds allow, or less

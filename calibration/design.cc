@@ -37,7 +37,8 @@ std::vector<UnitPoint> sobol_points(const std::size_t n, const std::size_t dimen
 SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, const std::size_t dimension,
                            const std::size_t n, const std::uint64_t seed)
 {
-  // Its sums over the sample take the order of its threads: the last bit would differ from run to run.
+  // Threads of OpenTURNS are not used: its sums over the sample would take their order, and the last bit would differ
+  // from run to run.
   OT::TBB::Disable();
   OT::RandomGenerator::SetSeed(seed);
   const OT::Function function(OpenTurnsFunction(f, dimension));

@@ -8,7 +8,7 @@
 /// Designs and sensitivities, by OpenTURNS.
 namespace feldspar::calibration
 {
-/// In the unit cube, a coordinate each.
+/// Point of the unit cube, a coordinate each.
 using UnitPoint = std::vector<double>;
 
 /// The first n points of the Sobol sequence under a random shift (Cranley and Patterson 1976); [n][dimension].
@@ -21,7 +21,7 @@ struct SobolIndices
   std::vector<double> total;       ///< by it and all its interactions
 };
 
-/// By the estimator of Martinez (2011) with n points for each matrix, (dimension + 2) n values in all.
+/// Sobol indices by the estimator of Martinez (2011) with n points for each matrix, (dimension + 2) n values in all.
 SobolIndices sobol_indices(const std::function<double(const UnitPoint&)>& f, std::size_t dimension, std::size_t n,
                            std::uint64_t seed);
 } // namespace feldspar::calibration

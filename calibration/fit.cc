@@ -27,7 +27,7 @@ struct Residuals
     return (model.predict(targets[t].response, place) - response.in_model(targets[t].value)) / widths[t];
   }
 
-  /// Of all places with these ratios the nearest. A scale adds to the logarithms of its own responses, so that the best one
+  /// Nearest of all places with these ratios. A scale adds to the logarithms of its own responses, so that the best one
   /// makes their weighted deviations sum up to nothing.
   Place place_at(const double* const ratios) const
   {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-/// Between our types and those of OpenTURNS. For the sources of this room alone: its headers are long.
+/// Conversion between our types and those of OpenTURNS. For the sources of this room alone: its headers are long.
 namespace feldspar::calibration
 {
 inline OT::Point as_point(const std::vector<double>& values)

@@ -9,7 +9,7 @@
 /// the input.
 namespace feldspar
 {
-/// Which modulus of the uniaxial test, or of it which ratio, the laboratory's figure is.
+/// Figure of the uniaxial test that the laboratory reports as modulus or as Poisson's ratio.
 enum class ElasticFigure
 {
   tangent, ///< 40–60 % of the peak

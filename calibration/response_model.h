@@ -31,17 +31,18 @@ struct Place
   double log_strength; ///< of the bonds in tension [Pa]
 };
 
-/// How the responses depend on the micro-parameters. Each is its scale (of stiffness: the intact representative volume's
-/// answer; of strength: the bond tensile strength) times a smooth function of the dimensionless parameters, which is
-/// learnt from a design, times a correction by later tests. Poisson's ratio is a sum of these instead.
+/// Responses as functions of the micro-parameters. Each response is its scale times a smooth function of the
+/// dimensionless parameters, which is learnt from a design, times a correction by later tests. The scale of a stiffness
+/// is the response of the intact representative volume, that of a strength the bond tensile strength. Poisson's ratio
+/// is a sum of these instead.
 class ResponseModel
 {
 public:
   ResponseModel(std::vector<Response> responses, std::vector<Unknown> unknowns, const MicroParameters& fixed,
                 ElasticTable elastic, double gap_of_specimens);
 
-  /// Learns from a design whose points were all tested on the same packings. What a packing adds to all points alike is
-  /// no noise of the function: it is left to correct().
+  /// Learns from a design whose points were all tested on the same packings. An effect of a packing that is alike in
+  /// all points is no noise of the function: it is left to correct().
   void learn(const std::vector<TestedPoint>& design);
 
   /// Sets the corrections by tests on other packings, each packing by the mean of its tests.
@@ -49,10 +50,10 @@ public:
 
   std::size_t n_responses() const { return all.size(); }
   const Response& response(const std::size_t j) const { return all[j]; }
-  /// Of the response of this name; the name itself where there is none.
+  /// Title of the response of this name; the name itself where there is none.
   std::string title(const std::string& name) const;
   const std::vector<Unknown>& unknowns() const { return unknown; }
-  /// Whether the design gave enough values of it.
+  /// Returns whether the design gave enough values of a response.
   bool knows(const std::size_t j) const { return surrogates[j].has_value(); }
 
   MicroParameters parameters(const Place& place) const;

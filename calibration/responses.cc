@@ -1,6 +1,7 @@
 #include "calibration/responses.h"
 
 #include "base/prefixes.h"
+#include "laboratory/named_entries.h"
 
 #include "base/append.h"
 #include "base/input_error.h"
@@ -16,13 +17,13 @@ namespace feldspar::calibration
 {
 namespace
 {
-/// In the table of properties.
+/// Name of the figure in the table of properties.
 std::string_view name(const ElasticFigure which)
 {
   return which == ElasticFigure::tangent ? "tangent" : which == ElasticFigure::initial ? "initial" : "secant";
 }
 
-/// Of the test of one case.
+/// Function that takes a figure from the test of one case.
 std::function<std::optional<double>(const std::vector<FinishedTest>&)> figure(const TestCase& of,
                                                                               Figure TestResults::*which)
 {
@@ -58,7 +59,7 @@ bool gives_rock_constant(const std::vector<TestCase>& programme)
   return has(false) && has(true);
 }
 
-/// How far the mean of the rock may lie from the figure of the reference, and by what.
+/// Sets how far the mean of the rock may lie from the figure of the reference, and the source of this deviation.
 void set_deviation(Target& target, const ReferenceValue& given, const double tolerance)
 {
   if (given.standard_deviation && given.n)
@@ -165,12 +166,12 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
           std::string known;
           for (const Response& one : responses)
             known += (known.empty() ? "" : ", ") + one.name;
-          throw InputError(
-            fmt::format("Calibration/Targets: no test of Tests/List gives {}; they give {}", name, known));
+          throw InputError(fmt::format("{}: no test of {} gives {}; they give {}", input_entries::targets.text(),
+                                       input_entries::test_list.text(), name, known));
         }
       if (!given(*found))
-        throw InputError(
-          fmt::format("Calibration/Targets: the experiment of the reference file has no {}", found->reference_key));
+        throw InputError(fmt::format("{}: the experiment of the reference file has no {}",
+                                     input_entries::targets.text(), found->reference_key));
     }
   std::vector<Target> all;
   for (std::size_t j = 0; j < responses.size(); ++j)
@@ -188,7 +189,8 @@ std::vector<Target> targets(const std::vector<Response>& responses, const Refere
         all.push_back(target);
       }
   if (all.empty())
-    throw InputError("Report/Reference file: its experiment has none of the figures that the tests of Tests/List give");
+    throw InputError(fmt::format("{}: its experiment has none of the figures that the tests of {} give",
+                                 input_entries::reference_file.text(), input_entries::test_list.text()));
   return all;
 }
 } // namespace feldspar::calibration

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "calibration/parameters.h"
+#include "laboratory/kinds.h"
 #include "results/folder/reference.h"
-#include "results/kinds.h"
 #include "results/runs/run.h"
 
 #include <cmath>
@@ -24,7 +24,8 @@ struct Response
   ResponseScale scale;
   /// SI, by the tests of one specimen; none where they do not give it.
   std::function<std::optional<double>(const std::vector<FinishedTest>&)> value;
-  /// Of a design point that has more nothing is learnt: cracks opened before what the figure is to measure.
+  /// Largest value in the design from which the model learns; above it, cracks opened before the state that the figure
+  /// is to measure.
   std::optional<double> largest_in_design = std::nullopt;
 
   /// The scatter of a response is a share of it: responses are compared by logarithms. Poisson's ratio, which may be 0, is
@@ -51,8 +52,8 @@ struct Target
   std::string source;   ///< of the deviation, in words
 };
 
-/// By the names wanted, or all that the reference has. Throws InputError for a name that the reference lacks or no test
-/// of the programme gives, and where there is none at all.
+/// Targets by the names wanted, or all that the reference has. Throws InputError for a name that the reference lacks or
+/// no test of the programme gives, and where there is none at all.
 std::vector<Target> targets(const std::vector<Response>& responses, const Reference& reference,
                             const CalibrationParameters& wanted);
 } // namespace feldspar::calibration

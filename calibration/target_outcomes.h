@@ -50,12 +50,12 @@ bool is_nearly_met(const TargetOutcome& outcome, double tolerance);
 /// half is left for the deviation itself.
 constexpr double wanted_half_width(const double tolerance) { return 0.5 * tolerance; }
 
-/// As many packings as bring the 95 % intervals of all means to the wanted half-width, by the scatter seen, and `most` at
-/// most; `most` where a figure came from fewer than two packings.
+/// Number of packings that bring the 95 % intervals of all means to the wanted half-width, by the scatter seen, and
+/// `most` at most; `most` where a figure came from fewer than two packings.
 std::size_t packings_needed(const std::vector<TargetOutcome>& outcomes, double tolerance, std::size_t most);
 
-/// Whether another answer is worth its packings: a target is missed, or all intervals are narrow enough to lie within the
-/// tolerance, and one does not.
+/// Returns whether another answer is worth its packings: a target is missed, or all intervals are narrow enough to lie
+/// within the tolerance, and one does not.
 bool is_worth_another_round(const std::vector<TargetOutcome>& outcomes, double tolerance);
 
 /// A sentence on targets that contradict each other: what comes nearest.

@@ -1,6 +1,6 @@
 #include "fem/output.h"
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 #include "base/whole_file.h"
 
 #include <deal.II/base/mpi.h>
@@ -86,8 +86,8 @@ void by_first(const MPI_Comm communicator, const std::function<void()>& work)
     throw OutputError(problem);
 }
 
-/// What deal.II throws where a file cannot be written tells neither which nor why, and leaves files of HDF5 open, which would
-/// be closed when MPI is down already. Throws OutputError.
+/// Throws OutputError with the reason why a file cannot be written. The exception of deal.II tells neither the file nor
+/// the reason, and leaves files of HDF5 open, which would be closed when MPI is down already.
 [[noreturn]] void say_why(const std::filesystem::path& file)
 {
   H5close();

@@ -51,7 +51,7 @@ std::vector<Series> with_labels_to_show(std::vector<Series> all)
   return all;
 }
 
-/// Those with pictures, of more series than a page has room for; else none.
+/// Series with pictures where there are more series than a page has room for; otherwise none.
 std::vector<Series> pictured_of_many(const std::vector<Series>& all)
 {
   std::vector<Series> pictured;
@@ -111,7 +111,7 @@ std::vector<PagePicture> taken_out(std::vector<PageSection>& sections, const boo
   return taken;
 }
 
-/// By what a reference calls its rock.
+/// Name of a rock in a title, from its name in a reference.
 std::string rock_in_title(const std::string& rock)
 {
   return rock.empty() ? "Rock" : rock.substr(0, rock.find_first_of(":;"));
@@ -154,7 +154,7 @@ Page page_of(const Findings& findings, PictureBook& book)
   return page;
 }
 
-/// Of a single folder every test has pictures of its own.
+/// Keeps pictures of every test by itself; for the page of a single folder.
 void keep_pictures_of_single_tests(const std::vector<Series>& all, PictureBook& book)
 {
   for (const auto& series : all)

@@ -48,7 +48,7 @@ struct TestResults
   Figure servo_error;
   Figure servo_error_largest;
 
-  /// Whether the test measured what its kind measures: a disc that breaks at its pads is not split.
+  /// Returns whether the test measured what its kind measures: a disc that breaks at its pads is not split.
   bool is_valid() const { return !(first_cracks_at_pads_share.value.value_or(0.0) > most_first_cracks_at_pads); }
 };
 
@@ -165,7 +165,7 @@ constexpr TestQuantity number(const TestQuantity::Member& member, const Quantity
 }
 } // namespace row
 
-/// In the order of summary.json.
+/// Quantities of a test, in the order of summary.json.
 inline constexpr TestQuantity test_quantities[] = {
   row::number(&TestRecord::confining_pressure, QuantityOf::loading, "confining_pressure_Pa", "confining pressure",
               display::megapascals(), "compression positive"),
@@ -353,7 +353,7 @@ constexpr RockProperty derived(const std::string_view key, const PropertySource 
 }
 } // namespace row
 
-/// In the order of comparisons, source by source.
+/// Properties of a rock, in the order of comparisons, source by source.
 inline constexpr RockProperty rock_properties[] = {
   row::derived("density_kg_per_m3", PropertySource::given, 500.0, 10000.0, "density", ShownIn{"kg/m³", 1.0, 0}),
   row::measured("tensile_strength_MPa", PropertySource::tension, 1e-3, 1000.0, &TestResults::peak_stress,

@@ -1,8 +1,9 @@
 #include "results/sample_fields.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
+#include "base/system/hdf5_archive.h"
+#include "laboratory/named_entries.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <expat.h>
@@ -20,7 +21,9 @@ namespace
 {
 using Xml = boost::property_tree::ptree;
 
-constexpr const char* expected = "a field of `feldspar multiscale`";
+std::string expected() { return fmt::format("a field of `{}`", input_entries::multiscale); }
+
+std::string objection_to_content() { return fmt::format("not XDMF of `{}`, or cut short", input_entries::multiscale); }
 
 /// Reads XML as boost/property_tree has it, attributes as children of <xmlattr>, but to a limited depth: readers that
 /// descend into it use the stack.
@@ -46,7 +49,7 @@ public:
     if (reader.is_too_deep)
       throw InputError(fmt::format("{}: is nested more than {} levels deep", file.string(), most_levels));
     if (!is_xml || text.empty())
-      throw InputError(fmt::format("{}: not XDMF of `feldspar multiscale`, or cut short", file.string()));
+      throw InputError(fmt::format("{}: {}", file.string(), objection_to_content()));
     return std::move(reader.root);
   }
 
@@ -113,7 +116,7 @@ struct IndexedTime
   std::map<std::string, Place> fields;
 };
 
-/// In their order, one at least.
+/// Times in an index in their order, one at least.
 std::vector<IndexedTime> times_in(const std::filesystem::path& index)
 {
   const Xml xml = XmlReader::read(index);
@@ -152,15 +155,15 @@ SampleFields fields_of(const std::filesystem::path& folder, const IndexedTime& o
   fields.n_rows = std::size_t(one.time);
   std::vector<double> nodes, displacement;
   std::vector<std::uint32_t> corners;
-  read_foreign_hdf5(folder / one.nodes.file, expected, [&](Hdf5Reader& root) {
+  read_foreign_hdf5(folder / one.nodes.file, expected(), [&](Hdf5Reader& root) {
     root.array(one.nodes.array, nodes);
     root.array(one.cells.array, corners);
   });
   if (one.fields.empty())
     throw InputError("there is no field in it");
-  // Of each node, those of cells too; all in one file.
+  // Values of each node, those of cells too; all in one file.
   std::map<std::string, std::vector<double>> of_nodes;
-  read_foreign_hdf5(folder / one.fields.begin()->second.file, expected, [&](Hdf5Reader& root) {
+  read_foreign_hdf5(folder / one.fields.begin()->second.file, expected(), [&](Hdf5Reader& root) {
     for (const auto& [name, place] : one.fields)
       root.array(place.array, of_nodes[name]);
   });
@@ -203,7 +206,7 @@ auto reading(const std::filesystem::path& index, Work&& work)
     }
   catch (const boost::property_tree::ptree_error& error)
     {
-      throw InputError(fmt::format("{}: not XDMF of `feldspar multiscale`, or cut short", index.string()));
+      throw InputError(fmt::format("{}: {}", index.string(), objection_to_content()));
     }
 }
 } // namespace

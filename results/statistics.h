@@ -28,6 +28,6 @@ double student_factor_95(std::size_t degrees_of_freedom);
 /// 6.28 for three. Needs two values or more; they come from a normal distribution.
 Interval deviation_interval_95(std::size_t n);
 
-/// None for no values.
+/// Statistics of the values; none for no values.
 std::optional<Statistics> statistics(const std::vector<double>& values);
 } // namespace feldspar

@@ -1,5 +1,6 @@
 #include "results/target_verdict.h"
 
+#include "laboratory/named_entries.h"
 #include "results/statistics.h"
 
 #include <fmt/format.h>
@@ -119,9 +120,9 @@ std::string statement_on(const std::vector<TargetMean>& means, const double tole
   if (missed.empty() && undecided.empty())
     return fmt::format("All targets were reached within {:g} %.", percent);
   if (missed.empty())
-    return fmt::format("it is not decided whether all targets were reached within {:g} %: {}; raise "
-                       "Calibration/Most packings, test larger specimens or widen Calibration/Tolerance",
-                       percent, listed(undecided));
+    return fmt::format(
+      "it is not decided whether all targets were reached within {:g} %: {}; raise {}, test larger specimens or widen {}",
+      percent, listed(undecided), input_entries::most_packings.text(), input_entries::tolerance.text());
   const std::string and_undecided = undecided.empty() ? "" : fmt::format("; not decided: {}", listed(undecided));
   return fmt::format("not all targets were reached; off by more than the tolerance of {:g} %: {}{}", percent,
                      listed(missed), and_undecided);

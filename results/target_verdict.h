@@ -21,7 +21,7 @@ enum class TargetVerdict
 std::string name(TargetVerdict verdict);
 /// The same in a sentence.
 std::string words(TargetVerdict verdict);
-/// None for another name.
+/// Verdict of a name; none for another name.
 std::optional<TargetVerdict> verdict_of_name(const std::string& name);
 
 /// A figure of packings beside its target; shares are of the target.

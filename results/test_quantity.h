@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/prefixes.h"
-#include "results/bookkeeping.h"
-#include "results/record.h"
+#include "laboratory/bookkeeping.h"
+#include "laboratory/record.h"
 
 #include <cstdint>
 #include <numbers>
@@ -115,7 +115,7 @@ struct TestQuantity
   using Member = std::variant<Figure TestResults::*, double TestResults::*, std::uint64_t TestResults::*,
                               double TestRecord::*, double SpecimenReport::*, std::uint64_t SpecimenReport::*,
                               double RunBookkeeping::*, std::uint64_t RunBookkeeping::*>;
-  /// None of a number that the test counts or knows itself.
+  /// Evaluation of a quantity; none of a number that the test counts or knows itself.
   using Evaluation = std::variant<std::monostate, Figure (*)(const RisingBranch&), Figure (*)(const TestRecord&)>;
 
   Member member;
@@ -138,7 +138,7 @@ struct TestQuantity
     const auto* const found = std::get_if<Figure TestResults::*>(&member);
     return found ? *found : nullptr;
   }
-  /// Whether only a model has it, and no curve measured on rock.
+  /// Returns whether only a model has the quantity, and no curve measured on rock.
   constexpr bool is_of_model() const { return !figure() && of != QuantityOf::loading; }
 
   constexpr void set(const QuantityOf value) { of = value; }
@@ -161,7 +161,7 @@ enum class PropertySource
   fit               ///< of several tests
 };
 
-/// Whether tests of a kind give properties of this source.
+/// Returns whether tests of a kind give properties of this source.
 bool gives(PropertySource source, const TestKind& kind);
 
 /// Scale of the micro-parameters with which a property goes, all their ratios kept.
@@ -173,7 +173,7 @@ enum class ResponseScale
   none      ///< Poisson's ratio
 };
 
-/// Which of several figures of one key.
+/// Choice among several figures of one key.
 struct Choice
 {
   std::string_view name;

@@ -19,6 +19,6 @@ struct WrittenNumber
   std::string unit; ///< empty: none
 };
 
-/// None where the value is no single number, such as a name or a list.
+/// Number of a setting; none where the value is no single number, such as a name or a list.
 std::optional<WrittenNumber> number_of(const VariantSetting& setting);
 } // namespace feldspar

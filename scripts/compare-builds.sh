@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What `./bootstrap.sh build` takes in a clean clone of two commits, in processor time. The packages must be installed.
+# Measures the processor time of `./bootstrap.sh build` in a clean clone of two commits. The packages must be installed.
 #
 #   scripts/compare-builds.sh OLD_COMMIT NEW_COMMIT
 #

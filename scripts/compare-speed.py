@@ -48,7 +48,8 @@ def processor():
 
 
 def vector_instructions(build):
-    """Those that the packs of a build use, as names of files of figures have it: avx512, avx2 or base."""
+    """Returns the instructions that the packs of a build use, as names of files of figures have it: avx512, avx2 or
+    base."""
     chosen = re.search(r"-march=(\S+)", flags(build))
     levels = {"x86-64-v3": "avx2", "x86-64-v4": "avx512"}
     if not chosen or chosen.group(1) != "native":

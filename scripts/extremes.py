@@ -61,7 +61,7 @@ def extremes(unit, allowed):
 
 
 def fault(code, words, folder):
-    """What is wrong with the end of a run; empty if nothing is."""
+    """Returns the fault of the end of a run; empty if there is none."""
     lines = [line for line in words.splitlines() if line.strip()]
     if code not in (0, 2):
         return f"exit code {code}"

@@ -4,11 +4,11 @@
 #   scripts/fuzz.sh                      an hour of a core over all readers
 #   scripts/fuzz.sh SECONDS [READER...]  so much time of a core over these readers; in the continuous integration a minute
 #
-# Inputs that are new to the code are kept in build/fuzz/corpus/READER, from where a later call goes on. What a reader
-# takes badly is left in build/fuzz/found and shown at the end as base64, for a machine that is gone afterwards; copied to
-# tests/fuzz/corpus/READER it is read again by every build (fuzz_replay_tests). The random numbers begin with a seed that
-# is the first digits of the commit: another one begins elsewhere, the same one in a fresh folder tries the same inputs
-# again, as far as the time lets it.
+# Inputs that are new to the code are kept in build/fuzz/corpus/READER, from where a later call goes on. Inputs that a
+# reader takes badly are left in build/fuzz/found and shown at the end as base64, for a machine that is gone afterwards;
+# copied to tests/fuzz/corpus/READER they are read again by every build (fuzz_replay_tests). The random numbers begin
+# with a seed that is the first digits of the commit: another one begins elsewhere, the same one in a fresh folder tries
+# the same inputs again, as far as the time lets it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -60,7 +60,7 @@ FIGURES_OF_RESULTS = {
         "envelopes.svg",
     ),
 }
-# By a study of its own, which draws from its committed results when no run is named.
+# Figures made by a study of its own, which draws from its committed results when no run is named.
 FIGURES_OF_STUDIES = {
     "multiscale-and-grains.png": "examples/multiscale-and-grains/study.py",
     "plate-with-hole.png": "examples/plate-with-hole/study.py",
@@ -85,7 +85,7 @@ def of_results(feldspar, series, work):
         shutil.copyfile(os.path.join(ROOT, results), os.path.join(folder, "summary.json"))
         folders.append(folder)
     report = os.path.join(work, "report")
-    # It says that these series are different rocks and have no curves.
+    # The report says that these series are different rocks and have no curves.
     subprocess.run(
         [feldspar, "report", *folders, "--output", report, "--force"],
         check=True,

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Refuses a program whose results could not be traced to a commit. What writes committed results asks it first.
+# Refuses a program whose results could not be traced to a commit. Scripts that write committed results ask it first.
 #
 #   scripts/provenance.sh PROGRAM
 #

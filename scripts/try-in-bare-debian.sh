@@ -6,9 +6,9 @@
 #   scripts/try-in-bare-debian.sh FOLDER     in this one, which is absent or empty before and stays
 #
 # A Debian 12 of its smallest packages and sudo gets a clone of what is committed here, and a user. This user runs the
-# commands of README.md that install, `feldspar version`, and each page of docs/tutorials in a folder of its own, with the
-# files as they are printed there. The time of each stage is printed; the first command that fails ends the trial. What is
-# mounted inside goes with the commands that need it.
+# commands of README.md that install, `feldspar version`, and each page of docs/tutorials in a folder of its own, with
+# the files as they are printed there. The time of each stage is printed; the first command that fails ends the trial.
+# File systems mounted inside go with the commands that need them.
 #
 # Needs root, Debian's mmdebstrap and git, 5 GB of disk, and a host whose /etc/apt reaches the packages of Debian 12: the
 # trial takes it over.
@@ -61,7 +61,7 @@ echo 'reader ALL=(ALL) NOPASSWD: ALL' >/etc/sudoers.d/reader
 END
 }
 
-# Of what is committed, as a reader gets it.
+# Clones what is committed, as a reader gets it.
 clone()
 {
   git clone --quiet --no-local "$tree" "$clone" && inside root <<<'chown --recursive reader: /home/reader/feldspar'

@@ -20,7 +20,7 @@ from tables import benchmarks, grains, samples
 from tables.values import ROOT
 
 TABLES = grains.TABLES | samples.TABLES | benchmarks.TABLES
-PAGES = ("docs/*.md", "examples/*/README.md", "benchmarks/README.md")
+PAGES = ("docs/*.md", "examples/*/README.md", "benchmarks/*.md")
 MARKED = re.compile(r"<!-- table: (?P<name>.+?) -->\n(?P<rows>(?:\|.*\n)+)<!-- /table -->")
 BY_HEADING = re.compile(rf"^(?P<rows>(?P<name>{'|'.join(map(re.escape, benchmarks.TABLES))})(?:.*\n)(?:\|.*\n)+)",
                         re.MULTILINE)

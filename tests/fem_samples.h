@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-/// What several tests of the solid need.
+/// Samples and checks that several tests of the solid need.
 namespace feldspar::fem
 {
 /// Quarter of a ring about the origin, in the quadrant x, y > 0.

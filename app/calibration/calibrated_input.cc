@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 7> sections_of_laboratory{
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// As it will be written: the round-off of products and logarithms would show in files.
+/// Value as it will be written: the round-off of products and logarithms would show in files.
 double without_round_off(const double value) { return parse_number(fmt::format("{:.11e}", value)); }
 
 /// b by which a ratio a : b is kept where a becomes another.
@@ -29,7 +29,7 @@ double kept(const double a, const double b, const double new_a)
   return a > 0.0 ? without_round_off(b * new_a / a) : b;
 }
 
-/// To four figures.
+/// Rounds a value to four figures of its unit.
 double to_figures(const double value, const double unit)
 {
   return parse_number(fmt::format("{:.3e}", value / unit)) * unit;

@@ -11,7 +11,6 @@
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/specimen_source.h"
 #include "app/run/interrupt.h"
-#include "app/run/jobs.h"
 #include "app/screen/progress.h"
 #include "base/input_error.h"
 #include "base/text.h"
@@ -19,6 +18,7 @@
 #include "calibration/calibration_file.h"
 #include "calibration/fit.h"
 #include "calibration/target_outcomes.h"
+#include "runs/jobs.h"
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ public:
   }
 
 private:
-  /// By one of the packings, and by rough scales of the rock.
+  /// Reports the expected cost, by one of the packings and by rough scales of the rock.
   void tell_cost(const Specimen<dim>& first)
   {
     const MicroParameters guess = first_guess(problem, micro_parameters(input));
@@ -130,8 +130,8 @@ private:
     return {problem.responses, problem.unknowns, fixed, elastic, gap};
   }
 
-  /// Those on which no test can begin are left out: every point is tested on each, and a figure that one of them never
-  /// gives would be learnt from none. The rock is that of the middle of the design.
+  /// Packings of the design. A packing on which no test can begin is left out: every point is tested on each, and a
+  /// figure that one of them never gives would be learnt from none. The rock is that of the middle of the design.
   std::vector<std::uint64_t> packings_of_design(const Input& rock)
   {
     constexpr std::size_t most_left_out = 10;
@@ -218,13 +218,14 @@ private:
         fit = best_fit(model, problem.targets, wanted.tolerance,
                        {problem.has_modulus, problem.has_strength, best.place.point, half_width}, best.place);
       }
-    // By all that was learnt on the way.
+    // Corrections by all that was learnt on the way.
     model.correct(corrections);
     return best_fit(model, problem.targets, wanted.tolerance,
                     {problem.has_modulus, problem.has_strength, best.place.point, 0.5 * half_width}, best.place);
   }
 
-  /// Whether strengths go with the bonds' at another ratio of strength to stiffness: then strains are larger.
+  /// Tests whether strengths are proportional to those of the bonds at another ratio of strength to stiffness: strains
+  /// are then larger.
   void test_strain_scale(const ResponseModel& model, const Place& place)
   {
     if (!problem.has_strength)
@@ -294,7 +295,7 @@ private:
     return end_with(verdict, statement);
   }
 
-  /// Where the surrogates already tell that the targets contradict each other.
+  /// Ends the calibration where the surrogates already tell that the targets contradict each other.
   RunEnd end_out_of_reach(const ResponseModel& model, const Fit& fit, const std::vector<TargetOutcome>& predicted)
   {
     const std::string objection = nearest_in_words(predicted, model);
@@ -342,7 +343,7 @@ private:
     std::iota(result.seeds.begin(), result.seeds.end(), first_seed);
     result.calibration = {};
     result.reference_file = std::filesystem::canonical(input.reference_file).string();
-    // As a reader of the file would have it, to the last bit.
+    // Values as a reader of the file would have them, to the last bit.
     const auto file = run.folder / "calibration" / "answer.prm";
     std::filesystem::create_directories(file.parent_path());
     write_whole_file(file, as_prm(result, ""));
@@ -371,7 +372,8 @@ private:
     const std::vector<Variant> one{{"", best_input}};
     const auto orders = specimen_orders(one);
     const auto specimens = provide_specimens<dim>(one, orders, folder, progress);
-    auto finished_tests = run_programme(one, orders, specimens, folder, progress);
+    const auto planned = plan_tests(one, orders, seeds_of(orders, specimens));
+    auto finished_tests = run_programme(one, planned, specimens, folder, progress);
     end_if_interrupted();
     return finished_tests;
   }

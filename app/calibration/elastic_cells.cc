@@ -2,18 +2,18 @@
 
 #include "app/calibration/calibrated_input.h"
 #include "app/calibration/kept_values.h"
+#include "app/programme/run_board.h"
 #include "app/run/interrupt.h"
-#include "app/run/jobs.h"
 #include "app/run/run_record.h"
 #include "coupling/network/network.h"
 #include "coupling/rve/homogenisation.h"
 #include "dem/genesis/genesis.h"
+#include "runs/jobs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,7 +36,7 @@ Input cell_of(const Input& input)
 {
   constexpr double n_grains = 900.0; // the constants of a cell then scatter by about a per cent
   Input cell = input;
-  cell.specimen.shape = "periodic";
+  cell.specimen.shape = BodyShape::periodic;
   cell.specimen.coring = Coring::none; // a core is cut from such a cell
   cell.specimen.cells_across = 1;
   cell.specimen.cells_along = 1;
@@ -96,15 +96,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
   std::vector<Specimen<dim>> packings(orders.empty() ? 0 : n_packings);
   for_each_job(packings.size(), [&](const std::size_t k) { packings[k] = packing_of<dim>(cell, k + 1); });
 
-  std::mutex showing;
-  std::size_t n_done = 0;
-  const auto show = [&](const std::size_t n_more) {
-    const std::lock_guard lock(showing);
-    n_done += n_more;
-    progress.update(orders.empty() ? 1.0 : double(n_done) / double(orders.size()),
-                    fmt::format("{} of {} done", n_done, orders.size()));
-  };
-  show(0);
+  RunBoard board(progress, "", std::vector<BoardPart>(orders.size()));
   for_each_job(orders.size(), [&](const std::size_t job) {
     end_if_interrupted();
     const Order& order = orders[job];
@@ -121,7 +113,7 @@ ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& 
       }
     constants[order.gap][order.ratio] = mean;
     write_values(order.file, order.identity, {mean.modulus_ratio, mean.poissons_ratio});
-    show(1);
+    board.ended(job);
   });
   return {ratios, gaps, constants};
 }

@@ -12,8 +12,9 @@
 namespace feldspar::calibration
 {
 /// Elastic constants of the input's rock from intact periodic cells of some 900 grains: the mean of three packings for
-/// each stiffness ratio between the bounds, and each gap between them (or the one given). Without bounds: of the input's
-/// own ratio. What has come out stands in folder/calibration, a file for each ratio and gap, and is not made again.
+/// each stiffness ratio between the bounds, and each gap between them (or the one given). Without bounds, the input's
+/// own ratio is used. Results are kept in folder/calibration, a file for each ratio and gap, and are not computed
+/// again.
 template <int dim>
 ElasticTable elastic_constants(const Input& input, const std::optional<Bounds>& stiffness_ratio,
                                const std::optional<Bounds>& gap, double gap_of_specimens,

@@ -36,7 +36,7 @@ void check(const Input& input)
     refuse("Report/Reference file: is needed; it has the laboratory's figures that are to be reached");
 }
 
-/// Problems that no fit can solve; a reference file that does not serve is told by its own name.
+/// Problems that no fit can solve; a reference file that does not serve is reported by its own name.
 void check_problem(const Problem& problem, const CalibrationParameters& wanted)
 {
   if (problem.unknowns.empty())

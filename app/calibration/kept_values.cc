@@ -1,6 +1,6 @@
 #include "app/calibration/kept_values.h"
 
-#include "base/seal.h"
+#include "base/checksum/seal.h"
 
 #include <nlohmann/json.hpp>
 

@@ -29,8 +29,8 @@ std::string in_words(const double scatter, const CalibrationParameters& wanted)
 std::string usual_precision(const CalibrationParameters& wanted, const unsigned int dimension,
                             const std::size_t n_grains)
 {
-  // By the examples: 10 % of 1900 discs (calibrate-beishan), 14 % of 700 (calibrate-hidden-rocks), 5 % of 3000 spheres
-  // (calibrate-beishan-cylinder). The scatter falls with the square root of the number of grains.
+  // Scatter by the examples: 10 % of 1900 discs (calibrate-beishan), 14 % of 700 (calibrate-hidden-rocks), 5 % of 3000
+  // spheres (calibrate-beishan-cylinder). The scatter falls with the square root of the number of grains.
   const double scatter = (dimension == 2 ? 4.0 : 3.0) / std::sqrt(double(n_grains));
   return fmt::format("Usual precision of compressive strengths of so many grains (Calibration/Most packings = {}): {}.",
                      wanted.most_packings, in_words(scatter, wanted));

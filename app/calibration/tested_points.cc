@@ -4,82 +4,57 @@
 #include "app/calibration/kept_values.h"
 #include "app/input/joint_sections.h"
 #include "app/programme/lab_run.h"
+#include "app/programme/run_board.h"
 #include "app/run/interrupt.h"
-#include "app/run/jobs.h"
 #include "app/run/run_record.h"
 #include "app/screen/expected_length.h"
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/rock/rock.h"
+#include "runs/jobs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <mutex>
-#include <numeric>
 #include <utility>
 
 namespace feldspar::calibration
 {
 namespace
 {
-/// The strain at which a test will probably end.
-double expected_end(const TestCase& test, const Input& rock)
+/// The tests of all points, by what is simulated [s].
+std::vector<BoardPart> for_board(const std::vector<TestCase>& programme, const Input& input, const std::size_t n_points)
 {
-  return expected_last_strain(expected_strain_at_peak(test, rock).value_or(0.0), rock.tests);
+  std::vector<BoardPart> parts;
+  for (std::size_t k = 0; k < n_points; ++k)
+    for (const TestCase& test : programme)
+      parts.push_back({"", expected_last_strain(test, input) / (*protocol_of(test.kind).strain_rate)(input.tests)});
+  return parts;
 }
 
-/// Of several points at a time, by the strains that their tests have come to.
-class PointBoard
+/// Shows a test by the strain that it has come to.
+class TestObserver : public RunObserver
 {
 public:
-  PointBoard(Progress& shown, const std::vector<TestCase>& programme, const Input& input, const std::size_t n_points)
-    : progress(shown)
-    , points(n_points, 0.0)
-    , n_tests(programme.size() * n_points)
+  TestObserver(RunBoard& shown, const TestCase& of, const double expected_strain)
+    : board(shown)
+    , test(of)
+    , last_strain(expected_strain)
   {
-    for (const TestCase& test : programme)
-      costs.push_back(expected_end(test, input) / (*protocol_of(test.kind).strain_rate)(input.tests));
-    left = double(n_points) * std::accumulate(costs.begin(), costs.end(), 0.0);
   }
 
-  /// The j-th test of the k-th point has come to this share of itself.
-  void update(const std::size_t k, const std::size_t j, const double share)
+  bool wants_end() const override { return board.wants_end(); }
+  void advanced(const std::size_t part, const PartStanding& standing) override
   {
-    const std::lock_guard lock(showing);
-    points[k] =
-      std::accumulate(costs.begin(), costs.begin() + std::ptrdiff_t(j), 0.0) + std::min(share, 1.0) * costs[j];
-    n_done += share >= 1.0;
-    draw();
-  }
-
-  /// A point that an earlier run has made is no work of this one.
-  void take_up()
-  {
-    const std::lock_guard lock(showing);
-    left -= std::accumulate(costs.begin(), costs.end(), 0.0);
-    n_done += costs.size();
-    draw();
+    constexpr double most = 0.99; // until it has ended
+    board.advanced(part, {nullptr, std::min(most, test.kind.strain(*standing.row) / last_strain)});
   }
 
 private:
-  void draw()
-  {
-    const double spent = std::accumulate(points.begin(), points.end(), 0.0);
-    const double fraction = left > 0.0 ? std::min(spent / left, 1.0) : double(n_done) / double(n_tests);
-    progress.update(fraction, fmt::format("{} of {} tests", n_done, n_tests));
-  }
-
-  Progress& progress;
-  std::mutex showing;
-  std::vector<double> costs;  ///< of the tests of a point, by the time that is simulated [s]
-  std::vector<double> points; ///< what has been spent on each
-  double left = 0.0;          ///< in all, but for points that were taken up
-  std::size_t n_tests;
-  std::size_t n_done = 0;
+  RunBoard& board;
+  const TestCase& test;
+  double last_strain;
 };
 } // namespace
 
@@ -123,8 +98,9 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
   std::filesystem::create_directories(kept);
   std::filesystem::create_directories(checkpoints);
   const std::vector<TestCase> programme = test_cases(input.test_list, input.confinements);
+  const auto part = [&](const std::size_t k, const std::size_t j) { return k * programme.size() + j; };
   std::vector<TestedPoint> tested(orders.size());
-  PointBoard board(progress, programme, input, orders.size());
+  RunBoard board(progress, "", for_board(programme, input, orders.size()));
   for_each_job(orders.size(), [&](const std::size_t k) {
     const PointOrder& order = orders[k];
     tested[k] = {order.stage, order.number, order.seed, order.point, order.parameters, {}};
@@ -134,7 +110,8 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
     if (auto values = read_values(file, identity, responses.size()))
       {
         tested[k].values = std::move(*values);
-        board.take_up();
+        for (std::size_t j = 0; j < programme.size(); ++j)
+          board.taken_up(part(k, j));
         return;
       }
     end_if_interrupted();
@@ -149,26 +126,24 @@ std::vector<TestedPoint> test_points(const Input& input, const std::vector<Respo
             try
               {
                 const std::string full_name = name_of(test);
-                TestOutcome outcome =
-                  run_test(test, rock, specimen, Checkpoints(checkpoints, full_name, run_identity(rock, full_name)),
-                           [&](const CurveSample& row) {
-                             constexpr double most = 0.99; // until it has ended
-                             board.update(k, j, std::min(most, test.kind.strain(row) / expected_end(test, rock)));
-                           });
+                TestObserver observer(board, test, expected_last_strain(test, rock));
+                const LaboratoryOrder wanted = laboratory_order(test, rock, full_name);
+                TestOutcome outcome = run_test(wanted, specimen, Checkpoints(checkpoints, full_name, wanted.identity),
+                                               part(k, j), observer);
                 end_if_interrupted();
                 finished_tests.push_back(finished(std::move(outcome), name(test), full_name, ""));
               }
             catch (const InputError&)
               {
-                // These parameters cannot bear the test, such as its confinement: a point without that figure.
+                // These parameters cannot withstand the test, such as its confinement: a point without that figure.
               }
-            board.update(k, j, 1.0);
+            board.ended(part(k, j));
           }
       }
     catch (const InputError&)
       {
         for (std::size_t j = 0; j < programme.size(); ++j)
-          board.update(k, j, 1.0); // no specimen can be made of them
+          board.ended(part(k, j)); // no specimen can be made of them
       }
     tested[k].values = values_of(responses, finished_tests);
     write_values(file, identity, tested[k].values);

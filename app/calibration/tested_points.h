@@ -28,9 +28,9 @@ struct PointOrder
 template <int dim>
 std::string objection_to_packing(const Input& rock, std::uint64_t seed, const std::filesystem::path& folder);
 
-/// Runs the programme of the input on each, as many at a time as there are threads, by the same code as `feldspar lab`.
-/// What has come out stands in folder/calibration, a file each, and is not made again; a test that was broken off is
-/// taken up from its checkpoint. Throws Interrupted.
+/// Runs the programme of the input on each point, as many at a time as there are threads, by the same code as `feldspar
+/// lab`. Results are kept in folder/calibration, a file each, and are not computed again; a test that was interrupted
+/// is resumed from its checkpoint. Throws Interrupted.
 template <int dim>
 std::vector<TestedPoint> test_points(const Input& input, const std::vector<Response>& responses,
                                      const std::vector<PointOrder>& orders, const std::filesystem::path& folder,

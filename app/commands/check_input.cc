@@ -3,13 +3,13 @@
 #include "app/calibration/input_check.h"
 #include "app/commands/commands.h"
 #include "app/input/joint_sections.h"
+#include "app/processes/finite_elements.h"
 #include "app/programme/checks.h"
 #include "app/programme/genesis_effort.h"
 #include "app/programme/laboratory_effort.h"
 #include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
 #include "app/programme/usual_ranges.h"
-#include "app/run/finite_elements.h"
 #include "app/run/interrupt.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
@@ -111,7 +111,7 @@ struct Check
   Remarks (*of)(const Input& input, const std::filesystem::path& file);
 };
 
-/// Of commands_with_input, in the same order.
+/// Checks of commands_with_input, in the same order.
 constexpr std::array checks{Check{"lab", check_lab},
                             Check{"rve", check_rve},
                             Check{"multiscale", check_multiscale},
@@ -123,7 +123,7 @@ static_assert(std::equal(checks.begin(), checks.end(), commands_with_input.begin
                            return check.command == command.name;
                          }));
 
-/// Of every command, on one input.
+/// Checks one input for every command.
 void check_for_all(const Input& input, const std::filesystem::path& file)
 {
   const std::string beginning = file.string() + ": ";

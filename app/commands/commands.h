@@ -2,9 +2,11 @@
 
 #include "app/run/run.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The subcommands. Each returns the exit code; a user's mistake comes as InputError.
@@ -22,7 +24,38 @@ int run_specimen(const CommonOptions& options);
 
 int run_contact(const CommonOptions& options);
 
-/// What `feldspar contact` writes: the response of the joint to its path, as CSV. Throws InputError.
+/// A subcommand that reads an input file.
+struct CommandWithInput
+{
+  std::string_view name;
+  std::string_view description;
+  int (*run)(const CommonOptions&);
+  bool runs_long; ///< and can be resumed
+  bool tests_rock;
+  std::string_view examples; ///< for its help
+};
+
+/// All of them: a new one is a line here, its check in check_input.cc and a file of its own.
+inline constexpr std::array commands_with_input{
+  CommandWithInput{"lab", "DEM laboratory tests: genesis, tests, results, report", run_lab, true, true,
+                   "feldspar lab granite.prm --output granite --threads 4\n"
+                   "  feldspar lab granite.prm --set 'Seeds/Seeds = 1..10'\n"
+                   "  feldspar lab --resume granite"},
+  CommandWithInput{"rve", "a periodic cell of grains along a path of strain or stress", run_rve, true, true,
+                   "feldspar rve cell.prm"},
+  CommandWithInput{"multiscale", "laboratory tests on a mesh with a representative volume at every point",
+                   run_multiscale, true, true,
+                   "feldspar multiscale sample.prm\n  mpirun -np 8 feldspar multiscale sample.prm\n"
+                   "  feldspar multiscale sample-results-001 --extract 12:0"},
+  CommandWithInput{"calibrate", "micro-parameters of a rock from its laboratory values", run_calibrate, true, true,
+                   "feldspar calibrate rock.prm --output rock\n  feldspar lab rock/best.prm\n"
+                   "  feldspar calibrate --resume rock"},
+  CommandWithInput{"specimen", "genesis only; writes specimen.h5", run_specimen, false, false,
+                   "feldspar specimen granite.prm"},
+  CommandWithInput{"contact", "one contact along a displacement path; writes contact.csv", run_contact, false, true,
+                   "feldspar contact contact.prm"}};
+
+/// Returns the output of `feldspar contact`: the response of the joint to its path, as CSV. Throws InputError.
 std::string contact_response(const Input& input, const std::filesystem::path& input_file);
 
 struct ReportOptions

@@ -45,7 +45,7 @@ double normal_stress(const Law&, const Face<double>& face, const FaceElement<dim
   return mean_stress(place_segment(face, element).segment, update.normal);
 }
 
-/// That of the bond.
+/// Normal stress of the bond.
 template <int dim>
 double normal_stress(const ParallelBond<dim>&, const Face<double>& face, const FaceElement<dim>&,
                      const FaceMotion<dim, double>& motion,
@@ -105,7 +105,7 @@ std::string csv_header(const std::size_t n_segments)
   return header + '\n';
 }
 
-/// From one row of the path to the next; the contact plane stays where it is.
+/// Motion of the face from one row of the path to the next; the contact plane stays where it is.
 template <int dim>
 FaceMotion<dim, double> row_motion(const std::vector<double>& before, const std::vector<double>& now)
 {

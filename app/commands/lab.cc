@@ -12,7 +12,7 @@
 #include "app/screen/progress.h"
 #include "base/append.h"
 #include "base/input_error.h"
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/seating.h"
 #include "report/sections/comparison.h"
@@ -21,6 +21,7 @@
 #include "results/folder/reference.h"
 #include "results/folder/result_folder.h"
 #include "results/runs/trust.h"
+#include "runs/share_out.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,35 +81,28 @@ std::string describe_run(const std::vector<Variant>& variants, const std::vector
   return text + trust_as_text(tests) + line_by_line(missing);
 }
 
-/// Several processes make the specimens, each its share, and then the tests, each its share: what has ended lies in the
-/// folder.
+/// Each process makes its share of the specimens, and then of the tests.
 template <int dim>
 void share_out_tests(const Run& run, Progress& progress)
 {
   const auto all_variants = variants(run.input);
   const auto orders = specimen_orders(all_variants);
   check_memory_of_tests(all_variants, orders);
-  const Share share{ranks::number(), ranks::mine()};
-  std::vector<SpecimenOrder> own;
-  for (std::size_t k = share.mine; k < orders.size(); k += share.number)
-    own.push_back(orders[k]);
+  share_out_specimens<dim>(all_variants, orders, run.folder, progress);
   together_or_interrupted([&] {
-    if (!own.empty())
-      provide_specimens<dim>(all_variants, own, run.folder, progress);
-  });
-  together_or_interrupted([&] {
-    std::vector<SpecimenOrder> needed;
-    const std::vector<std::size_t> numbers = specimens_of(all_variants, orders, share);
-    for (const std::size_t k : numbers)
-      needed.push_back(orders[k]);
-    if (needed.empty())
-      return;
-    auto read = provide_specimens<dim>(all_variants, needed, run.folder, progress);
-    std::vector<Specimen<dim>> specimens(orders.size());
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-      specimens[numbers[k]] = std::move(read[k]);
-    if (std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.periodic; }))
-      run_programme(all_variants, orders, specimens, run.folder, progress, share);
+    const auto own_tests = [&](const std::vector<Specimen<dim>>& known) {
+      const auto all = plan_tests(all_variants, orders, seeds_of(orders, known));
+      std::vector<LaboratoryOrder> own;
+      for (const std::size_t k : share_of_this_process(longest_first(all)))
+        own.push_back(all[k]);
+      return own;
+    };
+    const auto tests = own_tests(std::vector<Specimen<dim>>(orders.size()));
+    const auto specimens = provide_specimens_of<dim>(tests, all_variants, orders, run.folder, progress);
+    // The first process meets again what cannot be made, and reports it.
+    if (!tests.empty() &&
+        std::none_of(specimens.begin(), specimens.end(), [](const auto& specimen) { return specimen.is_periodic(); }))
+      run_programme(all_variants, own_tests(specimens), specimens, run.folder, progress, false);
     end_if_interrupted();
   });
 }
@@ -150,7 +144,8 @@ RunEnd test_alone(const Run& run, Progress& progress)
 
   // Break it.
   check_that_one_fills_its_box(specimens);
-  const auto tests = run_programme(all_variants, orders, specimens, folder, progress);
+  const auto planned = plan_tests(all_variants, orders, seeds_of(orders, specimens));
+  const auto tests = run_programme(all_variants, planned, specimens, folder, progress);
   const auto failed =
     std::find_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return !test.record.failure.empty(); });
   const auto has_nothing = [](const FinishedTest& test) {
@@ -168,7 +163,7 @@ RunEnd test_alone(const Run& run, Progress& progress)
     bodies.push_back(specimen.report);
   append(missing, beside_reference_body(input, bodies));
   write_log(folder, describe_run(all_variants, specimens, tests, envelopes, missing), run.quiet);
-  // Of what was interrupted while it was drawn the pictures are still to be made.
+  // Pictures are still to be made if the run was interrupted while it drew them.
   return {was_interrupted || interrupted(),
           failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }

@@ -19,7 +19,8 @@ std::vector<const CLI::App*> commands_of(const CLI::App& command_line)
   return command_line.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// In roff a backslash is an order, a hyphen may become a dash, and a line that begins with a dot or a quote is a request.
+/// Escapes text for roff: a backslash is an order there, a hyphen may become a dash, and a line that begins with a dot
+/// or a quote is a request.
 std::string in_roff(const std::string_view text)
 {
   std::string safe;
@@ -39,7 +40,7 @@ std::string in_roff(const std::string_view text)
   return safe;
 }
 
-/// As it is typed: --output DIR.
+/// Option as it is typed: --output DIR.
 std::string usage(const CLI::Option& option)
 {
   std::string text = option.get_name();
@@ -108,7 +109,7 @@ std::string manual_page(const CLI::App& command_line)
       for (const Parameter& parameter : parameter_table())
         if (parameter.section == section)
           text += fmt::format(".TP\n\\fB{}\\fR\n{}.\nDefault {}{}; range {}.\n", in_roff(parameter.entry),
-                              in_roff(parameter.meaning), in_roff(parameter.default_text()),
+                              in_roff(parameter.described()), in_roff(parameter.default_text()),
                               parameter.unit.empty() ? "" : fmt::format("; in {}", in_roff(parameter.unit)),
                               in_roff(parameter.range));
     }

@@ -1,18 +1,20 @@
 #include "app/commands/commands.h"
 #include "app/commands/rve_extract.h"
 #include "app/input/input.h"
+#include "app/processes/finite_elements.h"
+#include "app/programme/checks.h"
 #include "app/programme/multiscale_run.h"
 #include "app/programme/reference_body.h"
+#include "app/programme/run_board.h"
 #include "app/programme/run_report.h"
 #include "app/programme/sample_checks.h"
 #include "app/programme/specimen_source.h"
-#include "app/run/finite_elements.h"
 #include "app/run/interrupt.h"
+#include "app/run/launched.h"
 #include "app/run/provenance.h"
-#include "app/screen/progress_board.h"
 #include "base/append.h"
 #include "base/input_error.h"
-#include "coupling/sample/ranks.h"
+#include "base/ranks/ranks.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/sections/comparison.h"
 #include "report/sections/test_tables.h"
@@ -68,31 +70,14 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
   const auto rocks = make_rocks(input, run.input_file, run.folder, progress);
 
   // Break it.
+  const SampleSettings settings = sample_settings(input);
   std::vector<PlannedSample> planned;
-  try
-    {
-      planned = plan(input, rocks);
-    }
-  catch (const InputError& error)
-    {
-      throw InputError(fmt::format("{}: {}", run.input_file.string(), error.what()));
-    }
-  ranks::first([&] { std::filesystem::create_directories(run.folder / "fields"); });
-  std::vector<FinishedTest> tests;
-  std::vector<BoardTest> shown;
+  with_name_of(run.input_file, [&] { planned = plan(input, rocks, settings); });
+  std::vector<BoardPart> shown;
   for (const PlannedSample& one : planned)
-    shown.push_back({one.name, one.test, &input, cost_of_sample(one.test.kind, input.sample)});
-  ProgressBoard board(progress, shown);
-  for (const PlannedSample& one : planned)
-    {
-      if (ranks::any(interrupted()))
-        break;
-      const std::size_t k = tests.size();
-      tests.push_back(run_test(one, input, run.folder, [&](const CurveSample* const row, const std::string& more) {
-        row ? board.update(k, *row, more) : board.update(k, more);
-      }));
-      board.finish(k);
-    }
+    shown.push_back({one.name, 1.0, BoardTest{one.test, &input, cost_of_sample(one.test.kind, input.sample)}});
+  RunBoard board(progress, "tests", shown);
+  const auto tests = run_samples(planned, run.folder, board);
   progress.finish(
     fmt::format("{} of {} done",
                 std::count_if(tests.begin(), tests.end(), [](const FinishedTest& test) { return test.was_made(); }),
@@ -116,7 +101,7 @@ RunEnd go(const Run& run, std::vector<std::string> remarks)
     append(remarks, beside_reference_body(input, bodies));
     write_log(run.folder, describe_run(input, rocks, tests, envelopes, remarks), run.quiet);
   });
-  // Of what was interrupted while it was drawn the pictures are still to be made.
+  // Pictures are still to be made if the run was interrupted while it drew them.
   return {ranks::any(was_interrupted || interrupted()),
           failed == tests.end() ? "" : fmt::format("{}: {}", failed->name, failed->record.failure)};
 }

@@ -24,7 +24,7 @@ void print_entry(const std::string& heading, const Parameter& parameter)
 {
   const std::string text =
     fmt::format("{}\n    unit {}; default {}; range {}\n    {}\n", heading, or_dash(parameter.unit),
-                parameter.default_text(), parameter.range, parameter.meaning);
+                parameter.default_text(), parameter.range, parameter.described());
   const auto columns = columns_of_terminal();
   print_result("{}", columns ? wrapped(text, *columns) : text);
 }
@@ -43,7 +43,7 @@ void print_markdown(const std::string_view section, const Entries& entries)
   print_result("\n### {}\n\n| entry | unit | default | range | meaning |\n|---|---|---|---|---|\n", section);
   for (const Parameter* const parameter : entries)
     print_result("| {} | {} | {} | {} | {} |\n", parameter->entry, or_dash(parameter->unit), parameter->default_text(),
-                 parameter->range, parameter->meaning);
+                 parameter->range, parameter->described());
 }
 
 /// The entries of all sections, or of one, that are basic or not; without `basic` both.
@@ -67,8 +67,8 @@ void print_found(const std::string& word)
   const std::string wanted = in_small_letters(word);
   bool found = false;
   for (const Parameter& parameter : parameter_table())
-    if (in_small_letters(fmt::format("{} {} {}", parameter.name(), parameter.meaning, parameter.range)).find(wanted) !=
-        std::string::npos)
+    if (in_small_letters(fmt::format("{} {} {}", parameter.name(), parameter.described(), parameter.range))
+          .find(wanted) != std::string::npos)
       {
         print_entry(parameter.name(), parameter);
         found = true;

@@ -16,7 +16,7 @@ int run_report(const ReportOptions& options)
   ReportOrder order{options.result_folders, options.curves, options.reference, {}};
   if (order.result_folders.empty() && order.curves.empty())
     throw InputError("report needs the folders of results, or --curve with a measured one; see feldspar report --help");
-  // Of one folder the report goes into it, beside its results.
+  // The report of one folder goes into it, beside its results.
   const bool beside_results = order.result_folders.size() == 1 && !options.output;
   if (options.reference)
     read_reference(*options.reference, test_kinds()); // before anything is written

@@ -15,7 +15,7 @@ namespace feldspar
 {
 namespace
 {
-/// In the order of their enumerators.
+/// Words in the order of their enumerators.
 constexpr const char* subjects[] = {"the loading", "the rock", "the specimen", "the method", "the effort"};
 constexpr const char* sources[] = {"given, not compared", "direct tension", "uniaxial compression",
                                    "Brazilian test",      "notched bodies", "several tests"};

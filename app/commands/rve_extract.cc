@@ -1,13 +1,13 @@
 #include "app/commands/rve_extract.h"
 
 #include "app/programme/multiscale_run.h"
-#include "app/programme/rve_view.h"
 #include "app/run/file_list.h"
 #include "app/run/run_record.h"
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
 #include "coupling/rve/rve_file.h"
 #include "results/folder/field_output.h"
+#include "runs/rve_view.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -99,13 +99,14 @@ int extract_rve(const std::filesystem::path& folder, const std::string& cell_and
   const FileList list(folder);
   Progress progress(true);
   const auto rocks = make_rocks(record.input, record.input_file, folder, progress);
-  const auto planned = plan(record.input, rocks);
+  const SampleSettings settings = sample_settings(record.input);
+  const auto planned = plan(record.input, rocks, settings);
   std::size_t n_extracted = 0;
   for (const PlannedSample& one : planned)
     {
       if (!std::filesystem::exists(state_folder(folder, one)))
         continue;
-      const SampleTest test = open(one, record.input, folder);
+      const SampleTest test = open(one, folder);
       const TestRecord of_sample = test.finish(false).record; // to its last step, as the RVE is
       if (of_sample.curve.empty())
         continue;

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -44,7 +43,7 @@ const Dimension& dimension_of(const Measure measure)
     }
 }
 
-/// With `unit` (led by a space, or empty) behind each number.
+/// Text of a range with `unit` (preceded by a space, or empty) behind each number.
 std::string text_of(const Range& range, const std::string_view unit)
 {
   if (range.upper == ranges::infinity)
@@ -58,7 +57,7 @@ std::string demand_of(const Range& range, const std::string_view unit)
   return fmt::format("must {} {}", range.upper == ranges::infinity ? "be" : "lie in", text_of(range, unit));
 }
 
-/// In SI. `demand`: said where the value lies out of its range.
+/// Reads a number in SI. `demand` is the message where the value lies out of its range.
 double read_number(const std::string_view text, const Measure measure, const std::string_view unit, const Range& range,
                    const std::string& demand)
 {
@@ -69,14 +68,12 @@ double read_number(const std::string_view text, const Measure measure, const std
       const double value = parse_number(text);
       if (!range.contains(value))
         throw InputError(demand);
-      return value;
+      return with_usual_exponent(value);
     }
   const Dimension& dimension = dimension_of(measure);
   const double value = parse_quantity(text, dimension);
   const Range si_range{range.left, to_si(range.lower, unit, dimension), to_si(range.upper, unit, dimension),
                        range.right};
-  if (std::isinf(value)) // in SI, whatever it was in its unit
-    throw InputError("is larger than any number this program can hold");
   if (!si_range.contains(value))
     throw InputError(demand);
   return value;
@@ -177,7 +174,7 @@ ValueForm<std::size_t> form_of(const Entry<Input>::Choice& choice)
 
 Parameter parameter_of(const std::string_view section, const Entry<Input>& entry)
 {
-  Parameter parameter{section, entry.name, "", "", entry.meaning, entry.flags, {}, {}};
+  Parameter parameter{section, entry.name, "", "", entry.meaning, entry.flags, entry.id, {}, {}};
   std::visit(
     [&](const auto& value) {
       using Kind = std::decay_t<decltype(value)>;

@@ -6,6 +6,6 @@
 
 namespace feldspar
 {
-/// From an entry beside its struct to a parameter of the input: text to values in SI, and back.
+/// Makes a parameter of the input from an entry beside its struct: text to values in SI, and back.
 Parameter parameter_of(std::string_view section, const Entry<Input>& entry);
 } // namespace feldspar

@@ -92,7 +92,7 @@ public:
 
   bool has(const std::string_view word) const { return texts.contains(word); }
 
-  /// Whether it is given in this way: by all of these words and by none of the others.
+  /// Returns whether the shape is given in this way: by all of these words and by none of the others.
   bool is_given_by(const std::vector<std::string_view>& words, const std::vector<std::string_view>& others) const
   {
     const auto is_given = [&](const std::string_view word) { return has(word); };
@@ -172,7 +172,7 @@ public:
     });
   }
 
-  /// None where it is not given.
+  /// Value of at least 0; none where it is not given.
   std::optional<double> from_zero(const std::string_view word, const Dimension* const dimension) const
   {
     if (!has(word))
@@ -260,7 +260,7 @@ Shape read_slot(const Quantities& given)
 constexpr std::array<std::string_view, 7> words_of_smooth_sides{
   "normal-stiffness", "shear-stiffness", "friction", "dilation", "tensile-strength", "cohesion", "friction-angle"};
 
-/// None of a flaw whose joints keep their law.
+/// Smooth sides of a flaw; none if its joints keep their law.
 std::optional<SmoothSides> read_smooth_sides(const Quantities& given)
 {
   if (!given.says("smooth"))
@@ -331,7 +331,7 @@ Shape read_joint_set(const Quantities& given)
   return set;
 }
 
-/// How shapes are called, the words of their quantities, and how they are read.
+/// Form of a shape: its name, the words of its quantities, and its reader.
 struct Form
 {
   std::string_view name;

@@ -45,7 +45,7 @@ public:
 
   bool has(std::string_view section, std::string_view entry) const { return find(section, entry) != nullptr; }
 
-  /// As given, or else the default.
+  /// Value as given, or else the default.
   std::string value(std::string_view section, std::string_view entry) const;
 
   /// An error about an entry: `beishan.prm:12: Flat joint/Bond friction angle = 95 deg: ` and the text.

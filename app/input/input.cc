@@ -8,8 +8,8 @@
 #include "base/quoted.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/smooth_planes.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/loading_stages.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,11 +24,20 @@ namespace feldspar
 {
 namespace
 {
-/// The porosity in space where none is given.
+/// The defaults of space, where nothing else is given.
 void settle_dimension(Input& input, const GivenEntries& values)
 {
-  if (input.specimen.dimension == 3 && !values.has("Specimen", "Porosity"))
-    input.specimen.porosity = porosity_in_space;
+  if (input.specimen.dimension == 3)
+    for (const Parameter& parameter : parameter_table())
+      if (!parameter.flags.in_space.empty() && !values.has(parameter.section, parameter.entry))
+        parameter.read(input, parameter.flags.in_space);
+}
+
+void check_demands(const Input& input, const GivenEntries& values)
+{
+  for (const Parameter& parameter : parameter_table())
+    if (const Demand* const unmet = unmet_demand(input, parameter))
+      throw values.error(parameter.section, parameter.entry, unmet->otherwise);
 }
 
 /// One of two entries says which pairs get a joint; a coordination number takes the place of the default gap.
@@ -57,7 +66,7 @@ void check_fractions(const Input& input, const GivenEntries& values)
   });
 }
 
-/// What an entry of a section that is not of use has against it.
+/// Reason why an entry of a section that is not of use is refused.
 std::string refusal_of(const std::string_view section, const std::set<std::string>& laws)
 {
   if (section == "Smooth joint")
@@ -119,7 +128,7 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
   if (!has_smooth_joints(input))
     return;
   const bool of_minerals = input.mineral_grains.mean_size.has_value();
-  if (input.specimen.shape == "periodic")
+  if (input.specimen.shape == BodyShape::periodic)
     throw values.error(
       of_minerals ? "Mineral grains" : "Flaws", of_minerals ? "Mean size" : "Shapes",
       "puts in smooth joints, which need Specimen/Shape = box or cylinder; it is periodic, and a representative "
@@ -134,8 +143,9 @@ void check_smooth_joints(const Input& input, const GivenEntries& values)
       check(sides->among(input.smooth_joint), "Flaws", "Shapes");
 }
 
-/// Boundaries without a bond are said, not forgotten: the defaults of section Smooth joint are those of open flaws, and a
-/// rock of such boundaries falls apart. Of a bond both strengths are said, as the other one would be zero.
+/// Boundaries without a bond must be given by the user: the defaults of section Smooth joint are those of open flaws,
+/// and a rock of such boundaries falls apart. For a bond both strengths must be given, because the other one would be
+/// zero.
 void check_mineral_grains(const Input& input, const GivenEntries& values)
 {
   const auto is_said = [&](const std::string& entry) {
@@ -163,19 +173,6 @@ void check_clumps(const Input& input, const GivenEntries& values)
 {
   if (!input.clumps.diameter)
     return;
-  const auto refuse = [&](const std::string& why) { throw values.error("Clumps", "Diameter", why); };
-  if (input.specimen.shape == "periodic")
-    refuse(
-      "clumps are in a box, and Specimen/Shape is periodic: a representative volume takes none, set Diameter = none; "
-      "a laboratory test takes them with Shape = box");
-  if (input.specimen.dimension != 2 || input.specimen.shape != "box")
-    refuse(
-      "clumps are of the plane and in a box, for laboratory tests: set Specimen/Dimension = 2 and Specimen/Shape = "
-      "box");
-  if (input.mineral_grains.mean_size)
-    refuse("excludes Mineral grains/Mean size, which is given too; keep one of them");
-  if (!input.flaws.all().empty())
-    refuse("excludes section Flaws, which is given too; keep one of them");
   for (const TestKind& kind : input.test_list)
     if (const std::string objection = objection_to_clumps(kind); !objection.empty())
       throw values.error("Tests", "List", objection);
@@ -208,29 +205,13 @@ void complete_variants(Input& input, const GivenEntries& values)
 void check_specimen(const Input& input, const GivenEntries& values)
 {
   const SpecimenParameters& specimen = input.specimen;
-  if (specimen.shape == "cylinder" && specimen.dimension != 3)
-    throw values.error("Specimen", "Shape", "needs Dimension = 3");
-  if (specimen.is_cored() && specimen.shape == "periodic")
-    throw values.error("Specimen", "Coring",
-                       "a periodic cell has no sides to be cut free; set Shape = box or cylinder");
-  if (specimen.is_cored() && !specimen.packing_file.empty())
-    throw values.error("Specimen", "Coring", "excludes Packing file, whose grains are not packed as a periodic cell");
-  for (const auto& [entry, n] :
-       {std::pair("Cells across", specimen.cells_across), std::pair("Cells along", specimen.cells_along)})
-    if (n > 1 && (!specimen.is_cored() || specimen.dimension != 2))
-      throw values.error("Specimen", entry, "needs Coring = free sides or sides only, and Dimension = 2");
-  if (specimen.cells_along > 1 && specimen.coring == Coring::sides_only)
-    throw values.error("Specimen", "Cells along",
-                       "needs Coring = free sides; sides only has walls at the ends of a cell");
-  if (!specimen.packing_file.empty() && !specimen.specimen_file.empty())
-    throw values.error("Specimen", "Specimen file", "excludes Packing file, which is given too; keep one of them");
   if (!specimen.packing_file.empty() || !specimen.specimen_file.empty())
     {
       if (!specimen.specimen_file.empty() && (input.seeds.size() > 1 || !input.variants.entries.empty()))
         throw values.error("Specimen", "Specimen file", "is one specimen; it goes with one seed and no variants");
       return; // files bring their own radii
     }
-  // Also catches a slip of the unit before it fills the memory.
+  // This check also catches a slip of the unit before it fills the memory.
   constexpr double most_grains = 1e7;
   if (const double n_grains = expected_grains(specimen); n_grains > most_grains)
     throw values.error("Specimen", "Minimum radius",
@@ -245,7 +226,7 @@ void check_specimen(const Input& input, const GivenEntries& values)
     throw values.error("Specimen", "Height", demand);
 }
 
-/// Of a specimen out of a file the size is not known yet; putting them in checks them again.
+/// Checks the flaws. The size of a specimen out of a file is not known yet; putting the flaws in checks them again.
 void check_flaws(const Input& input, const GivenEntries& values)
 {
   if (!input.specimen.specimen_file.empty())
@@ -318,7 +299,7 @@ double expected_grains(const SpecimenParameters& specimen)
   // The means of r² and r³ of radii spread uniformly from r to ρ r are r²(1+ρ+ρ²)/3 and r³(1+ρ)(1+ρ²)/4.
   const double r = specimen.minimum_radius;
   const double ratio = specimen.radius_ratio;
-  const double cylinder_over_box = specimen.shape == "cylinder" && !specimen.is_cored() ? 0.25 * std::numbers::pi : 1.0;
+  const double cylinder_over_box = specimen.shape_when_packed() == BodyShape::cylinder ? 0.25 * std::numbers::pi : 1.0;
   if (specimen.dimension == 2)
     {
       const double of_grain = std::numbers::pi * r * r * (1.0 + ratio + ratio * ratio) / 3.0;
@@ -361,6 +342,7 @@ Input read_input(const std::filesystem::path& file, const std::filesystem::path&
   for (const Variant& variant : variants(input))
     {
       check_fractions(variant.input, values);
+      check_demands(variant.input, values);
       check_specimen(variant.input, values);
       check_strain_path(variant.input, values);
       check_flaws(variant.input, values);

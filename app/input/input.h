@@ -3,16 +3,17 @@
 #include "calibration/parameters.h"
 #include "coupling/network/boundary.h"
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/sample_parameters.h"
 #include "dem/dynamics/parameters.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/shapes.h"
-#include "dem/lab/parameters.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/laws/parameters.h"
 #include "dem/specimen/parameters.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
+#include "laboratory/parameters.h"
 #include "results/variant_setting.h"
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct ContactParameters
   std::string path_file;  ///< CSV of the displacements
 };
 
-/// How an RVE is led along its path.
+/// Method by which an RVE follows its path.
 enum class PathSolver
 {
   event_by_event,
@@ -115,7 +116,7 @@ struct Variant
 Input read_input(const std::filesystem::path& file, const std::filesystem::path& folder = {},
                  const std::vector<std::string>& settings = {});
 
-/// How many grains genesis will pack.
+/// Number of grains that genesis will pack.
 double expected_grains(const SpecimenParameters& specimen);
 
 /// One for each combination of the values of the variants' entries, or the input itself. Throws InputError.

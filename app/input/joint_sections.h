@@ -6,10 +6,19 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace feldspar
 {
+/// The section of the input that holds a law's entries: the name of the law with a capital letter.
+inline std::string section_of(const std::string_view law_name)
+{
+  std::string section(law_name);
+  section.front() = char(section.front() - 'a' + 'A');
+  return section;
+}
+
 /// Calls f(law, parameters) for each joint law, given by its name, and the member of the input that its section fills.
 template <typename AnyInput, typename F>
 void for_each_joint_section(AnyInput& input, F&& f)

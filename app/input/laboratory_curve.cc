@@ -116,7 +116,8 @@ std::string count_strains_from_first_load(TestRecord& record, const std::size_t 
     return fmt::format("{}: the first row is under {:.1f} % of the peak load already; strains are taken as they stand, "
                        "and strain at the peak, secant modulus and secant Poisson's ratio rest on their zero",
                        file, 100.0 * share(0));
-  // A load cell may read something before the platen touches: the last row by its first reading, before the load has left it.
+  // A load cell may read something before the platen is in contact: the last row by its first reading, before the load
+  // has left it.
   std::size_t loaded = 0;
   while (share(loaded) - share(0) <= under_load)
     ++loaded;

@@ -3,7 +3,8 @@
 #include "app/input/entry_parameter.h"
 #include "app/input/flaw_entries.h"
 #include "app/input/input_entries.h"
-#include "base/input_error.h"
+#include "app/input/joint_sections.h"
+#include "base/parameter_id.h"
 #include "calibration/entries.h"
 #include "coupling/rve/entries.h"
 #include "coupling/sample/sample_entries.h"
@@ -15,8 +16,10 @@
 #include "dem/specimen/entries.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace feldspar
 {
@@ -74,11 +77,64 @@ std::vector<Parameter> make_parameter_table()
   table.add("Report", {reference_entry(), reference_results_entry()});
   return table.parameters;
 }
+/// Parameters that no entry fills by itself: texts of a form of their own, and what libraries make of an entry.
+std::vector<std::pair<ParameterId, InputPlace>> further_places()
+{
+  return {{parameters_id<TestKind>(), {"Tests", "List"}},
+          {parameter_id<&TestCase::confining_pressure>(), {"Tests", "Confinements"}},
+          {parameters_id<FlawParameters>(), {"Flaws", ""}}};
+}
+
+std::string command_of(const Work work)
+{
+  switch (work)
+    {
+    case Work::specimen:
+      return "`feldspar specimen`";
+    case Work::strain_path:
+      return "`feldspar rve`";
+    case Work::rve_out_of_sample:
+      return "`feldspar multiscale --extract`";
+    default:
+      return "`feldspar multiscale`";
+    }
+}
+
+// Whoever can read an input is told of its parameters by section and entry.
+[[maybe_unused]] const bool speaks_of_entries = (use_words_of_input({place_of, command_of}), true);
 } // namespace
+
+InputPlace place_of(const ParameterId& id)
+{
+  for (const auto& [known, place] : further_places())
+    if (known == id)
+      return place;
+  for (const Parameter& parameter : parameter_table())
+    if (parameter.id && parameter.id->owner == id.owner && (!id.place || parameter.id->place == id.place))
+      return {std::string(parameter.section), id.place ? std::string(parameter.entry) : ""};
+  return {"", std::string(id.name)};
+}
 
 std::string Parameter::name() const { return fmt::format("{}/{}", section, entry); }
 
-std::string Parameter::default_text() const { return write(Input()); }
+std::string Parameter::default_text() const
+{
+  static const Input defaults;
+  return write(defaults);
+}
+
+std::string Parameter::described() const
+{
+  std::string text(meaning);
+  for (std::size_t k = 0; k < flags.demands.size(); ++k)
+    if (const Demand& one = flags.demands[k];
+        std::none_of(flags.demands.begin() + std::ptrdiff_t(k) + 1, flags.demands.end(),
+                     [&](const Demand& stricter) { return stricter.other == one.other; }))
+      text += fmt::format("; {}{}{} {}{}{}", one.of_value, one.of_value.empty() ? "" : " ",
+                          one.allowed.empty() ? "excludes" : "needs", one.other, one.allowed.empty() ? "" : " = ",
+                          fmt::join(one.allowed, " or "));
+  return text;
+}
 
 const std::vector<Parameter>& parameter_table()
 {
@@ -110,6 +166,28 @@ const Parameter* find_parameter(const std::string_view section, const std::strin
     if (parameter.section == section && parameter.entry == entry)
       return &parameter;
   return nullptr;
+}
+
+const Parameter* find_parameter(const std::string_view name)
+{
+  const std::size_t slash = std::min(name.find('/'), name.size());
+  return find_parameter(name.substr(0, slash), name.substr(std::min(slash + 1, name.size())));
+}
+
+const Demand* unmet_demand(const Input& input, const Parameter& parameter)
+{
+  const auto& demands = parameter.flags.demands;
+  const std::string value = demands.empty() ? "" : parameter.write(input);
+  const auto unmet = std::find_if(demands.begin(), demands.end(), [&](const Demand& demand) {
+    if (demand.of_value.empty() ? value == parameter.default_text() : value != demand.of_value)
+      return false;
+    const Parameter& other = *find_parameter(demand.other);
+    const std::string found = other.write(input);
+    return demand.allowed.empty()
+             ? found != other.default_text()
+             : std::find(demand.allowed.begin(), demand.allowed.end(), found) == demand.allowed.end();
+  });
+  return unmet == demands.end() ? nullptr : &*unmet;
 }
 
 bool has_smooth_joints(const Input& input)

@@ -4,6 +4,7 @@
 #include "base/entries.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +20,12 @@ struct Parameter
   std::string range;
   std::string_view meaning;
   EntryFlags flags;
+  std::optional<ParameterId> id;                      ///< of the member that it fills, by which libraries name it
   std::function<void(Input&, std::string_view)> read; ///< throws InputError, which says what is allowed
   std::function<std::string(const Input&)> write;     ///< as it would stand in an input file
   std::string name() const;                           ///< Section/Entry
   std::string default_text() const;
+  std::string described() const; ///< the meaning, and the demands on other entries
 };
 
 /// The text of an entry that is not used.
@@ -39,14 +42,21 @@ std::vector<std::string_view> section_names();
 /// The entries of a section in the order of the table; none if there is no such section.
 std::vector<std::string_view> entry_names(std::string_view section);
 
-/// Null if there is none of that name.
+/// Parameter of a section and its entry, or of both in one, "Section/Entry"; null if there is none of that name.
 const Parameter* find_parameter(std::string_view section, std::string_view entry);
+const Parameter* find_parameter(std::string_view name);
 
-/// Whether a flaw or mineral grains put smooth joints into the rock.
+/// Returns whether a flaw or mineral grains put smooth joints into the rock.
 bool has_smooth_joints(const Input& input);
 
 /// False for the sections of joint laws other than the input's own, and of smooth joints where there are none.
 bool has_use_for(const Input& input, const Parameter& parameter);
+
+/// The first of its demands on other entries that this input does not meet; null if there is none.
+const Demand* unmet_demand(const Input& input, const Parameter& parameter);
+
+/// Section and entry of a parameter that a library names; of one that the input does not have its name in the code.
+InputPlace place_of(const ParameterId& id);
 
 /// Refuses entries that have no use on this body, unless they keep their defaults. Throws InputError.
 void check_body(const Input& input, Body body);

@@ -33,8 +33,8 @@ std::size_t count_digits(const std::string_view text)
   return n;
 }
 
-/// Whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one too.
-/// Factors and origins (`MPa.3`, `since 1990`), which UDUNITS would apply without a word, are none.
+/// Returns whether all of the text is names with integer powers, joined by . * /, as in kg/m^3 or N.mm-2; 1/s is one
+/// too. Factors and origins (`MPa.3`, `since 1990`), which UDUNITS would apply without a word, are none.
 bool is_unit_expression(std::string_view text)
 {
   if (text.starts_with("1/"))
@@ -113,7 +113,7 @@ std::mutex& units_mutex()
   return mutex;
 }
 
-/// Under the lock.
+/// Parses a unit; to be called under the lock.
 Owner<ut_unit> parse_unit(const std::string_view text)
 {
   const CLocale c_locale;
@@ -177,10 +177,21 @@ double to_si(const double value, const std::string_view unit, const Dimension& d
   return in_si;
 }
 
+double with_usual_exponent(const double value)
+{
+  constexpr double smallest = 1e-30;
+  constexpr double largest = 1e30;
+  const double size = std::abs(value);
+  if (size != 0.0 && (size < smallest || size > largest))
+    throw InputError(
+      fmt::format("the size of a number in SI units must be 0 or lie in [{:g}, {:g}]", smallest, largest));
+  return value;
+}
+
 double parse_quantity(const std::string_view text, const Dimension& dimension)
 {
   const std::size_t space = find_space(text, dimension);
-  return to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension);
+  return with_usual_exponent(to_si(parse_number(text.substr(0, space)), text.substr(space + 1), dimension));
 }
 
 std::vector<double> parse_quantities(const std::string_view text, const Dimension& dimension)
@@ -197,7 +208,7 @@ std::vector<double> parse_quantities(const std::string_view text, const Dimensio
     {
       if (number.find(' ') != std::string_view::npos)
         throw InputError(fmt::format("{}: the unit stands once, after the last number", in_quotes(number)));
-      values.push_back(to_si(parse_number(number), last.substr(space + 1), dimension));
+      values.push_back(with_usual_exponent(to_si(parse_number(number), last.substr(space + 1), dimension)));
     }
   return values;
 }

@@ -7,7 +7,8 @@
 #include <vector>
 
 /// Numbers and quantities as the user writes them: `0.5`, `22 MPa`, `5, 10, 20 MPa`. The decimal sign is a point in
-/// every locale. What is not of this form throws InputError, whose text says what was found and shows the right form.
+/// every locale. A text that is not of this form throws InputError, whose text says what was found and shows the right
+/// form.
 namespace feldspar
 {
 /// The kind of a quantity.
@@ -24,6 +25,10 @@ inline constexpr Dimension angle{"an angle", "rad", "10 deg"};
 inline constexpr Dimension density{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr Dimension plane_stiffness{"a stress per displacement", "Pa/m", "50 GPa/mm"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.5 1/s"};
+
+/// Returns a number in SI as it is. Throws InputError for a size that no rock, body or test has: such numbers overflow or
+/// vanish in products.
+double with_usual_exponent(double value);
 
 /// One number, one space and one unit expression; returned in SI.
 double parse_quantity(std::string_view text, const Dimension& dimension);

@@ -49,7 +49,7 @@ std::vector<PathLeg<dim>> legs_along_direction(const StrainPathParameters& path)
   return legs;
 }
 
-/// Which columns are stresses. Each component has one column, in the order of Voigt.
+/// Returns which columns are stresses. Each component has one column, in the order of Voigt.
 template <int dim>
 std::array<bool, n_voigt<dim>> stress_columns(const std::string& file, const std::string& header)
 {

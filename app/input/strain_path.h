@@ -7,7 +7,7 @@
 
 namespace feldspar
 {
-/// Whether the entries go together. Throws InputError.
+/// Checks whether the entries go together. Throws InputError.
 void check(const StrainPathParameters& path);
 
 /// The legs of the path of `feldspar rve`, from its direction or its file. Throws InputError with file and line.

@@ -12,7 +12,7 @@ namespace feldspar
 {
 namespace
 {
-/// With room for the name of a test, its pressure, a seed and what a picture shows.
+/// Length of a name that leaves room for the name of a test, its pressure, a seed and what a picture shows.
 constexpr std::size_t most_characters = 80;
 
 bool is_letter_or_digit(const char c)

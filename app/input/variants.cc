@@ -21,14 +21,10 @@ namespace
 {
 constexpr std::size_t most_variants = 10000;
 
-const Parameter& parameter_named(const std::string& name)
-{
-  const std::size_t slash = name.find('/');
-  return *find_parameter(name.substr(0, slash), name.substr(slash + 1));
-}
+const Parameter& parameter_named(const std::string& name) { return *find_parameter(name); }
 
-/// An entry takes its value; returns how an input file would say it. Of the two ways to say which pairs of grains get a joint
-/// the varied one holds.
+/// Gives an entry its value; returns how an input file would say it. There are two ways to say which pairs of grains
+/// get a joint; the varied one holds.
 VariantSetting set(Input& input, const std::string& entry, const std::string& value)
 {
   const Parameter& parameter = parameter_named(entry);

@@ -18,13 +18,6 @@ namespace feldspar
 namespace
 {
 [[noreturn]] void refuse(const std::string& what) { throw InputError(what); }
-
-Body body_of(const SpecimenParameters& specimen)
-{
-  if (specimen.dimension == 2)
-    return Body::plane_box;
-  return specimen.shape == "cylinder" ? Body::cylinder : Body::box;
-}
 } // namespace
 
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check)
@@ -77,11 +70,11 @@ void check_on_body(const Input& input, const Body body)
 void check_specimen_and_tests(const Input& input)
 {
   const SpecimenParameters& specimen = input.specimen;
-  if (specimen.shape == "periodic")
+  if (specimen.shape == BodyShape::periodic)
     refuse("Specimen/Shape = periodic: a laboratory test needs a specimen between walls; set Shape = box, or use "
            "feldspar rve");
   if (specimen.specimen_file.empty()) // else it brings its own shape
-    check_on_body(input, body_of(specimen));
+    check_on_body(input, body_of(specimen.dimension, specimen.shape));
   const auto& intermediate_stress = input.tests.of<ConfinementParameters>().intermediate_stress;
   for (const double confinement : input.confinements)
     if (any_takes_confining_pressure(input.test_list) && intermediate_stress && *intermediate_stress < confinement)
@@ -93,16 +86,16 @@ void check_specimen_and_tests(const Input& input)
 template <int dim>
 void check_specimen_of_file(const Input& input, const Specimen<dim>& specimen)
 {
-  if (specimen.periodic)
+  if (specimen.is_periodic())
     refuse("Specimen/Specimen file: is a periodic cell; a laboratory test needs a specimen between walls (feldspar rve "
            "takes a cell)");
-  check_on_body(input, dim == 2 ? Body::plane_box : specimen.round ? Body::cylinder : Body::box);
+  check_on_body(input, body_of(dim, specimen.shape));
 }
 
 template <int dim>
 void check_cell(const Specimen<dim>& specimen, const std::string_view needed_by)
 {
-  if (!specimen.periodic)
+  if (!specimen.is_periodic())
     refuse(fmt::format("Specimen/Specimen file: is a specimen between walls; {} needs a periodic cell (feldspar lab "
                        "takes walls)",
                        needed_by));
@@ -144,9 +137,9 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
     for (const Variant& variant : all_variants)
       {
         check_no_groups(variant.input);
-        if (variant.input.specimen.shape != "periodic" && variant.input.specimen.specimen_file.empty())
+        if (variant.input.specimen.shape != BodyShape::periodic && variant.input.specimen.specimen_file.empty())
           refuse(fmt::format("Specimen/Shape = {}: a representative volume needs Shape = periodic",
-                             variant.input.specimen.shape));
+                             find_parameter("Specimen/Shape")->write(variant.input)));
         if (variant.input.strain_path.solver == PathSolver::event_by_event)
           check_equilibria(variant.input.specimen, "set Strain path/Solver = explicit or take another law");
         check_boundary(variant.input);
@@ -160,7 +153,7 @@ void check_rve_input(const Input& input, const std::filesystem::path& input_file
       }
     reference_body(input);
   });
-  // A file of a path is told by its own name.
+  // A file of a path is reported by its own name.
   for (const Variant& variant : all_variants)
     if (variant.input.specimen.dimension == 2)
       path_legs<2>(variant.input.strain_path);

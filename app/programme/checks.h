@@ -17,17 +17,17 @@ namespace feldspar
 /// Runs a check, and puts the name of the input in front of what it refuses.
 void with_name_of(const std::filesystem::path& input_file, const std::function<void()>& check);
 
-/// A reference file that does not serve is told by its own name.
+/// A reference file that does not serve is reported by its own name.
 void check_reference(const Input& input);
 
-/// Of representative volumes: clumps and mineral grains, which a cell does not have; to be told before its shape, which is
-/// another for them.
+/// Refuses clumps and mineral grains in representative volumes, which do not have them; to be called before the check
+/// of the shape, which is another for them.
 void check_no_groups(const Input& input);
 
 /// Representative volumes find equilibria event by event, which not every joint law allows.
 void check_equilibria(const SpecimenParameters& specimen, std::string_view remedy);
 
-/// Of representative volumes.
+/// Checks the boundary of representative volumes.
 void check_boundary(const Input& input);
 
 /// Refuses tests that are not made on specimens of this shape, and entries that have no use there.
@@ -47,9 +47,9 @@ void check_cell(const Specimen<dim>& specimen, std::string_view needed_by);
 /// Refuses what an RVE cannot take that stands where it stood in its sample.
 void check_rve_out_of_sample(const Input& input);
 
-/// For `feldspar lab`.
+/// Checks an input of `feldspar lab`.
 void check_laboratory_input(const Input& input, const std::filesystem::path& input_file);
 
-/// For `feldspar rve`.
+/// Checks an input of `feldspar rve`.
 void check_rve_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar

@@ -20,7 +20,8 @@ namespace feldspar
 {
 namespace
 {
-/// Of a packing file, which has one in a line. Without a word about a file that cannot be read, which its reader will say.
+/// Number of lines of a packing file, which has one grain in a line. Says nothing about a file that cannot be read,
+/// which its reader will do.
 double n_lines(const std::string& path)
 {
   if (!objection_to_reading(path).empty())
@@ -56,7 +57,8 @@ std::optional<double> free_memory()
 
 namespace
 {
-/// Processes that run or wait for a processor, as a mean over a minute. Of the beginning of the run: later it counts the run itself.
+/// Processes that run or wait for a processor, as a mean over a minute. The value is that of the beginning of the run:
+/// later it counts the run itself.
 double load_at_start()
 {
   static const double load = [] {
@@ -97,7 +99,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
     return {}; // it brings its grains
   if (!specimen.packing_file.empty())
     {
-      // Nothing moves. Its neighbours are many where it is dense: measured on lattices in which each grain has all that it
+      // Nothing moves. A dense packing has many neighbours: measured on lattices in which each grain has all that it
       // can (100 000 discs, 40 000 spheres).
       const double n = n_lines(specimen.packing_file);
       return {n, 0.0, n * (specimen.dimension == 2 ? 4e3 : 1.6e4), n * 1e-5};
@@ -112,7 +114,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
       const double n_iterations = plane ? 250.0 * std::pow(n, 0.36) : 900.0 * std::pow(n, 0.22);
       return {n, n_iterations, n * bytes_of_grain(specimen.dimension), n * n_iterations * (plane ? 4e-8 : 1.2e-7)};
     }
-  const double longer = specimen.shape == "periodic" || specimen.is_cored() ? 1.8 : 1.0;
+  const double longer = is_periodic(specimen.shape_when_packed()) ? 1.8 : 1.0;
   const double n_steps = longer * (plane ? 900.0 * std::pow(n, 0.45) : 2400.0 * std::pow(n, 0.38));
   const double seconds_of_grain_and_step = plane ? 4e-8 : 1.6e-7;
   return {n, n_steps, n * bytes_of_grain(specimen.dimension), n * n_steps * seconds_of_grain_and_step};
@@ -120,7 +122,7 @@ GenesisEffort expected_effort(const SpecimenParameters& specimen)
 
 namespace
 {
-/// Of each specimen.
+/// Efforts of all specimens.
 std::vector<GenesisEffort> efforts(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
 {
   std::vector<GenesisEffort> all;

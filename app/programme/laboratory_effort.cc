@@ -2,10 +2,10 @@
 
 #include "app/programme/genesis_effort.h"
 #include "app/screen/expected_length.h"
-#include "app/screen/stage_length.h"
 #include "base/input_error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "dem/dynamics/time_step.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <fmt/format.h>
@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
-#include <variant>
 
 namespace feldspar
 {
@@ -26,41 +24,13 @@ namespace
 constexpr double bytes_of_running_joint(const int dimension) { return dimension == 2 ? 600.0 : 800.0; }
 constexpr double bytes_of_kept_grain(const int dimension) { return dimension == 2 ? 600.0 : 3000.0; }
 constexpr double bytes_of_program = 4e7;
-/// Of a step: with the cracks of a test past its peak (benchmarks/README.md).
+/// Time of a joint and step, with the cracks of a test past its peak (benchmarks/README.md).
 constexpr double seconds_of_joint_and_step(const int dimension) { return dimension == 2 ? 2e-8 : 5e-8; }
 
 double bytes_of_tests(const int dimension, const double n_tests, const double n_grains, const double n_joints)
 {
   const double at_a_time = std::min(n_tests, double(number_of_threads()));
   return at_a_time * n_joints * bytes_of_running_joint(dimension) + n_tests * n_grains * bytes_of_kept_grain(dimension);
-}
-
-/// [s]; of an intact body, by the mean of its directions.
-template <int dim>
-double expected_time_step(const Specimen<dim>& specimen, const double safety)
-{
-  const auto& joints = specimen.joints;
-  const auto& grains = specimen.grains;
-  std::vector<double> moving(grains.size(), 0.0);
-  std::vector<double> turning(grains.size(), 0.0);
-  std::visit(
-    [&](const auto& law) {
-      for (std::size_t j = 0; j < joints.size(); ++j)
-        {
-          const FaceSprings springs = law.stiffest(joints.face(j));
-          for (const std::uint32_t i : {joints.grain_1[j], joints.grain_2[j]})
-            {
-              moving[i] += (springs.normal + (dim - 1) * springs.shear) / dim;
-              const double arm = grains.radius[i];
-              turning[i] += (springs.shear * arm * arm + springs.bending) * (dim == 2 ? 1.0 : 2.0 / 3.0);
-            }
-        }
-    },
-    joints.law);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < grains.size(); ++i)
-    largest = std::max({largest, moving[i] / grains.mass[i], turning[i] / grains.moment_of_inertia[i]});
-  return largest > 0.0 ? safety / std::sqrt(largest) : 0.0;
 }
 
 template <int dim>
@@ -81,22 +51,19 @@ TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests)
 {
   TestEffort effort;
   effort.n_tests = tests.size();
-  std::map<std::pair<const Specimen<dim>*, double>, double> time_steps;
+  std::map<const Specimen<dim>*, double> stiffest; // over inertia
   double seconds = 0.0;
   double most_grains = 0.0;
   double most_joints = 0.0;
   for (const auto& [test, input, specimen] : tests)
     {
       const double safety = input->dynamics.time_step_safety;
-      const auto [known, is_new] = time_steps.try_emplace({specimen, safety}, 0.0);
+      const auto [known, is_new] = stiffest.try_emplace(specimen, 0.0);
       if (is_new)
-        known->second = expected_time_step(*specimen, safety);
-      const double strain =
-        test->kind.follows_stages
-          ? StageLength(input->tests, expected_modulus(*input)).left()
-          : expected_last_strain(expected_strain_at_peak(*test, *input).value_or(0.0), input->tests);
+        known->second = largest_stiffness_over_inertia(*specimen);
+      const double time_step = safety / std::sqrt(known->second);
       const double rate = (*protocol_of(test->kind).strain_rate)(input->tests);
-      const double n_steps = known->second > 0.0 ? strain / (rate * known->second) : 0.0;
+      const double n_steps = expected_last_strain(*test, *input) / (rate * time_step);
       const double of_one = n_steps * double(specimen->joints.size()) * seconds_of_joint_and_step(dim);
       effort.n_steps = std::max(effort.n_steps, n_steps);
       seconds += of_one;
@@ -113,6 +80,10 @@ template <int dim>
 std::string describe_effort(const std::vector<TestOrder<dim>>& tests)
 {
   const TestEffort effort = expected_effort(tests);
+  constexpr double most_steps = 1e12; // weeks with a hundred joints
+  if (effort.n_steps > most_steps)
+    throw InputError(
+      fmt::format("Tests: a test would take some {:.0e} steps; a strain rate is far too low", effort.n_steps));
   const double bytes = bytes_of_program + bytes_of_specimens(tests) + effort.bytes;
   return fmt::format("{} of some {:.0f} steps: about {:.0f} MB with specimens and program, {}{}",
                      effort.n_tests == 1 ? "1 test" : fmt::format("{} tests", effort.n_tests), effort.n_steps,

@@ -32,7 +32,7 @@ struct TestOrder
 template <int dim>
 TestEffort expected_effort(const std::vector<TestOrder<dim>>& tests);
 
-/// In a sentence, with the memory of the specimens and of the program itself.
+/// Describes the effort in a sentence, with the memory of the specimens and of the program itself.
 template <int dim>
 std::string describe_effort(const std::vector<TestOrder<dim>>& tests);
 

@@ -3,9 +3,9 @@
 #include "app/programme/checks.h"
 #include "app/programme/reference_body.h"
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
 #include "coupling/rve/rve_file.h"
 #include "coupling/sample/continua/continua.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_body.h"
 #include "dem/lab/protocols/protocols.h"
 
@@ -37,9 +37,9 @@ void check_sample(const Input& input)
       check_equilibria(input.specimen, "take another law");
     }
   check_boundary(input);
-  if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != "periodic")
-    throw InputError(
-      fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic", input.specimen.shape));
+  if (has_grains && input.specimen.specimen_file.empty() && input.specimen.shape != BodyShape::periodic)
+    throw InputError(fmt::format("Specimen/Shape = {}: the RVE at a point needs Shape = periodic",
+                                 find_parameter("Specimen/Shape")->write(input)));
   if (has_grains && !input.specimen.specimen_file.empty() && input.sample.n_realisations > 1)
     throw InputError("Sample/Realisations: a Specimen file is one realisation; set Realisations = 1");
   if (!input.variants.entries.empty())

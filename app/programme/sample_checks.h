@@ -14,9 +14,9 @@ namespace feldspar
 template <int dim>
 void check_intact(const Input& input, const Network<dim>& network);
 
-/// For `feldspar multiscale`, as far as no mesh is needed.
+/// Checks an input of `feldspar multiscale` as far as no mesh is needed.
 void check_sample_entries(const Input& input, const std::filesystem::path& input_file);
 
-/// For `feldspar multiscale`, all of it. MPI is up. Collective; returns remarks that a user should know.
+/// Checks all of an input of `feldspar multiscale`. MPI is up. Collective; returns remarks that a user should know.
 std::vector<std::string> check_sample_input(const Input& input, const std::filesystem::path& input_file);
 } // namespace feldspar

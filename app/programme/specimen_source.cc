@@ -4,19 +4,22 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "app/programme/genesis_effort.h"
+#include "app/programme/run_board.h"
 #include "app/programme/usual_ranges.h"
 #include "app/run/interrupt.h"
-#include "app/run/jobs.h"
 #include "base/input_error.h"
 #include "dem/rock/rock.h"
 #include "dem/specimen/specimen_file.h"
+#include "runs/jobs.h"
+#include "runs/share_out.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <cstdint>
+#include <utility>
 
 namespace feldspar
 {
@@ -32,7 +35,7 @@ std::string rock(const Input& input)
   return text;
 }
 
-/// Each by the values that all variants on it share.
+/// Names of rocks, each by the values that all variants on it share.
 std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
                                         const std::vector<std::vector<std::size_t>>& of_rock)
 {
@@ -53,71 +56,6 @@ std::vector<std::string> names_of_rocks(const std::vector<Variant>& variants,
   const bool any_without = std::any_of(shared.begin(), shared.end(), [](const auto& one) { return one.empty(); });
   return any_without || variants.front().input.variants.named_by_number ? by_number : names_in_files(shared);
 }
-
-/// Tells the progress how far genesis is, by its steps and those that it will probably take.
-class GenesisBoard
-{
-public:
-  GenesisBoard(Progress& shown, const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders)
-    : progress(shown)
-  {
-    for (const SpecimenOrder& order : orders)
-      entries.push_back({expected_effort(variants[order.variants.front()].input.specimen)});
-    progress.start("genesis");
-  }
-
-  void step(const std::size_t k)
-  {
-    constexpr std::uint64_t steps_between_checks = 100;
-    if (++entries[k].n_steps % steps_between_checks == 0)
-      draw(k);
-  }
-
-  void finish(const std::size_t k)
-  {
-    entries[k].finished = true;
-    draw(k);
-  }
-
-  /// A sentence that stays.
-  void say(const std::string& sentence)
-  {
-    const std::lock_guard lock(showing);
-    progress.note(sentence);
-  }
-
-private:
-  struct Entry
-  {
-    GenesisEffort expected;
-    std::uint64_t n_steps = 0; ///< of its own thread, which alone looks at it
-    double share = 0.0;
-    bool finished = false;
-  };
-
-  void draw(const std::size_t k)
-  {
-    const std::lock_guard lock(showing);
-    constexpr double beyond = 1.2; // of one that takes longer than expected
-    const double n = double(entries[k].n_steps);
-    entries[k].share = entries[k].finished ? 1.0 : n / std::max({entries[k].expected.n_steps, beyond * n, 1.0});
-    double spent = 0.0;
-    double all = 0.0;
-    std::size_t n_finished = 0;
-    for (const Entry& entry : entries)
-      {
-        spent += entry.share * entry.expected.seconds;
-        all += entry.expected.seconds;
-        n_finished += entry.share == 1.0;
-      }
-    progress.update(all > 0.0 ? spent / all : 1.0, fmt::format("{} of {} done", n_finished, entries.size()));
-  }
-
-  Progress& progress;
-  std::mutex showing;
-  std::vector<Entry> entries;
-};
-
 } // namespace
 
 std::vector<SpecimenOrder> specimen_orders(const std::vector<Variant>& variants)
@@ -169,19 +107,30 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
     progress.remark(fmt::format("the specimen is that of {};\nthese entries have no effect on it: {}",
                                 variants.front().input.specimen.specimen_file, fmt::join(settled, ", ")));
   std::vector<Specimen<dim>> specimens(orders.size());
-  GenesisBoard board(progress, variants, orders);
+  const auto input_of = [&](const SpecimenOrder& order) -> const Input& {
+    return variants[order.variants.front()].input;
+  };
+  std::vector<BoardPart> parts;
+  for (const SpecimenOrder& order : orders)
+    parts.push_back({order.name, expected_effort(input_of(order).specimen).seconds});
+  RunBoard board(progress, "genesis", std::move(parts));
   for_each_job(orders.size(), [&](const std::size_t k) {
+    const Input& input = input_of(orders[k]);
+    const double expected_steps = expected_effort(input.specimen).n_steps;
+    std::uint64_t n_steps = 0;
     const auto step = [&] {
       end_if_interrupted();
-      board.step(k);
+      constexpr std::uint64_t steps_between_checks = 100;
+      constexpr double beyond = 1.2; // of one that takes longer than expected
+      if (++n_steps % steps_between_checks == 0)
+        board.advanced(k, {nullptr, double(n_steps) / std::max({expected_steps, beyond * double(n_steps), 1.0})});
     };
-    const Input& input = variants[orders[k].variants.front()].input;
     const auto file = folder / (orders[k].name + ".h5");
     if (std::filesystem::exists(file))
       try
         {
           specimens[k] = read_specimen<dim>(file, end_if_interrupted);
-          board.finish(k);
+          board.ended(k);
           return;
         }
       catch (const InputError& error)
@@ -190,10 +139,20 @@ std::vector<Specimen<dim>> provide_specimens(const std::vector<Variant>& variant
         }
     specimens[k] = make_rock<dim>(rock_of(input), orders[k].seed, step, end_if_interrupted);
     write_specimen(specimens[k], file);
-    board.finish(k);
+    board.ended(k);
   });
   progress.finish(fmt::format("{} specimen(s) of {} grains", specimens.size(), specimens.front().grains.size()));
   return specimens;
+}
+
+template <int dim>
+void share_out_specimens(const std::vector<Variant>& variants, const std::vector<SpecimenOrder>& orders,
+                         const std::filesystem::path& folder, Progress& progress)
+{
+  together_or_interrupted([&] {
+    if (const auto own = share_of_this_process(orders); !own.empty())
+      provide_specimens<dim>(variants, own, folder, progress);
+  });
 }
 
 std::string describe(const SpecimenReport& report)
@@ -253,6 +212,10 @@ std::string describe(const std::vector<Flaw<dim>>& flaws)
   return text;
 }
 
+template void share_out_specimens<2>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                     const std::filesystem::path&, Progress&);
+template void share_out_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,
+                                     const std::filesystem::path&, Progress&);
 template std::string describe<2>(const std::vector<Flaw<2>>&);
 template std::string describe<3>(const std::vector<Flaw<3>>&);
 template std::vector<Specimen<3>> provide_specimens<3>(const std::vector<Variant>&, const std::vector<SpecimenOrder>&,

@@ -48,7 +48,7 @@ bool is_there(const fs::path& file)
   return fs::exists(fs::symlink_status(file, ignored));
 }
 
-/// As it is compared: from the root, without `.`, `..` and slashes at its end.
+/// Path as it is compared: from the root, without `.`, `..` and slashes at its end.
 fs::path plain(const fs::path& path)
 {
   const fs::path normal = fs::absolute(path).lexically_normal();
@@ -80,7 +80,7 @@ std::set<std::string> listed_files(const fs::path& folder)
   return files;
 }
 
-/// Whether no folder on the way to the file is a link.
+/// Returns whether no folder on the way to the file is a link.
 bool lies_in(const fs::path& folder, const fs::path& relative)
 {
   fs::path way = folder;
@@ -157,8 +157,8 @@ bool is_of_version_without_lists(const fs::path& folder)
          (has_words(folder / record_name, "\"relative_to\"") || has_words(folder / page_name, "Feldspar report of"));
 }
 
-/// The files that runs wrote into the folder. Of a version without lists only the known names at its top: what lies in its
-/// folders of results may be the user's.
+/// The files that runs wrote into the folder. A folder of a version without lists gives only the known names at its
+/// top: files in its folders of results may be the user's.
 std::set<std::string> files_of_runs(const fs::path& folder)
 {
   std::set<std::string> files = listed_files(folder);

@@ -16,7 +16,7 @@ struct Places
   std::vector<std::string_view> folders; ///< with all that is in them
   bool specimens;                        ///< specimen.h5, specimen_seed_1.h5, ...
 
-  /// Whether a path relative to the folder is one of these files, or lies in one of these folders.
+  /// Returns whether a path relative to the folder is one of these files, or lies in one of these folders.
   bool include(const std::filesystem::path& relative) const;
 };
 
@@ -54,7 +54,7 @@ void check_links(const std::filesystem::path& folder);
 void check_write_over(const std::filesystem::path& folder, const Places& places,
                       const std::vector<std::filesystem::path>& inputs);
 
-/// Whether a run has written into the folder.
+/// Returns whether a run has written into the folder.
 bool holds_a_run(const std::filesystem::path& folder);
 
 /// Removes the files that runs wrote into the folder and whose path begins with `below`, and the folders of results

@@ -1,22 +1,17 @@
 #pragma once
 
+#include "runs/observer.h"
+
 #include <chrono>
-#include <exception>
 
 namespace feldspar
 {
-/// The end of work that was asked to end and has nothing to hand over.
-struct Interrupted : std::exception
-{
-  const char* what() const noexcept override { return "interrupted"; }
-};
-
-/// From now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has it ignored) or SIGUSR1
-/// (which mpirun passes on without ending the run itself) only asks the run to end; the second ends it at once.
-/// `acknowledged`: at once by a line on standard error.
+/// Watches for interrupts: from now on the first Ctrl-C, SIGTERM, SIGHUP (of a terminal that closes, unless nohup has
+/// it ignored) or SIGUSR1 (which mpirun passes on without ending the run itself) only asks the run to end; the second
+/// ends it at once. `acknowledged`: at once by a line on standard error.
 void watch_for_interrupt(bool acknowledged);
 
-/// Whether the run was asked to end.
+/// Returns whether the run was asked to end.
 bool interrupted();
 
 /// For work that may take long after an interrupt, such as drawing: whether the run was asked to end and, if that was

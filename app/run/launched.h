@@ -4,29 +4,10 @@
 #include "app/screen/progress.h"
 
 #include <functional>
-#include <memory>
 #include <string>
 
 namespace feldspar
 {
-/// Whether mpirun or srun started this process, perhaps with others. A process that nobody started so does without MPI
-/// where it can: it is up at once.
-bool is_launched();
-
-/// Keeps MPI up while it lives, with what else needs to be up: of any type.
-using MpiSession = std::shared_ptr<void>;
-
-/// The processes of one machine share its cores, as with deal.II.
-MpiSession mpi_alone();
-
-/// Runs a program with MPI up, on all processes that were started together. Returns the exit code; throws what the program
-/// throws, once MPI is down.
-int with_mpi(const std::function<int()>& program, MpiSession (*bring_up)() = mpi_alone);
-
-/// Work of each process by itself, of all of them; an interruption of one is one of all: Interrupted is thrown on all.
-/// Else as ranks::together().
-void together_or_interrupted(const std::function<void()>& work);
-
 /// All of them, for a run that they make together. MPI is up, or there is one process.
 Processes all_processes();
 

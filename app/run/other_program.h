@@ -9,7 +9,7 @@ namespace feldspar
 /// them that does not use them. Throws InputError.
 [[noreturn]] void go_on_as(const std::string& program);
 
-/// To be called by every program at its start: refuses, by InputError, to be the other program of another version, which a
-/// build that did not come to its end leaves there.
+/// Refuses, by InputError, to be the other program of another version, which a build that did not come to its end
+/// leaves there. Every program calls it at its start.
 void check_version_of_caller();
 } // namespace feldspar

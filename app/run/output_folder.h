@@ -24,7 +24,8 @@ public:
   const std::filesystem::path& path() const { return folder; }
 
 private:
-  /// Whether it was made now; false if it is there already. One of several runs that try at once makes it.
+  /// Makes a folder. Returns whether it was made now; false if it is there already. One of several runs that try at
+  /// once makes it.
   bool make(const std::filesystem::path& new_folder);
   void make_numbered(const std::filesystem::path& input);
   void make_wanted(const std::filesystem::path& wanted,

@@ -26,7 +26,7 @@ std::string how_to_resume(const RunCommand& command, const std::filesystem::path
   return fmt::format("go on with: feldspar {} --resume {}", command.name, printable(folder.string()));
 }
 
-/// What failed of a run that came to its end, if anything did.
+/// Prints which part of a run that came to its end has failed, if any has.
 void tell_failure(const std::string& failure, const std::filesystem::path& folder)
 {
   if (!failure.empty())
@@ -34,7 +34,7 @@ void tell_failure(const std::string& failure, const std::filesystem::path& folde
                printable(folder.string()));
 }
 
-/// From wherever the run stands.
+/// Continues from wherever the run stands.
 int go_on(const RunCommand& command, const Run& run)
 {
   const Processes& processes = command.processes;

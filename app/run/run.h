@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// A run in its folder: begun or taken up, ended by its end, by Ctrl-C or by an error; the same for every command that
+/// A run in its folder: begun or resumed, ended by its end, by Ctrl-C or by an error; the same for every command that
 /// runs long.
 namespace feldspar
 {
@@ -28,7 +28,7 @@ struct CommonOptions
 {
   std::filesystem::path input;
   std::vector<std::string> settings;           ///< Section/Entry = value each, in place of what the input says
-  std::optional<std::filesystem::path> resume; ///< of those that run long: the folder to be taken up
+  std::optional<std::filesystem::path> resume; ///< of those that run long: the folder to be resumed
   std::optional<std::string> extract;          ///< of `multiscale`: CELL:POINT; the input is the folder of a run
   std::optional<std::filesystem::path> output;
   bool force = false;
@@ -44,7 +44,7 @@ struct Run
   bool quiet;
 };
 
-/// How a command left a run.
+/// State in which a command left a run.
 struct RunEnd
 {
   bool was_interrupted; ///< something is left to be done

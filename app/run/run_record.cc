@@ -2,9 +2,9 @@
 
 #include "app/input/parameter_table.h"
 #include "app/run/run.h"
+#include "base/checksum/fingerprint.h"
 #include "base/input_error.h"
 #include "base/readable_file.h"
-#include "base/system/fingerprint.h"
 #include "base/whole_file.h"
 #include "feldspar_version.h"
 
@@ -45,8 +45,8 @@ struct Contents
   int code_of_failure;
 };
 
-/// The checksum of all that tells which rock and tests a resumed run goes on with. Whether it is complete, and how its files
-/// are named, changes no result.
+/// The checksum of all that tells which rock and tests a resumed run goes on with. It leaves out whether the list is
+/// complete and how its files are named, because these change no result.
 std::string checksum_of(const Contents& contents)
 {
   Fingerprint print;
@@ -110,14 +110,14 @@ Contents read(const std::filesystem::path& folder)
   using Type = nlohmann::json::value_t;
   if (!holds("command", Type::string) || !holds("input_file", Type::string) || !holds("relative_to", Type::string) ||
       !holds("complete", Type::boolean))
-    throw InputError(fmt::format("--resume {}: not the folder of a run; {} is missing in it or damaged",
-                                 folder.string(), record_name));
+    throw InputError(
+      fmt::format("{}: not the folder of a run; {} is missing in it or damaged", folder.string(), record_name));
   std::vector<std::string> settings;
   if (json.contains("settings")) // not in the folders of before there were any
     {
       const auto& all = json["settings"];
       if (!all.is_array() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
-        throw InputError(fmt::format("--resume {}: the settings in {} are damaged", folder.string(), record_name));
+        throw InputError(fmt::format("{}: the settings in {} are damaged", folder.string(), record_name));
       settings = all.get<std::vector<std::string>>();
     }
   std::map<std::string, std::string> checksums;
@@ -125,7 +125,7 @@ Contents read(const std::filesystem::path& folder)
     {
       const auto& all = json["checksums"];
       if (!all.is_object() || !std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_string(); }))
-        throw InputError(fmt::format("--resume {}: the checksums in {} are damaged", folder.string(), record_name));
+        throw InputError(fmt::format("{}: the checksums in {} are damaged", folder.string(), record_name));
       checksums = all.get<std::map<std::string, std::string>>();
     }
   Contents contents{json["command"].get<std::string>(),
@@ -140,9 +140,8 @@ Contents read(const std::filesystem::path& folder)
                     holds("exit_code", Type::number_unsigned) ? json["exit_code"].get<int>() : exit_code::user_error};
   if (json.contains("checksum") &&
       json["checksum"] != checksum_of(contents)) // not in the folders of before there was one
-    throw InputError(
-      fmt::format("--resume {}: {} in it is not as the run wrote it; undo the change, or begin another run",
-                  folder.string(), record_name));
+    throw InputError(fmt::format("{}: {} in it is not as the run wrote it; undo the change, or begin another run",
+                                 folder.string(), record_name));
   return contents;
 }
 } // namespace
@@ -200,16 +199,15 @@ RunRecord read_run_record(const std::string& command, const std::filesystem::pat
   const Contents contents = read(folder);
   if (contents.command != command)
     throw InputError(
-      fmt::format("--resume {}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
+      fmt::format("{}: a run of `feldspar {}`; take it up with that", folder.string(), contents.command));
   const std::filesystem::path copy = copy_of_input(folder, contents.input_file);
   if (!contents.complete)
     {
       const auto check = [&](const std::filesystem::path& file, const std::string& checksum) {
         if (checksum_of(file) != checksum)
-          throw InputError(
-            fmt::format("--resume {}: {} is not as it was when the run began (its checksum differs); put it "
-                        "back, or begin a new run",
-                        folder.string(), file.string()));
+          throw InputError(fmt::format("{}: {} is not as it was when the run began (its checksum differs); put it "
+                                       "back, or begin a new run",
+                                       folder.string(), file.string()));
       };
       if (!contents.input_checksum.empty())
         check(copy, contents.input_checksum);

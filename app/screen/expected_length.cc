@@ -1,6 +1,7 @@
 #include "app/screen/expected_length.h"
 
 #include "app/input/joint_sections.h"
+#include "app/screen/stage_length.h"
 #include "dem/lab/protocols/protocols.h"
 
 #include <algorithm>
@@ -61,6 +62,13 @@ double expected_last_strain(const double strain_at_peak, const TestParameters& t
     return tests.stop_strain.value_or(tests.stop_strain_over_peak_strain * strain_at_peak);
   const double fallen = (1.0 + strain_of_fall * (1.0 - *tests.stop_stress_over_peak)) * strain_at_peak;
   return tests.stop_strain ? std::min(*tests.stop_strain, fallen) : fallen;
+}
+
+double expected_last_strain(const TestCase& test, const Input& input)
+{
+  return test.kind.follows_stages
+           ? StageLength(input.tests, expected_modulus(input)).left()
+           : expected_last_strain(expected_strain_at_peak(test, input).value_or(0.0), input.tests);
 }
 
 double TestCost::share(const double strain, const double last_strain) const

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/input/input.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <cstddef>
 #include <optional>
@@ -18,7 +18,10 @@ std::optional<double> expected_strain_at_peak(const TestCase& test, const Input&
 /// The strain at which a test will probably end, from that at its peak.
 double expected_last_strain(double strain_at_peak, const TestParameters& tests);
 
-/// How much work a test is, in any unit that the tests of a run have in common.
+/// The same from the input alone.
+double expected_last_strain(const TestCase& test, const Input& input);
+
+/// Work of a test, in any unit that the tests of a run have in common.
 struct TestCost
 {
   double per_strain;   ///< mean over the test
@@ -29,10 +32,10 @@ struct TestCost
   double share(double strain, double last_strain) const;
 };
 
-/// Of a specimen of grains, whose steps cost as the grains that they move; a strain takes the more of them the lower its rate
-/// [1/s].
+/// Cost of a test on a specimen of grains. A step costs as the grains that it moves; a strain takes the more steps the
+/// lower its rate [1/s].
 TestCost cost_of_specimen(std::size_t n_grains, double strain_rate);
 
-/// Of a sample with RVEs, in which a step of the curve costs as what is broken.
+/// Cost of a test on a sample with RVEs, in which a step of the curve costs as what is broken.
 TestCost cost_of_sample(const TestKind& kind, const SampleParameters& sample);
 } // namespace feldspar

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr int bar_length = 10;
 
-/// Without an exception, should nobody read it or the disk be full.
+/// Prints on standard error, without an exception if nobody reads it or the disk is full.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 constexpr std::size_t page_width = 80; // of a file or pipe

@@ -49,7 +49,7 @@ private:
   std::string title;
   Clock::time_point started;
   Clock::time_point drawn;
-  double fraction_at_start = 0.0; ///< of a run that was taken up
+  double fraction_at_start = 0.0; ///< of a run that was resumed
   std::size_t n_lines_above = 0;  ///< of the last drawing, above the cursor
 };
 } // namespace feldspar

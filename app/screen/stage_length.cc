@@ -1,6 +1,6 @@
 #include "app/screen/stage_length.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/loading_stages.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ double StageLength::left() const
 
 double StageLength::way(const LoadingStage& stage, StageMoment& from) const
 {
-  constexpr double widening_over_shortening = 0.25; // of rock that bears
+  constexpr double widening_over_shortening = 0.25; // of rock that carries load
   const double rate = stage.strain_rate.value_or(wanted.of<CompressionParameters>().strain_rate);
   double strain = 0.0;
   double time = 0.0;

@@ -1,20 +1,20 @@
 #pragma once
 
-#include "dem/lab/compression.h"
-#include "dem/lab/stage_walk.h"
+#include "laboratory/compression.h"
+#include "laboratory/stage_walk.h"
 
 #include <vector>
 
 namespace feldspar
 {
-/// How long a test that follows a loading table will take and how far it has come, both as the strain that its rate of
+/// Expected length of a test that follows a loading table, and how far it has come, both as the strain that its rate of
 /// compression brings in the same time. Ways to a stress are guessed by a modulus.
 class StageLength
 {
 public:
   StageLength(const TestParameters& parameters, double modulus_of_body);
 
-  /// Each row of its curve, from the first one on.
+  /// Takes each row of its curve, from the first one on.
   void follow(const CurveSample& row);
 
   double gone() const;

@@ -88,7 +88,7 @@ public:
       }
   }
 
-  /// Its status by <sys/wait.h>; none where another has taken it.
+  /// Waits for the child and returns its status by <sys/wait.h>; none where another has taken it.
   std::optional<int> wait()
   {
     int status = 0;

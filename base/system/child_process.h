@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-/// What a child process may use.
+/// Limits of what a child process may use.
 struct ProcessLimits
 {
   std::uint64_t seconds;      ///< of processor time

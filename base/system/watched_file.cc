@@ -1,6 +1,6 @@
 #include "base/system/watched_file.h"
 
-#include "base/system/write_at.h"
+#include "base/write_at.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -27,7 +27,7 @@ struct WatchedFile
   haddr_t end_of_file;
 };
 
-/// How a WatchedFile is opened.
+/// Descriptor and place for the error with which a WatchedFile is opened.
 struct WatchedAccess
 {
   int descriptor;

@@ -52,10 +52,10 @@ Specimen<dim> body_named(const std::string& body)
       constexpr unsigned int n_across = 2;
       wanted.dimension = 3;
       wanted.porosity = 0.37;
-      wanted.shape = "periodic";
+      wanted.shape = BodyShape::periodic;
       wanted.width = wanted.height = 0.0265;
       return cored<3>(repeated<3>(make_specimen<3>(wanted, joint_of(body), {}, 1), {n_across, n_across, 2 * n_across}),
-                      true);
+                      BodyShape::cylinder);
     }
 }
 

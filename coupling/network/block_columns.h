@@ -119,8 +119,8 @@ inline const simd::Four& widened(const simd::Four& column) { return column; }
 template <int dim>
 using BlockColumn = std::conditional_t<dim == 2, simd::Four, ColumnOfSix>;
 
-/// As a factor is kept: in space in single precision, as the memory or a large cache brings it anew for each solution. A factor of
-/// the plane lies in a nearer one, where conversion takes longer than loading.
+/// Block column as a factor keeps it: in space in single precision, because each solution loads it from the memory or a
+/// large cache. A factor of the plane lies in a nearer cache, where conversion takes longer than loading.
 template <int dim>
 using KeptBlockColumn = std::conditional_t<dim == 2, simd::Four, SingleColumnOfSix>;
 

@@ -99,8 +99,8 @@ void BlockFactor<dim>::subtract(const std::uint32_t begin, const std::uint32_t e
     }
 }
 
-/// L and D of a column from which the columns before it have been subtracted. Of the block on the diagonal, what stands below its
-/// own diagonal of ones.
+/// L and D of a column from which the columns before it have been subtracted. The block on the diagonal keeps the part
+/// of L below its own diagonal of ones.
 template <int dim>
 void BlockFactor<dim>::factorise_column(const std::size_t k)
 {

@@ -15,8 +15,8 @@ namespace feldspar
 /// (benchmarks/README.md), and the bits of CHOLMOD's depend on the library of linear algebra that a machine has. Here sums are
 /// in one order, and every processor that rounds a product and a sum once (all with AVX2) gives the same bits.
 ///
-/// In space L is made in double precision and kept in single (KeptBlockColumn). What is solved with it is another matrix, as
-/// symmetric and as definite, of which L differs by 6e-8: enough for conjugate gradients.
+/// In space L is made in double precision and kept in single (KeptBlockColumn). Solutions are then those of another
+/// matrix, as symmetric and as definite, whose L differs by 6e-8: enough for conjugate gradients.
 template <int dim>
 class BlockFactor
 {
@@ -32,12 +32,13 @@ public:
   double diagonal(std::size_t grain, int motion) const;
   void set_diagonal(std::size_t grain, int motion, double value);
 
-  /// From the matrix to its factor; once.
+  /// Turns the matrix into its factor; once.
   void factorise();
 
   /// x of A x = b, nearly; [n_motions * n_grains], grain by grain.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// Of several at once: of six, three and a half times as fast as one by one. Sums are in another order.
+  /// Solves for several right-hand sides at once; for six, three and a half times as fast as one by one. Sums are in
+  /// another order.
   UnitUnknowns<dim> solve(const UnitUnknowns<dim>& b) const;
 
   std::size_t bytes() const

@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// What holds the sides of a cell; docs/theory.md §9.6.
+/// Condition on the sides of a cell; docs/theory.md §9.6.
 namespace feldspar
 {
 enum class BoundaryKind
@@ -28,6 +28,6 @@ struct Boundary
   bool operator==(const Boundary&) const = default;
 };
 
-/// In words: periodic, "weakly periodic, 4 pieces", "edge, x free".
+/// Name of a boundary in words: periodic, "weakly periodic, 4 pieces", "edge, x free".
 std::string name(const Boundary& boundary);
 } // namespace feldspar

@@ -12,9 +12,9 @@
 /// The boundary of a cell as conditions on the motions of its grains; docs/theory.md §9.6.
 namespace feldspar
 {
-/// What a boundary asks of the motions u of grains beside the affine ones: B u = 0, and no displacement of the grains that it
-/// holds. All motions of a network go through these conditions; forces that do no work on such motions are borne by the
-/// boundary.
+/// Conditions of a boundary on the motions u of grains beside the affine ones: B u = 0, and no displacement of the
+/// grains that it holds. All motions of a network go through these conditions; forces that do no work on such motions
+/// are carried by the boundary.
 template <int dim>
 class BoundaryConditions
 {
@@ -36,15 +36,16 @@ public:
   const std::vector<Piece>& pieces() const { return all_pieces; }
   const std::vector<std::uint32_t>& held() const { return held_grains; }
 
-  /// That a piece or a hold acts on.
+  /// Grains on which a piece or a hold acts.
   std::vector<std::uint32_t> grains() const;
 
-  /// Less the pairs of which the two are not in one fragment any more, by the joints that hold, the first of the links:
-  /// nothing holds one against the traction on the other. The others of their piece take their share.
+  /// Returns the conditions without the pairs whose two grains are no longer in one fragment: nothing holds one of them
+  /// against the traction on the other. Fragments follow from the joints that hold; joints are the first of the links.
+  /// The other pairs of the piece take their share.
   BoundaryConditions that_bear(const std::vector<Link<dim>>& links, std::size_t n_joints, std::size_t n_grains,
                                const std::function<bool(std::uint32_t joint)>& holds) const;
 
-  /// Motions less what the conditions do not admit; forces less what the boundary bears. The orthogonal projection.
+  /// Motions less what the conditions do not admit; forces less what the boundary carries. The orthogonal projection.
   void project(Eigen::VectorXd& motions_or_forces) const;
 
   /// B u.
@@ -52,7 +53,7 @@ public:
   /// Bᵀ λ; λ are the tractions of the pieces, component by component [N], then the couples of the pairs [N m].
   void add_reactions(const Eigen::VectorXd& multipliers, double factor, Eigen::VectorXd& forces) const;
   Eigen::Index n_multipliers() const { return Eigen::Index(rows.size()); }
-  /// λ that bears most of these forces, by least squares.
+  /// λ that carries most of these forces, by least squares.
   Eigen::VectorXd multipliers(const Eigen::VectorXd& forces) const;
   Vector<dim> traction(const Eigen::VectorXd& multipliers, const std::size_t piece) const
   {

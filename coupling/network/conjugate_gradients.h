@@ -61,7 +61,8 @@ LinearSolution<Eigen::VectorXd> bi_conjugate_gradients(const Apply& apply, const
                                                        const Eigen::VectorXd& right, const double tolerance,
                                                        const unsigned int most_iterations)
 {
-  // On P A x = P b, from the left: what is small in forces may be large in motions.
+  // The iteration solves P A x = P b, preconditioned from the left: a residual that is small in forces may be large in
+  // motions.
   Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
   Eigen::VectorXd residual = precondition(right);
   const Eigen::VectorXd shadow = residual;

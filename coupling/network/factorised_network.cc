@@ -54,7 +54,8 @@ FactorisedNetwork<dim>::FactorisedNetwork(const std::vector<Link<dim>>& links, c
   factor = made;
   condense();
 
-  // It also applies the matrix; and an operation of the factor, whose blocks stay in the cache, is somewhat faster.
+  // Cost of an iteration over that of a solution: an iteration also applies the matrix, and an operation of the factor,
+  // whose blocks stay in the cache, is somewhat faster.
   constexpr double iteration_over_solution = 3.5;
   cost = unsigned(std::clamp(made->cost_of_factor() / iteration_over_solution, 8.0, 1000.0));
 }
@@ -100,8 +101,9 @@ Columns FactorisedNetwork<dim>::solve_unconditioned(const Columns& forces) const
   constexpr int n = n_motions<dim>;
   if (!its_conditions->held().empty())
     return factor->solve(forces);
-  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held bears it. A
-  // factor that was rounded shifts the body by balanced forces, too: for the inverse to be symmetric both are taken out.
+  // Forces in balance have no sum; what round-off leaves of it would shift the whole body far. A body that is held
+  // carries it. A factor that was rounded shifts the body by balanced forces, too: for the inverse to be symmetric both
+  // are taken out.
   const auto without_mean = [](Columns rows) {
     RowsOf<dim, Columns> mean = RowsOf<dim, Columns>::Zero();
     const Eigen::Index n_grains = rows.rows() / n;

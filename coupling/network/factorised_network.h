@@ -44,10 +44,10 @@ public:
   /// Motions for several forces on grains, side by side; the strain stays.
   UnitUnknowns<dim> solve_with_strain_held(const UnitUnknowns<dim>& forces) const;
 
-  /// How many iterations of conjugate gradients cost as much as factorising anew, by the times that were measured of both.
+  /// Number of iterations of conjugate gradients that cost as much as a new factorisation, by measured times of both.
   unsigned int cost_in_iterations() const { return cost; }
 
-  /// What it takes that no other has, nearly all of it for the factor.
+  /// Memory that this network shares with no other, nearly all of it for the factor.
   std::size_t bytes() const
   {
     return factor->bytes() +

@@ -67,7 +67,7 @@ void add_more_couples(const Link<3>& link, const OwnTurns<Unknowns>& at, const R
                            -more_slip(link.arm_2, at.of_2).transpose() * slip + 0.5 * cross(at.of_1) * couple, sum);
 }
 
-/// How the couples of these forces change with the turns.
+/// Adds the change of the couples of these forces with the turns.
 template <typename Columns>
 void add_change_of_couples(const Link<3>& link, const Motion<3>& forces, const OwnTurns<Columns>& change, Columns& sum)
 {
@@ -108,7 +108,7 @@ TurnedLink<dim>::TurnedLink(const Link<dim>& link, const Unknowns& position)
   if constexpr (dim == 3)
     {
       turns = own_turns(link, position);
-      // Of a form of second order the value is its change by the turns at half of them.
+      // The value of a form of second order is its change by the turns, computed at half of them.
       add_more_motion<Unknowns>(link, {0.5 * turns.of_1, 0.5 * turns.of_2}, turns, its_motion);
     }
 }

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <variant>
 
-/// How the motion of a link follows from those of its grains; docs/theory.md §9.8.
+/// Motion of a link as it follows from the motions of its grains; docs/theory.md §9.8.
 namespace feldspar
 {
 enum class Kinematics
@@ -25,7 +25,7 @@ struct OwnTurns
 template <int dim>
 using LinkTurns = std::conditional_t<dim == 3, OwnTurns<Unknowns>, std::monostate>;
 
-/// How a small motion of a turned link follows from those of its grains.
+/// Gradient of a small motion of a turned link by the motions of its grains.
 template <int dim>
 struct TurnedGradient
 {
@@ -41,16 +41,16 @@ template <int dim>
 class TurnedLink
 {
 public:
-  /// Where the grains stand at a position.
+  /// The link with its grains at a position.
   TurnedLink(const Link<dim>& link, const Unknowns& position);
 
-  /// Since rest [m, rad].
+  /// Motion since rest [m, rad].
   const Motion<dim>& motion() const { return its_motion; }
 
   TurnedGradient<dim> gradient() const { return {gradient_by_way(), turns}; }
 
-  /// What forces of the link, conjugate to its motion, add to its stiffness against the way of the second centre because they
-  /// turn with the branch [N/m]. Symmetric; to first order in the angle of the branch.
+  /// Stiffness against displacements of the second centre that forces of the link, conjugate to its motion, add because
+  /// they turn with the branch [N/m]. Symmetric; to first order in the angle of the branch.
   Tensor<dim> stiffness(const Motion<dim>& forces) const;
 
 private:
@@ -65,7 +65,7 @@ private:
   Motion<dim> its_motion;
 };
 
-/// How the forces of a link that stands turned reach its grains, and how stiff it is beyond its law.
+/// Turn of a link: the way of its forces to its grains, and its stiffness beyond its law.
 template <int dim>
 struct LinkTurn
 {

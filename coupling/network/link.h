@@ -25,8 +25,8 @@ using LinkGradient = Eigen::Matrix<double, n_motions<dim>, 2 * n_motions<dim>>;
 template <int dim>
 using LinkStrainGradient = Eigen::Matrix<double, n_motions<dim>, n_voigt<dim>>;
 
-/// Two grains joined by a face, or, without a face, near enough that they may come to touch: then a single element in
-/// the middle that carries no tension and no moment.
+/// Two grains joined by a face, or, without a face, near enough that they may come into contact: then a single element
+/// in the middle that carries no tension and no moment.
 template <int dim>
 struct Link
 {
@@ -58,8 +58,9 @@ LinkGradient<dim> link_gradient(const Link<dim>& link);
 template <int dim>
 LinkStrainGradient<dim> link_strain_gradient(const Link<dim>& link);
 
-/// Of the second centre from the first, beyond the branch at rest, in the axes at rest [m]. Here and below by the axes, the arms
-/// and the branch: the gradients, half of which are zeros, would take three times as long.
+/// Displacement of the second centre relative to the first, beyond the branch at rest, in the axes at rest [m]. This
+/// function and those below use the axes, the arms and the branch: the gradients, half of which are zeros, would take
+/// three times as long.
 template <int dim, typename Columns>
 RowsOf<dim, Columns> way_of_centres(const Link<dim>& link, const Columns& unknowns)
 {

@@ -52,8 +52,8 @@ flat_joint::Segment<dim, double> segment_of(const Link<dim>& link, const FaceEle
     return {link.normal_stiffness, link.shear_stiffness, element.area * r * r, link.friction};
 }
 
-/// How far a segment counts as closed to shear: wholly at a gap of -width, not at all at +width. The law of dem/ has a
-/// jump there, and no equilibrium may be found where one lies on it.
+/// Share of a segment that counts as closed to shear: 1 at a gap of -width, 0 at +width. The law of dem/ has a jump
+/// there, and no equilibrium may be found where one lies on it.
 class Closure
 {
 public:
@@ -70,7 +70,7 @@ public:
     return is_short(from, to) ? at(0.5 * (from + to)) : (integral(to) - integral(from)) / (to - from);
   }
 
-  /// Of the mean, per change of the gap at the end [1/m].
+  /// Derivative of the mean by the gap at the end [1/m].
   double mean_rate(const double from, const double to) const
   {
     if (is_short(from, to))
@@ -110,7 +110,7 @@ MovingSegment<dim> moving_segment(const Network<dim>& network, const ActiveLink<
                                   const std::uint32_t i)
 {
   const Link<dim>& link = network.links()[active.link];
-  // A pair without a face touches at a point: no slope, no moment.
+  // A pair without a face is in contact at a point: no slope, no moment.
   const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0};
   const FaceElement<dim>& element = link.has_face ? network.elements()[i] : point;
   const auto rows = element_rows(element, link.half_length);
@@ -134,7 +134,7 @@ void add_segment(const MovingSegment<dim>& of, const flat_joint::NormalResponse<
       forces[2] -= normal.moment;
 }
 
-/// Of an unbonded segment: of the part that presses.
+/// Stiffness of the part of an unbonded segment that presses.
 template <int dim>
 struct PressingStiffness
 {
@@ -181,7 +181,7 @@ void add_bonded(const MovingSegment<dim>& of, const JointStiffness<dim>& stiffne
   sum.stored_energy += 0.5 * motion.dot(stiffness * motion);
 }
 
-/// Without a bond: one return map from the last event, first as if nothing slid.
+/// Adds a segment without a bond: one return map from the last event, first as if nothing slid.
 template <int dim>
 void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, const double thickness,
                   LinkResponse<dim>& sum, SegmentResponse<dim>& segment)
@@ -208,7 +208,8 @@ void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, 
   bool sticks = true;
   for (int c = 0; c < dim - 1; ++c)
     {
-      // Of a face an edge may press while the middle is open: what the shear does not follow there is slip too.
+      // On a face, an edge may press while the middle is open: the displacement there that the shear stress does not
+      // follow is slip too.
       const double left_open = link.has_face ? 1.0 - share : 0.0;
       segment.slip[c] = (trial[c] - segment.shear_stress[c]) / k_s - left_open * (of.now[c + 1] - of.before[c + 1]);
       sticks = sticks && trial[c] == segment.shear_stress[c];
@@ -223,7 +224,8 @@ void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, 
   if (sticks)
     sum.tangent += k_s * closure.at(step.gap) * area * shear_rows.transpose() * shear_rows;
 
-  // Of -τ: as if nothing slid; then |τ| = -μσ̂ along the trial stress, which the slip across it turns.
+  // Rate of -τ as if nothing slid. While it slides, |τ| = -μσ̂ along the trial stress, whose direction the slip across
+  // it turns.
   using ShearRate = Eigen::Matrix<double, dim - 1, n_motions<dim>>;
   using Shear = Eigen::Matrix<double, dim - 1, 1>;
   ShearRate shear_rate = k_s * (share * shear_rows + (of.now - of.before).template tail<dim - 1>() *
@@ -239,8 +241,8 @@ void add_unbonded(const MovingSegment<dim>& of, const SegmentHistory<dim>& old, 
   sum.derivative += area * shear_rows.transpose() * shear_rate;
 }
 
-/// With a bond that has softened, and softens no further before the next event: between bonded and unbonded, and elastic in
-/// shear.
+/// Adds a segment with a bond that has softened, and softens no further before the next event: between bonded and
+/// unbonded, and elastic in shear.
 template <int dim>
 void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonded_stiffness,
                   const SegmentHistory<dim>& old, const double thickness, LinkResponse<dim>& sum,
@@ -266,7 +268,7 @@ void add_softened(const MovingSegment<dim>& of, const JointStiffness<dim>& bonde
   sum.derivative += stiffness;
 }
 
-/// Of a flat joint, whose bonds may soften, or of a pair without a face.
+/// Response of a flat joint, whose bonds may soften, or of a pair without a face.
 template <typename Law, int dim>
 void flat_joint_response(const Law& law, const Network<dim>& network, const ActiveLink<dim>& active,
                          const Motion<dim>& motion, LinkResponse<dim>& result)
@@ -304,7 +306,7 @@ void face_response(const SofteningFlatJoint<dim>& law, const Network<dim>& netwo
   flat_joint_response(law, network, active, motion, result);
 }
 
-/// Of a parallel bond: beside it the linear contact, by one return map from the last event.
+/// Response of a parallel bond and of the linear contact beside it, by one return map from the last event.
 template <int dim>
 void face_response(const ParallelBond<dim>& law, const Network<dim>& network, const ActiveLink<dim>& active,
                    const Motion<dim>& motion, LinkResponse<dim>& result)
@@ -415,7 +417,7 @@ SofteningDemand softening_demand(const Network<dim>& network, const Link<dim>& l
   const double over_opening = std::get<SofteningFlatJoint<dim>>(network.law()).softening_opening();
   const auto of =
     softening::demand<dim, double>(segment, bond, over_opening, old.more.front(), link.opening + opening, shear_stress);
-  // As if nothing of the bond had softened: over its strength and the way that it has softened so far.
+  // Ratios as if nothing of the bond had softened: the demand over the strength and the displacement softened so far.
   const double softened = of.before * over_opening;
   const double by_tension =
     segment.normal_stiffness * (link.opening + opening) / (bond.tensile_strength + segment.normal_stiffness * softened);

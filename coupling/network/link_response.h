@@ -3,8 +3,8 @@
 #include "coupling/network/network_state.h"
 #include "dem/laws/flat_joint_law.h"
 
-/// How a link responds that has unbonded or softened segments, or whose law is not linear while it holds: the law of dem/, in
-/// small strains and from one event to the next; docs/theory.md §9.3.
+/// Response of a link that has unbonded or softened segments, or whose law is not linear while it holds: the law of
+/// dem/, in small strains and from one event to the next; docs/theory.md §9.3.
 namespace feldspar
 {
 /// One segment at the last event.
@@ -12,8 +12,8 @@ template <int dim>
 struct SegmentHistory
 {
   bool bonded = true;
-  /// Without a bond, or with one that has softened; of a parallel bond, whether it holds or not, the shear force of its contact
-  /// over its area [Pa].
+  /// Shear stress without a bond, or with one that has softened; of a parallel bond, whether it holds or not, the shear
+  /// force of its contact over its area [Pa].
   std::array<double, dim - 1> shear_stress{};
   Memory more{}; ///< of a bond that holds
 
@@ -54,21 +54,21 @@ template <int dim>
 LinkResponse<dim> response(const Network<dim>& network, const ActiveLink<dim>& active, const Motion<dim>& motion,
                            LinkResponse<dim> memory = {});
 
-/// How much farther a bond that has softened is asked to soften.
+/// Demand on a bond that has softened to soften farther.
 struct SofteningDemand
 {
-  double ratio;  ///< of what is asked of it to what it bears, as overload_ratio() of one that has not softened
+  double ratio;  ///< of what is asked of it to what it carries, as overload_ratio() of one that has not softened
   bool exceeded; ///< by at least half a step
 };
 
-/// Of segment i of a link, opened since rest, under a shear stress as if it did not soften. least_step: of the number d of
-/// theory §1.10.
+/// Demand on segment i of a link, opened since rest, under a shear stress computed as if it did not soften.
+/// `least_step` is that of the number d of theory §1.10.
 template <int dim>
 SofteningDemand softening_demand(const Network<dim>& network, const Link<dim>& link, std::uint32_t i,
                                  const SegmentHistory<dim>& old, double opening,
                                  const std::array<double, dim - 1>& shear_stress, double least_step);
 
-/// What became of a bond that was overloaded.
+/// Result of the event of an overloaded bond.
 struct BondEvent
 {
   bool broke; ///< else it softened

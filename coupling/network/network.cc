@@ -1,11 +1,12 @@
 #include "coupling/network/network.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "coupling/network/conjugate_gradients.h"
 #include "coupling/network/open_cell.h"
 #include "coupling/network/rigid_motions.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/specimen/neighbours.h"
+#include "dem/specimen/parameters.h"
 
 #include <Eigen/Geometry>
 
@@ -22,7 +23,7 @@ namespace feldspar
 {
 namespace
 {
-constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come to touch, over the mean radius
+constexpr double touch_search_ratio = 0.5; // largest gap of a pair that may come into contact, over the mean radius
 constexpr double largest_residual = 1e-8;  // of the intact solutions, over the forces under unit strains
 constexpr double regularity = 1e-9;        // of the factor's diagonal: grains may float, the body may shift
 // An open body may also turn; its tractions stop that, and what regularises must not drown in the difference.
@@ -49,14 +50,14 @@ Tensor<3> contact_axes(const Vector<3>& normal)
   return contact_axes(normal, Vector<3>(tangent[0], tangent[1], tangent[2]));
 }
 
-/// Of normal and shear stress.
+/// Bond stress that belongs to a normal and shear stress.
 template <int dim>
 BondStress bond_stress(const Vector<dim>& stress)
 {
   return {stress[0], stress[0], stress.template tail<dim - 1>().norm()};
 }
 
-/// In space the elements of a face lie by its own tangent.
+/// Axes of a joint; in space the elements of a face lie by its own tangent.
 template <int dim>
 Tensor<dim> joint_axes(const Joints<dim>& joints, const std::size_t joint)
 {
@@ -81,16 +82,23 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   , face(specimen.joints.elements)
   , grain_radii(specimen.grains.radius)
 {
-  if (!specimen.periodic)
-    throw InputError("Specimen/Shape: a representative volume needs a periodic specimen");
+  if (!specimen.is_periodic())
+    throw ParameterError(parameter_id<&SpecimenParameters::shape>(),
+                         "a representative volume needs a periodic specimen");
   if (!specimen.smooth_joints.empty())
-    throw InputError("Specimen/Specimen file: has smooth joints, which a representative volume cannot have");
+    throw ParameterError(parameter_id<&SpecimenParameters::specimen_file>(),
+                         "has smooth joints, which a representative volume cannot have");
   if (specimen.groups_are_rigid)
-    throw InputError("Specimen/Specimen file: has clumps, which a representative volume cannot have");
+    throw ParameterError(parameter_id<&SpecimenParameters::specimen_file>(),
+                         "has clumps, which a representative volume cannot have");
   if (number_of_joints == 0)
-    throw InputError(fmt::format("{}/Installation gap ratio: joins no two grains of the RVE, so that nothing holds "
-                                 "it; make it larger",
-                                 section_of(std::visit([](const auto& law) { return law.name; }, joint_law))));
+    throw ParameterError(std::visit(
+                           []<typename Law>(const Law&) {
+                             using Parameters = typename Law::Parameters;
+                             return parameter_id<&Parameters::installation_gap_ratio, Parameters>();
+                           },
+                           joint_law),
+                         "joins no two grains of the RVE, so that nothing holds it; make it larger");
   const auto& joints = specimen.joints;
   for (std::size_t i = 0; i < number_of_own_grains; ++i)
     centres.push_back(at<dim>(specimen.grains.position, i));
@@ -141,7 +149,7 @@ Network<dim>::Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation
   boundary_conditions = std::make_shared<const BoundaryConditions<dim>>(open.conditions(specimen).that_bear(
     all_links, number_of_joints, number_of_grains, [](std::uint32_t) { return true; }));
 
-  // Pairs that may come to touch.
+  // Pairs that may come into contact.
   const double reach = touch_search_ratio * specimen.grains.mean_radius();
   const auto images = images_within(specimen.grains, edges, reach);
   const auto all = with_images(specimen.grains, images, edges);
@@ -232,7 +240,7 @@ void Network<dim>::factorise_intact()
   factorised = factor_of(bonded);
 
   std::vector<JointStiffness<dim>> stiffest = bonded_stiffnesses;
-  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face touches
+  const FaceElement<dim> point{{}, face_area<dim>(1.0, 1.0), 0.0}; // where a pair without a face is in contact
   for (std::size_t k = number_of_joints; k < all_links.size(); ++k)
     stiffest.push_back(
       element_stiffness(all_links[k].face(plane_thickness), point, element_rows(point, all_links[k].half_length)));

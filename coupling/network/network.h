@@ -20,13 +20,13 @@ namespace feldspar
 template <int dim>
 using UnitResponse = Eigen::Matrix<double, dim, n_voigt<dim>>;
 
-/// Where a straight strain path meets the first break.
+/// Point of a straight strain path at which the first segment breaks.
 struct FirstBreak
 {
   double factor; ///< of the direction; infinity if nothing breaks along it
   std::uint32_t segment;
   bool in_tension;
-  double touch; ///< factor at which a pair without a face comes to touch; no response is linear beyond it
+  double touch; ///< factor at which a pair without a face comes into contact; no response is linear beyond it
 };
 
 template <int dim>
@@ -37,7 +37,7 @@ public:
   explicit Network(const Specimen<dim>& specimen, const Tensor<dim>& rotation = Tensor<dim>::Identity(),
                    const Boundary& boundary = {});
 
-  /// Of the cell, then the images behind open sides.
+  /// Number of grains of the cell and, behind them, of the images behind open sides.
   std::size_t n_grains() const { return number_of_grains; }
   std::size_t n_own_grains() const { return number_of_own_grains; }
   std::size_t n_joints() const { return number_of_joints; }
@@ -48,16 +48,16 @@ public:
   /// The mean over the joints of normal stiffness times length of the branch [N].
   double mean_normal_stiffness() const { return mean_stiffness; }
 
-  /// Joints first, then pairs that may come to touch.
+  /// Joints first, then pairs that may come into contact.
   const std::vector<Link<dim>>& links() const { return all_links; }
   const std::vector<FaceElement<dim>>& elements() const { return face; }
-  /// Along which a link crosses from box to box, over sides that are not open; [n_links].
+  /// Boxes over which a link crosses sides that are not open, axis by axis; [n_links].
   const std::vector<std::array<int, dim>>& boxes_crossed() const { return boxes; }
   const std::vector<Vector<dim>>& positions() const { return centres; }
   const std::vector<double>& radii() const { return grain_radii; }
   const Tensor<dim>& cell() const { return edges; }
   const Boundary& boundary() const { return its_boundary; }
-  /// On the motions of the grains beside the affine ones.
+  /// Conditions on the motions of the grains beside the affine ones.
   const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return boundary_conditions; }
 
   const AnyJointLaw<dim>& law() const { return joint_law; }
@@ -83,36 +83,37 @@ public:
 
   /// The network with all bonds intact, K x.
   Unknowns apply_bonded(const Unknowns& unknowns) const;
-  /// Nearly its inverse.
+  /// Factor that is nearly the inverse of this network.
   const FactorisedNetwork<dim>& factorised_intact() const { return *factorised; }
-  /// The same with every pair that may come to touch touching: no state is stiffer.
+  /// The same with every pair that may come into contact closed: no state is stiffer.
   const FactorisedNetwork<dim>& factorised_stiffest() const { return *factorised_all; }
-  /// With other stiffnesses of its links, and a small stiffness of loose grains.
+  /// Factor with other stiffnesses of the links, and a small stiffness of loose grains.
   FactorisedNetwork<dim> factorise(const StiffnessOf<dim>& stiffness_of, double regularising_share,
                                    std::shared_ptr<const BoundaryConditions<dim>> conditions) const
   {
     return FactorisedNetwork<dim>(all_links, number_of_grains, std::move(conditions), stiffness_of,
                                   regularising_share * stiffness_scale);
   }
-  /// Each motion times the mean stiffness of its kind; strains give none. A scale for what has no stiffness of its own.
+  /// Forces of each motion times the mean stiffness of its kind; strains give none. They are a scale for motions that
+  /// have no stiffness of their own.
   Unknowns regularising_forces(const Unknowns& unknowns) const;
 
-  // The intact response: while all segments hold and no pair comes to touch, everything is linear in the strain. Of a law
-  // whose faces are not, the response of the stiffest state: a scale and a first guess.
+  // The intact response: while all segments hold and no pair comes into contact, everything is linear in the strain.
+  // For a law whose faces are not linear it is the response of the stiffest state: a scale and a first guess.
 
   /// C_0 [Pa].
   const Stiffness<dim>& intact_stiffness() const { return c_0; }
   /// Grain motions under unit strains; [n_motions * n_grains × n_voigt].
   const Eigen::MatrixXd& unit_motions() const { return unit_motion; }
-  /// For a law whose bonds bear the normal and shear stress of their segment, as all do now.
+  /// Response to unit strains, for a law whose bonds carry the normal and shear stress of their segment, as all do now.
   const UnitResponse<dim>& unit_response(const std::uint32_t segment) const { return unit_responses[segment]; }
   Unknowns intact_unknowns(const Voigt<dim>& strain) const;
-  /// Whether, by a linear law, no pair without a face can come to touch at this strain: with all bonds kept the network is
-  /// linear.
+  /// Returns whether under a linear law no pair without a face can come into contact at this strain: with all bonds
+  /// kept the network is then linear.
   bool stays_linear(const Voigt<dim>& strain) const;
-  /// Whether no segment is overloaded and no pair touches at this strain.
+  /// Returns whether no segment is overloaded and no pair is in contact at this strain.
   bool stays_intact(const Voigt<dim>& strain) const;
-  /// Along the ray `factor * direction`, in closed form.
+  /// First break along the ray `factor * direction`, in closed form.
   FirstBreak first_break(const Voigt<dim>& direction) const;
 
 private:
@@ -155,6 +156,6 @@ private:
   };
   std::vector<Bound> bounds;
   std::vector<Voigt<dim>> opening_rates; ///< of pairs without a face, per unit strain [m]
-  double touching_strain;                ///< norm below which no such pair can come to touch
+  double touching_strain;                ///< norm below which no such pair can come into contact
 };
 } // namespace feldspar

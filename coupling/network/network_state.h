@@ -16,7 +16,7 @@ struct UnbondedSegment
   std::array<double, dim - 1> shear_stress; ///< [Pa]
 };
 
-/// What a bond remembers of its softening (softening::State::more): 0 of one that has not softened.
+/// Softening values that a bond stores (softening::State::more); 0 for a bond that has not softened.
 using Memory = std::array<double, 3>;
 
 /// A segment whose bond holds and has softened.
@@ -28,7 +28,7 @@ struct SoftenedSegment
   Memory more;
 };
 
-/// Since the RVE was at rest [J], each summed on its own.
+/// Works since the RVE was at rest [J], each summed on its own.
 struct NetworkWork
 {
   double boundary = 0.0; ///< ∫ V σ : dε
@@ -37,7 +37,7 @@ struct NetworkWork
   double settled = 0.0;  ///< done by unbalanced forces on the way to equilibrium after a break
 };
 
-/// All that a copy of a representative volume remembers. While it is intact the strain says everything.
+/// All that a copy of a representative volume keeps. While it is intact the strain says everything.
 template <int dim>
 struct NetworkState
 {
@@ -45,7 +45,7 @@ struct NetworkState
   Voigt<dim> stress = Voigt<dim>::Zero();     ///< [Pa]
   bool intact = true;                         ///< and linear
   std::vector<double> motions;                ///< of all grains; empty while intact
-  std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they touch
+  std::vector<UnbondedSegment<dim>> unbonded; ///< ascending; pairs without a face where they are in contact
   std::vector<SoftenedSegment<dim>> softened; ///< ascending
   /// The shear stress of every segment, by a law that is not linear while it holds [Pa]; empty at rest and otherwise.
   std::vector<std::array<double, dim - 1>> contact_shear;

@@ -32,7 +32,7 @@ std::array<int, dim> difference(std::array<int, dim> boxes, const std::array<int
   return boxes;
 }
 
-/// For each joint over an open side the image that it holds, out of two: first those that most joints can hold.
+/// Image that each joint over an open side holds, out of two: first those that most joints can hold.
 template <int dim>
 std::map<std::size_t, PeriodicImage<dim>> images_held(
   const std::map<std::size_t, std::array<PeriodicImage<dim>, 2>>& candidates)
@@ -108,8 +108,9 @@ void OpenCell<dim>::double_grains(const Specimen<dim>& specimen)
     }
 }
 
-/// With one piece a side the boundary is minimal kinematic. With more, images behind edges and corners follow their grains; so
-/// do those that have a piece for themselves: the finest pieces make the periodic boundary.
+/// Returns whether an image follows its grain. With one piece a side no image does: the boundary is minimal kinematic.
+/// With more, images behind edges and corners follow their grains; so do those that have a piece for themselves: the
+/// finest pieces make the periodic boundary.
 template <int dim>
 bool OpenCell<dim>::follows_its_grain(const PeriodicImage<dim>& image, const unsigned int n_in_its_piece) const
 {
@@ -117,7 +118,7 @@ bool OpenCell<dim>::follows_its_grain(const PeriodicImage<dim>& image, const uns
          (!side_of<dim>(image.boxes) || n_in_its_piece == 1);
 }
 
-/// Over open sides only.
+/// Part of the boxes over open sides only.
 template <int dim>
 typename OpenCell<dim>::Boxes OpenCell<dim>::opened(const Boxes& boxes) const
 {

@@ -10,27 +10,27 @@
 
 namespace feldspar
 {
-/// A periodic specimen cut open along the sides that its boundary opens. The cut goes through grains: of each joint that leads
-/// over such a side one grain is there twice, as itself and as an image on the other side, and the joint holds the image. No
-/// joint is lost, so that the body has the volume of the cell. Of the two grains of a joint the one is doubled that has more
-/// such joints: an image then hangs on several.
+/// A periodic specimen cut open along the sides that its boundary opens. The cut goes through grains: of each joint
+/// that leads over such a side one grain is there twice, as itself and as an image on the other side, and the joint
+/// holds the image. No joint is lost, so that the body has the volume of the cell. The grain of a joint that has more
+/// such joints is doubled: an image then hangs on several.
 template <int dim>
 class OpenCell
 {
 public:
   OpenCell(const Specimen<dim>& specimen, const Boundary& boundary);
 
-  /// Numbered behind the grains.
+  /// Images, numbered behind the grains.
   const std::vector<PeriodicImage<dim>>& images() const { return all_images; }
 
-  /// Where a link ends; `boxes` from grain 1 to the image of grain 2 over sides that are not open.
+  /// Ends of a link; `boxes` from grain 1 to the image of grain 2 over sides that are not open.
   struct Ends
   {
     std::uint32_t grain_1, grain_2;
     std::array<int, dim> boxes;
   };
   const Ends& of_joint(const std::size_t joint) const { return ends_of_joints[joint]; }
-  /// Of a pair without a joint, from a grain to an image; none where an open side lies between.
+  /// Ends of a pair without a joint, from a grain to an image; none where an open side lies between.
   std::optional<Ends> of_pair(std::uint32_t grain_1, const PeriodicImage<dim>& second) const;
 
   /// A traction on each piece of each open side. The shares of its pairs are those of the sections of the joints of their

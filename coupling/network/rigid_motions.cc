@@ -10,7 +10,7 @@ namespace feldspar
 {
 namespace
 {
-/// Of a rotation about the origin by a small angle about the axis `r`.
+/// Displacement by a small rotation about the origin, about the axis `r`, per unit of its angle.
 Vector<2> displacement_of_turn(const Vector<2>& place, int) { return {-place[1], place[0]}; }
 Vector<3> displacement_of_turn(const Vector<3>& place, const int r)
 {

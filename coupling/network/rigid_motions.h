@@ -8,9 +8,9 @@
 
 namespace feldspar
 {
-/// The motions of grains that strain no joint while all bonds hold: grains that hang together shift as one, and turn as one
-/// where they do not hang on images of their own. (What hangs on its images along one axis only, in space, could also turn
-/// about that axis; that motion is not among them.)
+/// The motions of grains that strain no joint while all bonds hold: grains that are connected shift as one, and turn as
+/// one where they do not hang on images of their own. (What hangs on its images along one axis only, in space, could
+/// also turn about that axis; that motion is not among them.)
 ///
 /// Forces of the network do no work on them, but round-off does; a nearly singular factor multiplies it by the inverse of
 /// its regularity. Without them, conjugate gradients see the regular part of the network alone.

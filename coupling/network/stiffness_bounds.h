@@ -2,8 +2,8 @@
 
 #include "coupling/network/network.h"
 
-/// How the boundary of an RVE acts on its elasticity: the same grains and joints under the weakest and
-/// the strictest hold on their boundary. All others lie between them; docs/theory.md §9.6.
+/// Influence of the boundary of an RVE on its elasticity: the same grains and joints under the weakest and the
+/// strictest hold on their boundary. All other boundaries lie between them; docs/theory.md §9.6.
 namespace feldspar
 {
 template <int dim>
@@ -13,7 +13,7 @@ struct StiffnessBounds
   Stiffness<dim> affine;            ///< [Pa]
 };
 
-/// With all bonds intact, of the specimen turned by a rotation.
+/// Bounds with all bonds intact, of the specimen turned by a rotation.
 template <int dim>
 StiffnessBounds<dim> stiffness_bounds(const Specimen<dim>& specimen,
                                       const Tensor<dim>& rotation = Tensor<dim>::Identity())

@@ -9,20 +9,20 @@
 
 namespace feldspar
 {
-/// Where the stiffness of each link goes in the matrix of a network's grains, and where its factor has entries: a block for
-/// each pair of grains, below the diagonal, column by column. The grains are ordered for little fill (approximate minimum
-/// degree: Amestoy, Davis and Duff 1996).
+/// Places of the stiffness of each link in the matrix of a network's grains, and of the entries of its factor: a block
+/// for each pair of grains, below the diagonal, column by column. The grains are ordered for little fill (approximate
+/// minimum degree: Amestoy, Davis and Duff 1996).
 class StiffnessPattern
 {
 public:
-  /// Of the links that `bears` says have a stiffness. A factor of 600 spheres that holds their pairs without a face too has half
-  /// as many blocks again, and takes twice the operations.
+  /// Pattern of the links that have a stiffness, as `bears` says. A factor of 600 spheres that also holds their pairs
+  /// without a face has half as many blocks again, and takes twice the operations.
   template <int dim>
   StiffnessPattern(const std::vector<Link<dim>>& links, std::size_t n_grains,
                    const std::function<bool(std::uint32_t link)>& bears);
 
-  /// The blocks of a link that bears. `block` couples both grains, the first in its rows unless it is transposed; none where
-  /// both ends are one grain and its image.
+  /// The blocks of a link that has a stiffness. `block` couples both grains, the first in its rows unless it is
+  /// transposed; none where both ends are one grain and its image.
   struct Place
   {
     std::uint32_t first, second;

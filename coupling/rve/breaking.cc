@@ -10,7 +10,7 @@ namespace
 constexpr double near_worst_share = 0.98;
 constexpr double tie = 1e-9; // overloads so near each other are the same; the segment's number decides
 
-/// Of a segment since rest [m].
+/// Opening of a segment since rest [m].
 template <int dim>
 double opening_at(const Network<dim>& network, const NetworkHistory<dim>& history, const std::uint32_t link,
                   const std::uint32_t i, const Unknowns& position)
@@ -18,7 +18,7 @@ double opening_at(const Network<dim>& network, const NetworkHistory<dim>& histor
   return element_rows(network.elements()[i], network.links()[link].half_length).row(0) * history.motion(link, position);
 }
 
-/// Nothing, of one that has not.
+/// History of a segment that has softened; null if it has not.
 template <int dim>
 const SegmentHistory<dim>* softened_segment(const NetworkHistory<dim>& history, const std::uint32_t link,
                                             const std::uint32_t i)

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-/// Which segments break, and when; docs/theory.md §9.3.
+/// Rules by which segments break; docs/theory.md §9.3.
 namespace feldspar
 {
 /// A segment beyond its strength, or, where its bond softens, beyond what is left of it.
@@ -16,7 +16,7 @@ struct Overload
   bool in_tension;
 };
 
-/// How many events a bond has at most, until it has broken.
+/// Largest number of events of a bond until it has broken.
 template <int dim>
 unsigned int most_events_of_a_bond(const Network<dim>& network, const EquilibriumParameters& parameters);
 

@@ -36,7 +36,7 @@ inline std::vector<Entry<EquilibriumParameters>> equilibrium_entries()
                    "by Newton's method in search of one equilibrium, before damped motion brings it nearer", varies)};
 }
 
-/// More of section Representative volume.
+/// Entries of the boundary, in section Representative volume.
 inline std::vector<Entry<Boundary>> boundary_entries()
 {
   using P = Boundary;

@@ -59,7 +59,7 @@ const Configuration<dim>& Equilibrium<dim>::here() const
   return present;
 }
 
-/// At the last event.
+/// Begins again at the last event.
 template <int dim>
 void Equilibrium<dim>::begin_again()
 {
@@ -111,8 +111,8 @@ bool Equilibrium<dim>::relax(const Control<dim>& control, const double tolerance
       take(relax_by_motion(history, hand_over(), search));
       if (!is_small()) // it flies apart
         return false;
-      // With one return map for a long way the friction of what closes and slides by turns may leave no equilibrium, only
-      // a circle about one. What was lost on the way there is lost: from here it is a short way.
+      // With one return map for a long way, the friction of faces that close and slide by turns may leave no
+      // equilibrium, only a circle about one. The loss on the way there is not undone: from here it is a short way.
       if (round % rounds_before_slip == rounds_before_slip - 1)
         make_event();
     }

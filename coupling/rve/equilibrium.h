@@ -18,14 +18,14 @@ struct BreakEvent
   double released_energy; ///< by all of its events [J]
 };
 
-/// Forces borne by all links of a network.
+/// Forces carried by all links of a network.
 template <int dim>
 struct LinkForces
 {
   std::vector<Motion<dim>> values;  ///< in each link's own axes, a pull between its grains positive [N, N m]; [n_links]
   std::vector<LinkTurn<dim>> turns; ///< [n_links]; empty in small strains
 
-  /// On grain 1 of a link, along the axes of the network [N].
+  /// Force on grain 1 of a link, along the axes of the network [N].
   Vector<dim> force(const Link<dim>& link, const std::size_t k) const
   {
     Vector<dim> own = values[k].template head<dim>();
@@ -43,10 +43,11 @@ class Equilibrium
 public:
   Equilibrium(const Network<dim>& network, const NetworkState<dim>& state, const EquilibriumParameters& parameters);
 
-  /// To be called before it relaxes or breaks anything: an intact network takes the kinematics that were asked for.
+  /// Leaves the response of the intact network; to be called before it relaxes or breaks anything. An intact network
+  /// then takes the kinematics that were asked for.
   void leave_intact_response();
 
-  /// Where the search begins, instead of at the last event: the position of a state found from it.
+  /// Begins the search at the position of a state found from the last event, instead of at that event.
   void begin_at(const NetworkState<dim>& nearby);
 
   /// The factor by which its linear systems are solved until that takes too long.
@@ -78,8 +79,8 @@ public:
   /// Strain, stress and motions at the present position, without history.
   NetworkState<dim> provisional_state() const;
 
-  /// Whether nothing is broken, softened or pressed together that was apart at rest; never of faces that are not linear while
-  /// bonded.
+  /// Returns whether nothing has broken or softened, and nothing presses that was apart at rest; false for faces that
+  /// are not linear while bonded.
   bool is_intact() const { return history.active().empty() && here().balance.touches.empty(); }
 
   const BoundaryConditions<dim>& conditions() const { return *history.conditions(); }
@@ -92,7 +93,7 @@ public:
   const Unknowns& unknowns() const { return present.position; }
   unsigned int n_iterations() const { return iterations; }
 
-  /// With bonds and open, stick and slip states frozen as they are [Pa].
+  /// Tangent with bonds and open, stick and slip states frozen as they are [Pa].
   Stiffness<dim> tangent() { return solver.tangent(history, here().balance); }
   /// A number for those states, and for how far a face is closed to a thousandth: where it is the same, so is the tangent.
   std::uint64_t states_of_tangent() const { return feldspar::states_of_tangent(history, here().balance); }

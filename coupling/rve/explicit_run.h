@@ -24,7 +24,7 @@ public:
               std::vector<PathLeg<dim>> legs, const ExplicitParameters& parameters);
 
   bool has_ended() const { return leg == legs.size() || !path_record.failure.empty(); }
-  /// To the next sample; where numbers go wrong on the way, the record says so and the path has ended.
+  /// Advances to the next sample; where numbers go wrong on the way, the record says so and the path has ended.
   void advance();
   /// Share of the path that is behind, 0 … 1.
   double progress() const;

@@ -43,7 +43,7 @@ Tensor<dim> branch_stress(const Network<dim>& network, const LinkForces<dim>& fo
 
 namespace
 {
-/// What links do on grains.
+/// Forces of the links on the grains.
 template <int dim>
 Eigen::VectorXd on_grains(const Network<dim>& network, const LinkForces<dim>& forces)
 {

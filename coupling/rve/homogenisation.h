@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
-/// From grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
+/// Transition from grains to the macroscopic scale: mean fields of a network; docs/theory.md §9.5.
 namespace feldspar
 {
-/// Of a network in small strains, at a state of it.
+/// Forces of the links of a network in small strains, at one of its states.
 template <int dim>
 LinkForces<dim> link_forces(const Network<dim>& network, const NetworkState<dim>& state);
 
@@ -23,7 +23,7 @@ template <int dim>
 Tensor<dim> boundary_stress(const Network<dim>& network, const BoundaryConditions<dim>& conditions,
                             const LinkForces<dim>& forces);
 
-/// Forces borne by an RVE.
+/// Forces carried by an RVE.
 template <int dim>
 struct BorneForces
 {
@@ -65,7 +65,7 @@ struct CrackMeasures
 template <int dim>
 CrackMeasures<dim> crack_measures(const Network<dim>& network, const NetworkState<dim>& state);
 
-/// Number of bodies of two grains or more that hang together by segments with bonds; a body that spans the cell is one.
+/// Number of bodies of two grains or more that are connected by segments with bonds; a body that spans the cell is one.
 template <int dim>
 std::size_t n_fragments(const Network<dim>& network, const NetworkState<dim>& state);
 

@@ -8,7 +8,8 @@ namespace feldspar
 {
 namespace
 {
-// Of the mean link's force nothing is asked below that at this strain: a body that has come apart balances at nothing.
+// Strain at which the mean link has the least force that balance is measured by: a body that has come apart has no
+// forces.
 constexpr double least_strain = 1e-9;
 } // namespace
 

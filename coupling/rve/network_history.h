@@ -22,10 +22,10 @@ struct Balance
   double stored_energy = 0.0;
   std::vector<LinkResponse<dim>> active;                            ///< of each active link
   std::vector<std::pair<std::uint32_t, LinkResponse<dim>>> touches; ///< of pairs without a face that press
-  std::vector<LinkTurn<dim>> turns;                                 ///< of each link that bears; empty in small strains
+  std::vector<LinkTurn<dim>> turns;                                 ///< of links with a force; empty in small strains
 };
 
-/// Where a network stands, and the forces there.
+/// Position of a network, and the forces there.
 template <int dim>
 struct Configuration
 {
@@ -43,20 +43,20 @@ public:
 
   const Network<dim>& network() const { return of; }
   bool is_finite() const { return finite; }
-  /// Once an intact network is to break.
+  /// Switches to finite kinematics; called once an intact network is to break.
   void become_finite();
-  /// Of a link since rest, with the grains at a position.
+  /// Motion of a link since rest, with the grains at a position.
   Motion<dim> motion(std::uint32_t link, const Unknowns& at) const;
   const Unknowns& position() const { return position_at_event; }
-  /// In the order of their first break or touch.
+  /// Active links in the order of their first break or contact.
   const std::vector<ActiveLink<dim>>& active() const { return active_links; }
   bool is_active(const std::uint32_t link) const { return number[link] != none; }
   /// The number of an active link in active().
   std::uint32_t active_number(const std::uint32_t link) const { return number[link]; }
 
-  /// Of the boundary, on the pairs that can bear them.
+  /// Conditions of the boundary on the pairs that can carry them.
   const std::shared_ptr<const BoundaryConditions<dim>>& conditions() const { return bearing; }
-  /// The network's factor with every pair touching, under these conditions.
+  /// The network's factor with every pair in contact, under these conditions.
   const FactorisedNetwork<dim>& factorised_stiffest() const;
 
   /// Forces with the grains at a position, by the straight way from the last event. The memory of an earlier balance can
@@ -66,13 +66,14 @@ public:
   /// A link that is not active as if it were: all bonded, or, where it has no face, not at all.
   ActiveLink<dim> as_at_event(std::uint32_t link) const;
 
-  /// An active link; made one as it stands at the last event, all bonded, where it was not. Its segments may be changed.
+  /// An active link; made one as it stands at the last event, all bonded, where it was not. The segments of the link
+  /// may be changed.
   ActiveLink<dim>& activate(std::uint32_t link);
 
-  /// To be called after bonds of its links have been changed.
+  /// Releases loose pairs; to be called after bonds of its links have been changed.
   void release_loose_pairs();
 
-  /// Makes this the last event: positions and shear stresses are kept, pairs that touch become active.
+  /// Makes this the last event: positions and shear stresses are kept, pairs in contact become active.
   void keep(const Configuration<dim>& present);
 
 private:

@@ -1,5 +1,7 @@
 #include "coupling/rve/path_checkpoint.h"
 
+#include "base/parameter_id.h"
+
 namespace feldspar
 {
 void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
@@ -15,7 +17,7 @@ void write_path_checkpoint(const std::filesystem::path& file, const std::string&
 void read_path_checkpoint(const std::filesystem::path& file, const std::string& identity,
                           const std::function<void(Hdf5Reader&)>& transfer)
 {
-  read_hdf5(file, "a checkpoint of `feldspar rve`", [&](Hdf5Reader& root) {
+  read_hdf5(file, "a checkpoint of " + in_words(Work::strain_path), [&](Hdf5Reader& root) {
     std::string of_run;
     root.text("identity", of_run);
     if (of_run != identity)

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 
 #include <filesystem>
 #include <functional>
 #include <string>
 
-/// Checkpoints of `feldspar rve`, whichever solver goes the path.
+/// Checkpoints of a strain path, whichever solver goes the path.
 namespace feldspar
 {
 void write_path_checkpoint(const std::filesystem::path& file, const std::string& identity,

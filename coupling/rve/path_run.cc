@@ -115,7 +115,7 @@ void PathRun<dim>::begin_leg()
 template <int dim>
 void PathRun<dim>::advance(const std::function<bool()>& gives_up)
 {
-  // What an increment changes before its last search.
+  // State that an increment changes before its last search.
   const NetworkState<dim> state = body.state();
   const PathSample<dim> row = path_record.samples.back();
   const BorneForces<dim> forces_before = forces;
@@ -144,7 +144,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
     with.gives_up = gives_up;
     return with;
   };
-  // To the next mark of its own kind, also from where a break was found between two.
+  // An increment goes to the next mark of its own kind, also from where a break was found between two.
   const std::uint64_t longest = std::uint64_t(1) << (parameters.most_cuts - cuts);
   std::uint64_t increment = next_is_short ? 1 : longest - position % longest;
   next_is_short = false;
@@ -152,7 +152,7 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
     body.trial(control_at(position + increment), options(increment > 1 ? Bonds::until_break : Bonds::may_break));
   if (trial.would_break)
     {
-      // As far as nothing breaks; the break itself is then within one of the smallest cuts.
+      // The increment ends before the break; the break itself then lies within one of the smallest cuts.
       const auto until_break = std::uint64_t(std::ceil(trial.share_until_break * double(increment)));
       increment = std::clamp(until_break > 1 ? until_break - 1 : 1, std::uint64_t(1), increment - 1);
       trial = body.trial(control_at(position + increment), options(Bonds::may_break));
@@ -174,9 +174,9 @@ void PathRun<dim>::go_an_increment(const std::function<bool()>& gives_up)
       return;
     }
   auto evaluated = evaluate(trial.state, body.state(), trial.unbalanced_ratio);
-  // What is little beside the contact forces need not be little beside the work of an increment in which a crack ran
-  // through the RVE: then the same from a more exact beginning, which takes the place of the last row, to a more exact
-  // end.
+  // A residual that is small beside the contact forces need not be small beside the work of an increment in which a
+  // crack ran through the RVE. The increment is then repeated from a more exact beginning, which takes the place of the
+  // last row, to a more exact end.
   double share_of_tolerance = 1.0;
   for (int k = 0; k < 3 && evaluated.sample.hill_mandel_residual > 10.0 * parameters.equilibrium.final_tolerance; ++k)
     {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// A representative volume led along a path of strains and stresses.
+/// A representative volume that follows a path of strains and stresses.
 namespace feldspar
 {
 /// A straight stretch of a path: what is given moves in proportion from where it stands to the target.
@@ -30,7 +30,7 @@ struct LegCourse
   Control<dim> at(double share) const;
   /// Largest change of a component of the intact RVE's strain, tensor shear.
   double size() const { return strain_tensor<dim>(way).cwiseAbs().maxCoeff(); }
-  /// So many that none changes by more than `largest_step` in one.
+  /// Number of increments of which none changes a strain by more than `largest_step`.
   std::uint64_t n_increments(double largest_step) const;
 
   Control<dim> start;                  ///< what the target gives, where it begins
@@ -74,7 +74,7 @@ template <int dim>
 class PathRun
 {
 public:
-  /// From rest, or from a state of this network.
+  /// Begins from rest, or from a state of this network.
   PathRun(std::shared_ptr<const Network<dim>> network, std::vector<PathLeg<dim>> legs, const PathParameters& parameters,
           const std::optional<NetworkState<dim>>& begin = std::nullopt);
 

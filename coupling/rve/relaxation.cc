@@ -40,8 +40,8 @@ double measure(const Balance<dim>& of, const Control<dim>& control)
 
 /// Damped motion from the present position (FIRE: Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201). Where contacts
 /// open, close and slide by turns Newton's method may go in circles; what loses its energy comes nearer to rest. The mass
-/// is the stiffness with all that can touch touching, so that no mode is faster than a step: with the intact one grains
-/// that no joint holds had none, and flew off once they were hit.
+/// is the stiffness with all possible contacts closed, so that no mode is faster than a step: with the intact one
+/// grains that no joint holds had none, and flew off once they were hit.
 template <int dim>
 Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search)
 {

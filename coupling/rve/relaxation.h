@@ -25,7 +25,7 @@ Control<dim> strain_control(const Voigt<dim>& strain)
   return control;
 }
 
-/// What a search for equilibrium is for, and when it is left.
+/// Control, tolerance and abort of a search for equilibrium.
 template <int dim>
 struct Search
 {
@@ -35,7 +35,7 @@ struct Search
   const std::function<bool()>& gives_up;
 };
 
-/// Where a way to equilibrium ended.
+/// State in which a search for equilibrium ended.
 template <int dim>
 struct Relaxed
 {
@@ -44,12 +44,12 @@ struct Relaxed
   unsigned int n_iterations;
 };
 
-/// By Newton's method, from a configuration whose given strains are reached. `solver` keeps what it factorises.
+/// Searches by Newton's method, from a configuration whose given strains are reached. `solver` keeps its factors.
 template <int dim>
 Relaxed<dim> relax_by_newton(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search,
                              unsigned int most_iterations, TangentSolver<dim>& solver);
 
-/// By damped motion, nearer to equilibrium where Newton's method goes in circles.
+/// Searches by damped motion, which comes nearer to equilibrium where Newton's method goes in circles.
 template <int dim>
 Relaxed<dim> relax_by_motion(const NetworkHistory<dim>& history, Configuration<dim> from, const Search<dim>& search);
 } // namespace feldspar

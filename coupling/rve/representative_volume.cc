@@ -80,7 +80,8 @@ Trial<dim> RepresentativeVolume<dim>::trial(const Control<dim>& control, const T
       trial.n_loosened += overloads.size();
       may_break = options.bonds != Bonds::break_once;
     }
-  // Until something has happened a network responds as the intact one, also where bonds hold only because contacts turn.
+  // A network responds as the intact one until something has happened, also where bonds hold only because contacts
+  // turn.
   if (current.intact && trial.in_equilibrium && equilibrium.is_intact())
     {
       Trial<dim> intact = intact_trial(intact_strain(control), options.with_tangent);

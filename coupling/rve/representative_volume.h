@@ -9,7 +9,7 @@
 
 namespace feldspar
 {
-/// Where all links are in the states it was made for.
+/// Tangent, valid where all links are in the states it was made for.
 template <int dim>
 struct Tangent
 {
@@ -22,7 +22,7 @@ template <int dim>
 struct Trial
 {
   bool in_equilibrium = true; ///< false: nothing was found, and the rest stands where the search ended
-  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would remember
+  NetworkState<dim> state;    ///< strain, stress [Pa] and what it would keep
   std::vector<BreakEvent<dim>> breaks;
   std::size_t n_loosened = 0;          ///< bonds that broke or softened, one as often as it did
   bool would_break = false;            ///< or soften: it stands overloaded; with Bonds::until_break
@@ -41,13 +41,13 @@ enum class Bonds
   frozen
 };
 
-/// How a trial is made.
+/// Options of a trial.
 template <int dim>
 struct TrialOptions
 {
   Bonds bonds = Bonds::may_break;
   bool with_tangent = false;
-  /// Where to begin the search: what an earlier trial from the same state found. Not kept.
+  /// State at which the search begins, found by an earlier trial from the same state. Not kept.
   const NetworkState<dim>* nearby = nullptr;
   /// Only strain, stress and motions of the state are wanted, as between the iterations of a solver: it cannot be
   /// accepted.

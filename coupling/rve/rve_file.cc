@@ -1,7 +1,8 @@
 #include "coupling/rve/rve_file.h"
 
-#include "base/hdf5_archive.h"
+#include "base/parameter_id.h"
 #include "base/quoted.h"
+#include "base/system/hdf5_archive.h"
 #include "coupling/rve/parameters.h"
 #include "coupling/rve/state_archive.h"
 #include "dem/specimen/specimen_file.h"
@@ -72,7 +73,8 @@ template <int dim>
 std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& file, const Network<dim>& network)
 {
   std::optional<NetworkState<dim>> state;
-  read_foreign_hdf5(file, "an RVE of `feldspar multiscale --extract`, or a specimen.h5", [&](Hdf5Reader& root) {
+  const std::string expected = fmt::format("an RVE of {}, or a specimen.h5", in_words(Work::rve_out_of_sample));
+  read_foreign_hdf5(file, expected, [&](Hdf5Reader& root) {
     if (!root.has(group_of_state))
       return;
     auto group = root.subgroup(group_of_state);
@@ -80,10 +82,9 @@ std::optional<NetworkState<dim>> read_rve_state(const std::filesystem::path& fil
     if (group.has_attribute(key_of_boundary))
       group.text(key_of_boundary, boundary);
     if (boundary != name(network.boundary()))
-      throw InputError(
-        fmt::format("its state is that of an RVE whose boundary is {}, and Representative volume/Boundary "
-                    "is {}",
-                    in_quotes(boundary), name(network.boundary())));
+      throw InputError(fmt::format("its state is that of an RVE whose boundary is {}, and {} is {}",
+                                   in_quotes(boundary), in_words(parameter_id<&Boundary::kind>()),
+                                   name(network.boundary())));
     transfer(group, state.emplace());
     if (!fits(*state, network))
       throw InputError("its state is not that of its specimen");

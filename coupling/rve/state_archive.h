@@ -6,7 +6,7 @@
 
 #include <string>
 
-/// The state of an RVE, described once for all archives: HDF5 files (base/hdf5_archive.h) and plain bytes
+/// The state of an RVE, described once for all archives: HDF5 files (base/system/hdf5_archive.h) and plain bytes
 /// (base/byte_archive.h).
 namespace feldspar
 {

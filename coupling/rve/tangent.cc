@@ -1,6 +1,6 @@
 #include "coupling/rve/tangent.h"
 
-#include "base/system/fingerprint.h"
+#include "base/checksum/fingerprint.h"
 #include "coupling/network/conjugate_gradients.h"
 
 #include <algorithm>
@@ -135,8 +135,8 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
   if (history.active().empty() && at.touches.empty())
     return network.intact_stiffness();
   const Eigen::Index n_own = network.n_unknowns() - n;
-  // From the intact network's rearrangement on. What that leaves unbalanced may be no more than round-off: it counts against
-  // the energy of the intact network under this strain.
+  // The search begins with the intact network's rearrangement. The forces that this leaves unbalanced may be no more
+  // than round-off: they count against the energy of the intact network under this strain.
   UnitUnknowns<dim> units = UnitUnknowns<dim>::Zero(network.n_unknowns(), n_columns);
   Eigen::Array<double, 1, n_columns> least = decltype(least)::Zero();
   for (int k = 0; k < n; ++k)
@@ -159,7 +159,7 @@ Stiffness<dim> TangentSolver<dim>::tangent(const NetworkHistory<dim>& history, c
       return conjugate_gradients(apply, precondition, right, 0.0, most_iterations, least);
     }).topRows(n_own);
   const UnitUnknowns<dim> forces = apply_tangent(history, at, units);
-  // Without Eigen's blocks, whose size is that of the processor's cache.
+  // The product does without Eigen's blocks, whose size is that of the processor's cache.
   const Stiffness<dim> result =
     units.template leftCols<n>().transpose().lazyProduct(forces.template leftCols<n>()) / network.volume();
   return result.template selfadjointView<Eigen::Upper>(); // to the last bit

@@ -13,7 +13,7 @@ constexpr double work_tolerance = 1e-3;   // of a link: over what is moved on th
 constexpr double least_work = 1e-8;       // of all links together: below this share of what is stored nothing is halved
 constexpr unsigned int most_halvings = 9; // of a way
 
-/// From the last event, for grains and strain apart.
+/// Way of the network from the last event, for grains and strain apart.
 class Way
 {
 public:
@@ -28,7 +28,7 @@ public:
   const Unknowns of_grains; ///< without strain
   const Unknowns of_strain; ///< without motions
 
-  /// Where the network is on it; all links halve it at the same places.
+  /// Position of the network at a share of the way; all links halve the way at the same places.
   const Unknowns& position(const double share)
   {
     if (share == 0.0 || share == 1.0)
@@ -114,7 +114,7 @@ public:
   }
   Stop<dim> at(const double share) const { return at(share, response_at(share)); }
 
-  /// By trapezoids.
+  /// Work between two stops by the trapezoidal rule.
   Stretch between(const Stop<dim>& from, const Stop<dim>& to) const
   {
     const double half = 0.5 * (to.share - from.share);
@@ -158,7 +158,7 @@ private:
     return sum;
   }
 
-  /// Whether the link has the same states at both ends, and nothing slid between them.
+  /// Returns whether the link has the same states at both ends and nothing slid between them.
   bool stays_linear(const LinkResponse<dim>& from, const LinkResponse<dim>& to) const
   {
     if (from.tangent != to.tangent)
@@ -169,8 +169,8 @@ private:
     return true;
   }
 
-  /// The balance alone does not see slip that is counted wrong: as much is missing of the work. What slides is therefore
-  /// halved once at least.
+  /// Halves the way until its work makes no difference. The balance alone does not see slip that is counted wrong: as
+  /// much is missing of the work. A link that slides is therefore halved once at least.
   Stretch refined(const Stop<dim>& from, const Stop<dim>& to, const Stretch& whole, const double tolerance,
                   const unsigned int halvings_left) const
   {
@@ -205,7 +205,7 @@ NetworkWork work_on_the_way(const NetworkHistory<dim>& history, const Balance<di
   Unknowns of_grains = present.position - history.position(), of_strain = Unknowns::Zero(network.n_unknowns());
   of_strain.template tail<n_voigt<dim>>() = of_grains.template tail<n_voigt<dim>>();
   of_grains.template tail<n_voigt<dim>>().setZero();
-  history.conditions()->project(of_grains); // what the boundary bears does no work
+  history.conditions()->project(of_grains); // what the boundary carries does no work
   Way way(history.position(), present.position, std::move(of_grains), std::move(of_strain));
 
   // All links by one trapezoid, then what is missing of those that it does not have exactly.

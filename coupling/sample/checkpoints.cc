@@ -1,7 +1,8 @@
 #include "coupling/sample/checkpoints.h"
 
+#include "base/parameter_id.h"
+#include "base/ranks/ranks.h"
 #include "base/whole_file.h"
-#include "coupling/sample/ranks.h"
 
 #include <algorithm>
 #include <system_error>
@@ -75,7 +76,7 @@ void write_checkpoint(const std::filesystem::path& folder, const std::uint64_t s
 void read_checkpoint(const std::filesystem::path& checkpoint, const std::string& identity,
                      const std::function<void(Hdf5Reader&, std::uint64_t)>& read_part)
 {
-  const std::string expected = "a checkpoint of `feldspar multiscale`";
+  const std::string expected = "a checkpoint of " + in_words(Work::sample);
   std::uint64_t n_parts = 0;
   ranks::first(
     [&] { read_hdf5(part_file(checkpoint, 0), expected, [&](Hdf5Reader& root) { root.value("n_parts", n_parts); }); });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 
 #include <cstdint>
 #include <filesystem>

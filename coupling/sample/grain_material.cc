@@ -1,8 +1,8 @@
 #include "coupling/sample/grain_material.h"
 
 #include "base/byte_archive.h"
+#include "base/checksum/fingerprint.h"
 #include "base/random.h"
-#include "base/system/fingerprint.h"
 #include "coupling/rve/homogenisation.h"
 #include "coupling/rve/state_archive.h"
 
@@ -66,7 +66,7 @@ fem::MaterialResponse<dim> GrainPoint<dim>::trial(const Voigt<dim>& strain) cons
           strain_to_rve.transpose() * tried.tangent->value * strain_to_rve};
 }
 
-/// From where Newton's method was last.
+/// Searches an equilibrium from where Newton's method was last.
 template <int dim>
 Trial<dim> GrainPoint<dim>::settle(const Voigt<dim>& strain, const Bonds bonds,
                                    const std::function<bool()>& leaves) const
@@ -138,7 +138,8 @@ void GrainPoint<dim>::reject()
 
 namespace
 {
-/// The tangent goes with the state: made anew it would differ by its precision, and a run taken up would go another way.
+/// The tangent goes with the state: computed anew it would differ by its precision, and a resumed run would go another
+/// way.
 template <int dim>
 struct StoredPoint
 {
@@ -217,7 +218,7 @@ std::any GrainPoint<dim>::structure() const
 
 namespace
 {
-/// Of GrainPoint::fields(); components along the axes of the sample.
+/// Names of GrainPoint::fields(); components along the axes of the sample.
 template <int dim>
 std::vector<std::string> names_of_fields()
 {
@@ -284,7 +285,7 @@ Tensor<dim> random_turn(Random& random)
     }
 }
 
-/// From r, θ, z to x, y, z.
+/// Rotation from r, θ, z to x, y, z.
 template <int dim>
 Tensor<dim> local_axes(const fem::PointPlace& place)
 {

@@ -46,7 +46,8 @@ public:
   std::vector<double> fields() const override;
   std::optional<fem::PointEnergies> energies() const override;
   std::vector<fem::PointCrack<dim>> cracks_of_last_step() const override;
-  /// Whether a bond has broken or softened; for a law that is not linear while it holds: whether one has broken.
+  /// Returns whether a bond has broken or softened; for a law that is not linear while it holds: whether one has
+  /// broken.
   bool is_damaged() const override
   {
     const NetworkState<dim>& state = accepted.state();

@@ -27,7 +27,7 @@ struct Realisation
   std::shared_ptr<const Network<dim>> at_side; ///< of elements on a free side; an edge, or as inside
 };
 
-/// Under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.
+/// Realisation under a boundary; of the boundary of edges: periodic inside, and open along the first axis at sides.
 template <int dim>
 Realisation<dim> realisation(const Specimen<dim>& specimen, const Boundary& boundary);
 } // namespace feldspar

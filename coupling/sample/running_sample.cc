@@ -1,13 +1,12 @@
 #include "coupling/sample/running_sample.h"
 
 #include "base/byte_archive.h"
-#include "base/input_error.h"
-#include "coupling/sample/ranks.h"
-#include "dem/lab/protocols/protocols.h"
+#include "base/ranks/ranks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace feldspar
@@ -21,8 +20,8 @@ SampleTest::Parts::Parts(const TestCase& which, const SampleParameters& of, cons
                .least_fall = parameters.least_fall_after_peak,
                .end_over_peak_strain = parameters.stop_strain_over_peak_strain})
 {
-  if (const std::string objection = objection_to_finite_elements(test.kind); !objection.empty())
-    throw InputError(objection);
+  if (!test.kind.runs_on_finite_elements)
+    throw std::invalid_argument(std::string(test.kind.name) + " is not made on finite elements");
   record.kind = test.kind;
   record.body = TestBody::finite_elements;
   record.strain_rate = bookkeeping.time_step = std::numeric_limits<double>::quiet_NaN();
@@ -144,7 +143,7 @@ void SampleTest::Parts::go(const std::function<fem::NewtonReport(double)>& solve
       avalanche = !was_cut || ++n_cuts_for_breaks == most_cuts_for_breaks;
       if (avalanche && may_widen() && !widens)
         {
-          // At a held width there may be none.
+          // There may be no avalanche at a held width.
           widens = true;
           avalanche = false;
           n_cuts_for_breaks = 0;

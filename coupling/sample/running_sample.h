@@ -2,9 +2,9 @@
 
 #include "coupling/sample/sample_body.h"
 #include "coupling/sample/sample_run.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
 #include "fem/solid/advance.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace feldspar
 {
-/// Where a row of a test that follows stages leads.
+/// Target of a row of a test that follows stages.
 struct StageRow
 {
   enum class Lead
@@ -69,15 +69,17 @@ struct SampleTest::Parts
 
   /// Pressure all round, the top plate free to follow.
   void seat();
-  /// To the next row.
+  /// Loads to the next row.
   void load();
   /// After a row.
   bool is_over();
-  /// In steps that break no more than their share. Where a step cut twice for that, or the smallest, still does, it is an
-  /// avalanche, which no step divides. From where it was left, if it was. `solve` goes a fraction of the way that is left.
+  /// Goes in steps that break no more than their share. A step that still does, cut twice for that or the smallest, is
+  /// an avalanche, which no step divides. It goes from where it was left, if it was. `solve` goes a fraction of the way
+  /// that is left.
   void go(const std::function<fem::NewtonReport(double)>& solve);
   void share_work();
-  /// After each accepted step. Those of a point in the order they broke in, points in the order of their numbers.
+  /// Called after each accepted step. Cracks of a point come in the order in which they broke, points in the order of
+  /// their numbers.
   void gather_cracks();
   /// Adds the present state of the sample to the curve as a row.
   void add_row();
@@ -86,14 +88,14 @@ struct SampleTest::Parts
   template <typename Archive>
   void transfer(Archive& archive, std::string& fields_written, fem::StoredSolid& solid);
 
-  /// On the sides [Pa]; before the first row, that of the seating.
+  /// Pressure on the sides [Pa]; before the first row, that of the seating.
   double pressure_of_last_row() const { return stage_walk ? stage_row.confining_pressure : test.confining_pressure; }
   double axial_strain() const { return (body->top_displacement() - height_at_seating) / size.height; }
   fem::StepControl first_steps() const { return {1.0, sample.smallest_step_share, 1.0}; }
 
 private:
   double sign() const { return test.kind.sign; }
-  /// From the first avalanche or fall of the stress on.
+  /// Returns whether the sample may widen: from the first avalanche or fall of the stress on.
   bool may_widen() const { return seated && sample.widened_past_peak && sign() < 0.0 && !stage_walk; }
   /// In stage_rows.cc.
   void load_by_stage();

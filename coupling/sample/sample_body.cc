@@ -1,9 +1,11 @@
 #include "coupling/sample/sample_body.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
+#include "base/ranks/communicator.h"
+#include "base/ranks/ranks.h"
 #include "coupling/sample/continua/continua.h"
 #include "coupling/sample/grain_material.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/sample_run.h"
 #include "coupling/sample/softening.h"
 #include "fem/mesh/boundary_places.h"
@@ -52,11 +54,11 @@ fem::SampleMesh<dim> made_mesh(const SampleParameters& sample)
 {
   const std::array<unsigned int, 2> divisions{sample.elements_across, sample.elements_along};
   if constexpr (dim == 3)
-    return fem::cylinder_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+    return fem::cylinder_sample(ranks::communicator(), 0.5 * sample.width, sample.height, divisions, 0);
   else if (sample.geometry == SampleGeometry::axisymmetric)
-    return fem::axisymmetric_sample(MPI_COMM_WORLD, 0.5 * sample.width, sample.height, divisions, 0);
+    return fem::axisymmetric_sample(ranks::communicator(), 0.5 * sample.width, sample.height, divisions, 0);
   else
-    return fem::plane_sample(MPI_COMM_WORLD, sample.width, sample.height, divisions, 0);
+    return fem::plane_sample(ranks::communicator(), sample.width, sample.height, divisions, 0);
 }
 
 double metres(const MeshUnit unit)
@@ -73,15 +75,15 @@ void check_size(const fem::SampleMesh<dim>& mesh, const SampleParameters& sample
   const double width = box.side_length(0);
   const double height = box.side_length(dim - 1);
   if (sample.mesh_unit == MeshUnit::not_said && std::max(width, height) > largest)
-    throw fem::MeshError(fmt::format("in metres the mesh is {:g} m wide and {:g} m high; if its coordinates are in "
-                                     "another unit, set Mesh unit = mm (or cm), if it is so large, Mesh unit = m",
-                                     width, height));
+    throw fem::MeshError(fmt::format("in metres the mesh is {0:g} m wide and {1:g} m high; if its coordinates are in "
+                                     "another unit, set {2} = mm (or cm), if it is so large, {2} = m",
+                                     width, height, entry_in_words(parameter_id<&SampleParameters::mesh_unit>())));
 }
 
 template <int dim>
 fem::SampleMesh<dim> read_mesh(const SampleParameters& sample)
 {
-  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(MPI_COMM_WORLD, sample.mesh_file, 0, metres(sample.mesh_unit));
+  fem::SampleMesh<dim> mesh = fem::read_gmsh<dim>(ranks::communicator(), sample.mesh_file, 0, metres(sample.mesh_unit));
   check_size(mesh, sample);
   for (const std::string& boundary : boundaries_of(sample.geometry))
     mesh.boundary(boundary);
@@ -115,9 +117,10 @@ fem::SampleMesh<dim> mesh_of(const SampleParameters& sample)
     }
   catch (const fem::MeshError& error)
     {
-      throw InputError(sample.mesh_file.empty()
-                         ? fmt::format("Sample/Elements across = {}: {}", sample.elements_across, error.what())
-                         : fmt::format("Sample/Mesh file = {}: {}", sample.mesh_file, error.what()));
+      throw sample.mesh_file.empty()
+        ? ParameterError(parameter_id<&SampleParameters::elements_across>(), fmt::format("{}", sample.elements_across),
+                         error.what())
+        : ParameterError(parameter_id<&SampleParameters::mesh_file>(), sample.mesh_file, error.what());
     }
 }
 
@@ -132,7 +135,7 @@ SampleSize size_of(const fem::SampleMesh<dim>& mesh, const SampleParameters& sam
   return {sides * box.side_length(0), box.side_length(dim - 1), largest, mesh.triangulation->n_global_active_cells()};
 }
 
-/// By their places alone. All ranks know all cells: none is refined.
+/// Cells of the weak seed by their places alone. All ranks know all cells: none is refined.
 template <int dim>
 std::set<std::string> cells_of_weak_seed(const fem::SampleMesh<dim>& mesh, const WeakSeed seed)
 {
@@ -278,7 +281,7 @@ public:
     const std::any structure = solid.material_points()[i].structure();
     const auto* const grains = std::any_cast<GrainStructure<material_dim>>(&structure);
     if (grains == nullptr)
-      throw InputError("Sample/Material: the points of this sample have no grains");
+      throw ParameterError(parameter_id<&SampleParameters::material>(), "the points of this sample have no grains");
     return SampleRve<material_dim>{number, position(i), grains->orientation, grains->network, grains->state};
   }
 
@@ -316,7 +319,7 @@ private:
     return result;
   }
 
-  /// As seen in box(), with its lower corner as origin.
+  /// Position of a point in box(), with its lower corner as origin.
   std::array<double, 3> in_box(const std::size_t i) const
   {
     Vector<material_dim> result = position(i);
@@ -350,7 +353,7 @@ std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const Samp
   return std::make_unique<FiniteElementBody<dim, material_dim>>(sample, set_up, std::move(mesh), material);
 }
 
-/// Whose mesh has the dimension that the geometry needs.
+/// Makes the body with a mesh of the dimension that the geometry needs.
 template <int material_dim, class MaterialOf>
 std::unique_ptr<SampleBody> make_body(const SampleParameters& sample, const SampleSetUp& set_up,
                                       const MaterialOf& material_of)
@@ -370,7 +373,7 @@ SampleSize measure(const SampleParameters& sample)
 
 namespace
 {
-/// As the quadrature of fem/solid has them.
+/// Number of points of a cell, as the quadrature of fem/solid has them.
 unsigned int n_points_of_cell(const SampleParameters& sample)
 {
   const unsigned int each_way = sample.reduced_quadrature ? sample.order : sample.order + 1;

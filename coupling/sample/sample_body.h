@@ -1,12 +1,13 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
 #include "fem/output.h"
 #include "fem/solid/solid.h"
-#include "results/record.h"
+#include "laboratory/record.h"
 
 #include <array>
 #include <cstddef>
@@ -28,8 +29,8 @@ struct SampleSetUp
   std::function<bool()> gives_up;                      ///< as SolidParameters::gives_up
 };
 
-/// Between platens, the sides under a confining pressure. Changes on accept() only, and every query is about
-/// the accepted state.
+/// A sample between platens, its sides under a confining pressure. It changes on accept() only, and every query is
+/// about the accepted state.
 class SampleBody
 {
 public:
@@ -41,7 +42,7 @@ public:
   virtual void let_force_hold_platen() = 0;
   /// A fraction of the way to a displacement of the top platen [m].
   virtual fem::NewtonReport press(double top_displacement, double confining_pressure, double fraction) = 0;
-  /// To a lateral strain, the platens as near as that takes.
+  /// Brings the sample to a lateral strain, the platens as near as that takes.
   virtual fem::NewtonReport widen(double lateral_strain, double confining_pressure, double fraction) = 0;
   virtual void accept() = 0;
   virtual void reject() = 0;
@@ -63,7 +64,7 @@ public:
   virtual std::vector<Crack> cracks_of_last_step() const = 0; ///< at points of this rank; without step and strain
   virtual Energies energies() const = 0;                      ///< NaN where the material does not know them
   virtual std::uint64_t n_damaged_points() const = 0;
-  /// None where the point is another rank's. Throws InputError where it has no grains.
+  /// RVE of a point; none where the point is another rank's. Throws InputError where it has no grains.
   virtual std::optional<std::variant<SampleRve<2>, SampleRve<3>>> rve(std::uint64_t point) const = 0;
 
   virtual void write_fields(fem::FieldOutput& output, double time) const = 0;
@@ -74,8 +75,8 @@ public:
   virtual void restore(const fem::StoredSolid& stored) = 0;
 };
 
-/// With RVEs of these realisations assigned to its points by the seed. Throws std::invalid_argument where they
-/// are not of the dimension that the geometry needs.
+/// Makes a body with RVEs of these realisations assigned to its points by the seed. Throws std::invalid_argument where
+/// they are not of the dimension that the geometry needs.
 template <int dim>
 std::unique_ptr<SampleBody> make_body_of_grains(const SampleParameters& sample, const SampleSetUp& set_up,
                                                 const EquilibriumParameters& equilibrium,

@@ -1,10 +1,10 @@
 // A multiscale test as a checkpoint, and back.
 
 #include "base/byte_archive.h"
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/ranks/ranks.h"
+#include "base/system/hdf5_archive.h"
 #include "coupling/sample/checkpoints.h"
-#include "coupling/sample/ranks.h"
 #include "coupling/sample/running_sample.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <string>
 
 namespace feldspar
@@ -15,7 +14,7 @@ enum class SampleGeometry
   cylinder      ///< of spheres, as a whole
 };
 
-/// Which RVEs of a sample are weaker than the others.
+/// Choice of the RVEs of a sample that are weaker than the others.
 enum class WeakSeed
 {
   none,
@@ -23,7 +22,7 @@ enum class WeakSeed
   element ///< of that row, the one outermost along x or r
 };
 
-/// In which the coordinates of a mesh file count.
+/// Unit of the coordinates of a mesh file.
 enum class MeshUnit
 {
   not_said, ///< metres, of a sample that fits a laboratory
@@ -37,17 +36,6 @@ constexpr unsigned int dimension_of_rves(const SampleGeometry geometry)
 {
   return geometry == SampleGeometry::plane ? 2 : 3;
 }
-
-/// A material without grains, for comparison. Modulus and Poisson's ratio are those that a test shows; in a plane sample:
-/// with the out-of-plane direction free.
-struct ContinuumParameters
-{
-  double modulus = 62.5e9; ///< [Pa]
-  double poissons_ratio = 0.16;
-  double cohesion = 30e6;                                  ///< [Pa]
-  double friction_angle = 50.0 * std::numbers::pi / 180.0; ///< [rad]
-  double dilation_angle = 10.0 * std::numbers::pi / 180.0; ///< [rad]
-};
 
 /// The sample of a multiscale run: a mesh, and how its points get their RVEs.
 struct SampleParameters

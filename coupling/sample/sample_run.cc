@@ -1,6 +1,7 @@
 #include "coupling/sample/sample_run.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "coupling/rve/breaking.h"
 #include "coupling/sample/running_sample.h"
 
@@ -57,9 +58,10 @@ bool SampleTest::advance(const std::function<void(const SampleStanding&)>& watch
   catch (const fem::StepFailure& failure)
     {
       if (!parts->seated)
-        throw InputError(fmt::format("{}: the sample finds no equilibrium under {:g} MPa: {}",
-                                     parts->stage_walk ? "Tests/Loading table" : "Tests/Confinements",
-                                     parts->pressure_of_last_row() / 1e6, failure.what()));
+        throw ParameterError(parts->stage_walk ? parameter_id<&LoadingTable::file>()
+                                               : parameter_id<&TestCase::confining_pressure>(),
+                             fmt::format("the sample finds no equilibrium under {:g} MPa: {}",
+                                         parts->pressure_of_last_row() / 1e6, failure.what()));
       parts->steps.reset();
       parts->ended = true;
       record.ended_early =

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "coupling/rve/parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "coupling/sample/realisation.h"
 #include "coupling/sample/sample_parameters.h"
 #include "coupling/sample/sample_rve.h"
-#include "dem/lab/parameters.h"
-#include "results/test_outcome.h"
+#include "laboratory/parameters.h"
+#include "laboratory/test_outcome.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@
 
 namespace feldspar
 {
-/// How a multiscale test stands, for who watches it.
+/// Progress of a multiscale test, for its observer.
 struct SampleStanding
 {
   unsigned int n_newton_iterations = 0; ///< of the last row
@@ -61,8 +62,8 @@ public:
   const CurveSample& last_row() const;
   SampleStanding standing() const;
 
-  /// At the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError
-  /// where there is no such point, or no grains.
+  /// RVE at the last step, where there is one rank. Cells and points as in the fields, from 0. Throws InputError where
+  /// there is no such point, or no grains.
   template <int dim>
   SampleRve<dim> rve_at(unsigned int cell, unsigned int point) const;
   /// The same of a point by its number, as cracks name it; none where it is another rank's. Not collective; there are
@@ -81,8 +82,8 @@ public:
   /// The whole state at the last step, as a checkpoint in `folder` (coupling/sample/checkpoints.h), so that a test read back on as
   /// many ranks runs on to the same bits. `identity` tells whose state it is. Throws OutputError.
   void write_state(const std::filesystem::path& folder, const std::string& identity) const;
-  /// From any number of ranks. `folder` and `name` of the fields that were written. Throws InputError where the
-  /// checkpoint is missing, torn, foreign or of another identity; the test is then unusable.
+  /// Reads the state, written by any number of ranks. `folder` and `name` of the fields that were written. Throws
+  /// InputError where the checkpoint is missing, torn, foreign or of another identity; the test is then unusable.
   void read_state(const std::filesystem::path& checkpoint, const std::string& identity,
                   const std::filesystem::path& folder, const std::string& name);
 

@@ -1,4 +1,4 @@
-// A sample that is led through the stages of a loading table, row by row. docs/theory.md §10.
+// A sample that follows the stages of a loading table, row by row. docs/theory.md §10.
 
 #include "coupling/sample/running_sample.h"
 
@@ -16,7 +16,7 @@ constexpr double width_beyond = 1e-3;
 constexpr double stress_beyond = 1e-4;
 constexpr double time_beyond = 1e-9;
 
-/// From one value towards another, by a step at most.
+/// Value on the way from one value towards another, by a step at most.
 double towards(const double from, const double to, const double step)
 {
   return from + std::clamp(to - from, -step, step);
@@ -54,7 +54,8 @@ StageRow SampleTest::Parts::next_row_of_stage()
     }
   else
     {
-      // By the slope of the stage's last row; at its first, by the steepest there was, so that it does not go too far.
+      // Stiffness by the slope of the stage's last row; at its first row by the steepest slope so far, so that the row
+      // does not go too far.
       const auto& curve = record.curve;
       const auto slope = [&](const std::size_t k) {
         return (curve[k].axial_stress - curve[k - 1].axial_stress) /

@@ -1,6 +1,6 @@
 // The whole state of a body in motion, into a checkpoint and out of it.
 
-#include "base/hdf5_archive.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/dynamics/dynamics.h"
 
 #include <cstdint>

@@ -9,7 +9,8 @@ namespace feldspar
 {
 namespace
 {
-/// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each touch.
+/// Calls add(force on grain 2, grain 1, grain 2) for each joint, then for each smooth joint and each contact without a
+/// face.
 template <int dim, class Add>
 void for_each_contact_force(const Specimen<dim>& body, const Touches<dim>& touches, const Add& add)
 {

@@ -24,7 +24,8 @@ public:
   void begin_at(const std::uint64_t step) { next_check = step + 1; }
   bool is_due(const std::uint64_t step) const { return step == next_check; }
 
-  /// Whether a pair that was not near at the last search could touch before the next look; sets when that is.
+  /// Returns whether a pair that was not near at the last search could come into contact before the next check; sets
+  /// the time of that check.
   bool may_miss_contacts(const Specimen<dim>& body, std::size_t n_own, const Walls<dim>& walls, std::uint64_t step,
                          double dt);
 

@@ -35,7 +35,7 @@ Dynamics<dim>::Dynamics(Specimen<dim> specimen, const DynamicsParameters& wanted
   , watch(body.grains)
   , ledger(bodies().size())
 {
-  if (body.periodic)
+  if (body.is_periodic())
     for (std::size_t j = 0; j < body.joints.size(); ++j)
       if (const auto second = body.second_of(j); second.boxes != std::array<int, dim>{})
         body.joints.grain_2[j] = images.number_of(second, body.grains);
@@ -114,7 +114,7 @@ std::vector<Break> Dynamics<dim>::step()
   add_boundary_work(dt, 0.5);
   const double farthest_way = integrate();
   wall_set.move(dt);
-  if (body.periodic)
+  if (body.is_periodic())
     images.move(dt, body.grains);
   auto breaks = update_contacts(dt, farthest_way);
   add_boundary_work(dt, 0.5);
@@ -127,7 +127,7 @@ std::vector<Break> Dynamics<dim>::step()
   return breaks;
 }
 
-/// Whether contacts must be searched for anew.
+/// Returns whether contacts must be searched for anew.
 template <int dim>
 bool Dynamics<dim>::watch_is_over()
 {
@@ -153,7 +153,7 @@ void Dynamics<dim>::start()
   index_joints();
   find_contacts();
   check();
-  zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where they touch
+  zero_force = ZeroForce::at_touch; // the placing is over: later contacts begin where surfaces meet
   update_contacts(0.0, 0.0);
   check();
   choose_time_step();
@@ -176,7 +176,7 @@ void Dynamics<dim>::index_joints()
   joints_of = incidence(
     images.n_own(), joints.size(), [&](const std::size_t j) { return GrainPair(joints.grain_1[j], joints.grain_2[j]); },
     [&](const std::uint32_t grain) { return images.owner(grain); });
-  // By the numbers of the joints, wherever they stand: sums over them have one order.
+  // Entries are sorted by the numbers of the joints, wherever these are stored: sums over them have one order.
   const auto number_and_end = [&](const std::uint32_t entry) { return std::pair(joints.number[entry / 2], entry % 2); };
   for (std::size_t i = 0; i < images.n_own(); ++i)
     std::sort(joints_of.entries.begin() + joints_of.first[i], joints_of.entries.begin() + joints_of.first[i + 1],
@@ -192,10 +192,10 @@ bool Dynamics<dim>::regroup_joints()
 {
   const bool responds_as_one = std::visit(
     [](const auto& law) { return RespondsAsOne<std::decay_t<decltype(law)>, dim, simd::Pack>; }, body.joints.law);
-  return responds_as_one && !body.periodic && joint_groups.regroup(body.joints);
+  return responds_as_one && !body.is_periodic() && joint_groups.regroup(body.joints);
 }
 
-/// The grains of a joint that has lost its face may touch again. Returns whether joints have gone.
+/// The grains of a joint that has lost its face may come into contact again. Returns whether joints have gone.
 template <int dim>
 bool Dynamics<dim>::remove_lost_contacts()
 {
@@ -210,14 +210,14 @@ bool Dynamics<dim>::remove_lost_contacts()
         {
           Touch<dim> touch = make_touch(body, joints.grain_1[j], joints.grain_2[j]);
           touch.zero_distance = std::min(touch.zero_distance, joints.rest_distance[j]);
-          // The energy that the face stored and the touch does not is released in sliding off.
+          // The energy that the face stored and the contact does not is released in sliding off.
           const double overlap = std::max(0.0, touch.zero_distance - joints.rest_distance[j] - joints.opening[j]);
           ledger.slip_of_lost_contacts +=
             joints.slip_energy[j] + joint_energy(joints, j) - 0.5 * touch.stiffness.normal * overlap * overlap;
           touches.add(touch);
         }
     }
-  // Their grains may have rolled into each other while the sides were open: they touch from where they stand.
+  // Their grains may have rolled into each other while the sides were open: they are in contact from where they stand.
   for (const auto& [ends, energy] : remove_ended_smooth_joints(body))
     {
       ledger.slip_of_lost_contacts += energy;
@@ -240,7 +240,7 @@ template <int dim>
 void Dynamics<dim>::find_contacts()
 {
   check_motion(); // the search could not place what stands nowhere
-  if (body.periodic)
+  if (body.is_periodic())
     images.add_within(watch.skin(), body.grains);
   touches.search(body, images, joints_of, watch.skin(), zero_force, ledger, check);
   wall_set.search(body, images.n_own(), watch.skin(), zero_force, ledger);
@@ -289,7 +289,7 @@ Circumstances Dynamics<dim>::circumstances() const
     fastest = std::max(fastest, std::abs(wall.velocity));
   for (std::size_t g = 0; g < grips.size(); ++g)
     fastest = std::max(fastest, grips.velocity(g).norm());
-  // At the start the contacts have not been looked for.
+  // Contacts have not been searched for at the start.
   const double largest =
     started ? largest_stiffness_over_inertia(body, groups, images.n_own(), joints_of, touches, wall_set) : 0.0;
   return {steps, dt, dt * std::sqrt(largest), fastest,
@@ -304,7 +304,7 @@ double Dynamics<dim>::integrate()
   const double farthest_way = move_bodies(bodies(), n_bodies(), {previous_dt, dt, parameters.damping, gravity},
                                           grips.freedom(), ledger.damping_work);
   groups.carry_members(body.grains, dt);
-  return body.periodic || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
+  return body.is_periodic() || !groups.empty() ? std::numeric_limits<double>::infinity() : farthest_way;
 }
 
 template <int dim>

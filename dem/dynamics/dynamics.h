@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dem/dynamics/contact_watch.h"
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/force_sum.h"
 #include "dem/dynamics/grips.h"
@@ -16,6 +15,7 @@
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/rigid_groups.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <cstdint>
 #include <functional>
@@ -28,8 +28,8 @@ namespace feldspar
 /// Explicit dynamics of a specimen: central differences with velocities at half steps, local non-viscous damping
 /// (Cundall 1987) and contacts that come and go; docs/theory.md §2. One step costs two sweeps, over contacts, with
 /// the sums of their forces, and over grains; sums run in a fixed order, so that results do not depend on the number of
-/// threads. The integrator owns the touches, the walls, the grips, the images and the energy ledger and says when each
-/// has its turn; how they do it stands with them.
+/// threads. The integrator owns the contacts without a face, the walls, the grips, the images and the energy ledger and
+/// says when each has its turn; how they do it stands with them.
 template <int dim>
 class Dynamics
 {
@@ -47,10 +47,11 @@ public:
   /// nothing can be done with this object any more.
   void set_check(std::function<void()> within_a_step) { check = std::move(within_a_step); }
 
-  /// In a periodic body the rate at which the cell, and with it every image, moves away from the origin [1/s]. Its work
-  /// counts as boundary work.
+  /// Sets the rate at which the cell of a periodic body, and with it every image, moves away from the origin [1/s]. The
+  /// work of this motion counts as boundary work.
   void deform_cell(const Tensor<dim>& rate) { images.deform(rate); }
-  /// The same, and the grains are set off with the motion of the cell about its middle, so that no wave has to tell them.
+  /// The same, and the grains start with the motion of the cell about its middle, so that no wave has to bring it to
+  /// them.
   void deform_body(const Tensor<dim>& rate);
 
   /// Adds to the velocity of a grain from outside [m/s]; the energy this gives counts as there from the start.
@@ -89,7 +90,8 @@ public:
   /// Sum of contact forces on a grip's grains [N].
   Vector<dim> grip_force(const std::size_t grip) const { return grips.force(grip, bodies()); }
 
-  /// Since the start; kinetic energy and works centred at the current time, so that they balance (theory.md §2.3).
+  /// Energies since the start; kinetic energy and works centred at the current time, so that they balance (theory.md
+  /// §2.3).
   Energies energies() const;
   /// Mean unbalanced force of the free grains over the mean contact force; 0 without contacts.
   double unbalanced_force_ratio() const;
@@ -99,8 +101,8 @@ public:
   Tensor<dim> mean_stress() const;
   /// The stress of each grain, as grain_stresses() of contact_stress.h [Pa]; [n_grains].
   std::vector<Tensor<dim>> grain_stresses() const;
-  /// In a periodic body the same from the contacts across the sides of the cell alone: the mean of the tractions. Equal
-  /// where forces balance.
+  /// Mean stress of a periodic body from the contacts across the sides of the cell alone: the mean of the tractions. It
+  /// equals the other mean where forces balance.
   Tensor<dim> boundary_stress() const;
   /// Force that the grains above a plane across the last axis receive from those below [N], along that axis.
   double force_across(double height) const;

@@ -5,7 +5,7 @@
 
 namespace feldspar
 {
-/// The energies that only a running sum can tell: works, and whatever left the body with a contact that is no more [J].
+/// The energies that only a running sum can give: works, and whatever left the body with a contact that is no more [J].
 /// Grains and contacts themselves know their present energy; Dynamics::energies() puts both together.
 struct EnergyLedger
 {

@@ -24,8 +24,8 @@ struct Load
   std::array<double, n_rotations<dim>> couple;
 };
 
-/// What responses give a grain that are its joints' first grain, or their second. Responses are records that are added four
-/// numbers at a time; JointTables::response has their order.
+/// Load on a grain by the responses of those joints of which it is the first grain, and of those of which it is the
+/// second. Responses are records that are added four numbers at a time; JointTables::response has their order.
 struct LoadInPlane
 {
   Four one{}, two{};
@@ -56,7 +56,7 @@ struct LoadInSpace
   }
 };
 
-/// On the grain at a place of the order.
+/// Load on the grain at a place of the order.
 template <int dim>
 Load<dim> load_from_joints(const Joints<dim>& joints, const SumOrder& order, const std::size_t place)
 {
@@ -110,7 +110,8 @@ void sum_over_joints(Specimen<dim>& body, const SumOrder& order, const std::size
     }
 }
 
-/// Of joints, that one thread sweeps: as many as leave some runs for each thread. Sums do not depend on it.
+/// Number of blocks of joints that one thread sweeps in a row: as many as leave some runs for each thread. Sums do not
+/// depend on it.
 std::size_t blocks_for_one_thread(const std::size_t n_joints)
 {
   constexpr std::size_t runs_per_thread = 8;
@@ -150,7 +151,7 @@ SumOrder::SumOrder(const Incidence& joints_of, const std::size_t n_joints)
   for (std::uint32_t i = 0; i < n_grains; ++i)
     grain[next[behind[i]]++] = i;
 
-  // As many as keep their responses in the cache while they are gone through in this order.
+  // Number of neighbouring grains whose responses stay in the cache while they are summed in this order.
   constexpr std::uint32_t n_neighbours = 64;
   const auto counts = [&](const std::uint32_t i) {
     const auto entries = entries_of(i);
@@ -193,8 +194,8 @@ void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touc
     sum_over_joints(body, order, first_left + begin, first_left + end);
   });
 
-  // To each grain come its touches by their numbers, whether it is grains or touches that are gone through. Only grains can be
-  // shared out to threads.
+  // To each grain come its contacts by their numbers, whether it is grains or contacts that are gone through. Only
+  // grains can be shared out to threads.
   constexpr std::size_t grains_per_touch = 8;
   if (stays_on_this_thread(n_grains) || grains_per_touch * touches.touching().size() < n_grains)
     {

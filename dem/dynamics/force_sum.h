@@ -31,7 +31,7 @@ template <int dim>
 void sum_forces_behind(std::size_t block, Specimen<dim>& body, const SumOrder& order);
 
 /// After sum_forces_behind() of every block: sets force and couple of the other grains to the sums over their joints, and adds
-/// the touches to all, in the order of the contacts whatever the number of threads.
+/// the contacts without a face to all, in the order of the contacts whatever the number of threads.
 template <int dim>
 void sum_remaining_forces(Specimen<dim>& body, const SumOrder& order, const Touches<dim>& touches);
 } // namespace feldspar

@@ -28,12 +28,12 @@ public:
   {
     return grain < own_grains ? grain : images[grain - own_grains].owner;
   }
-  /// From the owner of a grain to the grain [m].
+  /// Displacement from the owner of a grain to the grain [m].
   Vector<dim> way_to(const std::uint32_t grain) const
   {
     return grain < own_grains ? Vector<dim>::Zero().eval() : shift(images[grain - own_grains], edges);
   }
-  /// Whether a contact of these two is the one of its kind that counts.
+  /// Returns whether a contact of these two is the one of its kind that counts.
   bool pair_counts(const std::uint32_t one, const std::uint32_t two) const
   {
     return one < own_grains && (two < own_grains || counts(one, images[two - own_grains]));

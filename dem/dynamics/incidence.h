@@ -7,8 +7,7 @@
 
 namespace feldspar
 {
-/// For each grain the contacts it takes part in: 2 × contact + (0: as grain 1, 1: as grain 2), in one order, so that sums over
-/// them have one.
+/// Contacts of each grain: 2 × contact + (0: as grain 1, 1: as grain 2), in one order, so that sums over them have one.
 struct Incidence
 {
   std::vector<std::uint32_t> first;   ///< of each grain's among the entries; [n_grains + 1]

@@ -10,7 +10,7 @@
 
 namespace feldspar
 {
-/// Of a free body at the last half step [J].
+/// Kinetic energy of a free body at the last half step [J].
 template <int dim>
 double Dynamics<dim>::kinetic_energy(const std::uint32_t i) const
 {

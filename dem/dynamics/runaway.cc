@@ -1,5 +1,8 @@
 #include "dem/dynamics/runaway.h"
 
+#include "base/parameter_id.h"
+#include "dem/dynamics/parameters.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,17 +18,18 @@ std::string likely_reason(const Circumstances& now)
 {
   // Quasi-static loading goes a millionth of a radius in a step.
   constexpr double hasty = 1e-2;
-  // What lies below is stable whatever the contacts do.
+  // Ratio below which a step is stable whatever the contacts do.
   constexpr double near_the_edge = 0.95;
   if (const double way = now.loading_speed * now.dt / now.smallest_radius; way > hasty)
     return fmt::format("the loading goes {:.2g} radii of the smallest grain in a step; a lower rate would help", way);
   if (now.through_wall)
     return "the contacts of its grains are too soft for this load; a higher modulus of contacts and joints would help";
   if (now.share_of_stable_step > near_the_edge)
-    return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller Dynamics/Time step "
-                       "safety would help",
-                       now.share_of_stable_step);
-  return "forces have outgrown its contacts; a smaller Dynamics/Time step safety, more Damping or a lower rate may help";
+    return fmt::format("the time step is {:.3g} times the root of mass over stiffness; a smaller {} would help",
+                       now.share_of_stable_step, in_words(parameter_id<&DynamicsParameters::time_step_safety>()));
+  return fmt::format("forces have outgrown its contacts; a smaller {}, more {} or a lower rate may help",
+                     in_words(parameter_id<&DynamicsParameters::time_step_safety>()),
+                     entry_in_words(parameter_id<&DynamicsParameters::damping>()));
 }
 } // namespace
 
@@ -59,7 +63,7 @@ std::optional<StrayGrain> find_stray_grain(const Specimen<dim>& body, const std:
 
   std::optional<StrayGrain> beyond_wall;
   walls.for_each_touch([&](const Wall&, const WallTouch<dim>& touch) {
-    // Not by where its centre stands: a cut specimen may begin with one just inside the wall.
+    // The overlap decides, not the position of the centre: a cut specimen may begin with a centre just inside the wall.
     if (!beyond_wall && touch.overlap > body.grains.radius[touch.grain])
       beyond_wall = StrayGrain{touch.grain, "has been pressed through a wall", true};
   });

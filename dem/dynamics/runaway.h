@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-/// Numbers that have gone wrong, told by motion that grains in contact cannot have.
+/// Numbers that have gone wrong, recognised by motion that grains in contact cannot have.
 namespace feldspar
 {
 /// The end of a simulation whose numbers have gone wrong. One line: the grain, the step, the likely reason.

@@ -22,7 +22,7 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   resize<dim>(k, n_bodies);
   Components<n_rotations<dim>> k_turning;
   resize<n_rotations<dim>>(k_turning, n_bodies);
-  // At `arm` from the centre of a grain along the normal; negative: against it.
+  // Adds a contact at `arm` from the centre of a grain along the normal; negative: against it.
   const auto add = [&](const std::uint32_t grain, const auto& normal, const double k_n, const double k_s,
                        const double arm, const double k_bending, const double k_twist) {
     std::uint32_t i = grain;
@@ -51,7 +51,8 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
     const auto a = arms(touch.frame.distance, touch.half_radius_difference);
     add(grain, touch.frame.normal, touch.stiffness.normal, k_s, is_second ? -a.two : a.one, 0.0, 0.0);
   };
-  // To each grain come its joints and then its touches by their numbers, whether it is grains or touches that are gone through.
+  // To each grain come its joints and then its contacts by their numbers, whether it is grains or contacts that are
+  // gone through.
   const bool by_touches = groups.empty() && stays_on_this_thread(n_own);
   const auto add_contacts = [&](const auto& law, const std::size_t begin, const std::size_t end) {
     for (auto i = std::uint32_t(begin); i < end; ++i)
@@ -125,6 +126,23 @@ double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGrou
   return largest;
 }
 
+template <int dim>
+double largest_stiffness_over_inertia(const Specimen<dim>& body)
+{
+  const auto joints_of = incidence(
+    body.grains.size(), body.joints.size(),
+    [&](const std::size_t j) {
+      return GrainPair{body.joints.grain_1[j], body.joints.grain_2[j]};
+    },
+    [](const std::uint32_t grain) { return grain; });
+  Touches<dim> none;
+  none.number(Images<dim>(body));
+  return largest_stiffness_over_inertia(body, RigidGroups<dim>(body), body.grains.size(), joints_of, none,
+                                        Walls<dim>());
+}
+
+template double largest_stiffness_over_inertia<2>(const Specimen<2>&);
+template double largest_stiffness_over_inertia<3>(const Specimen<3>&);
 template double largest_stiffness_over_inertia<2>(const Specimen<2>&, const RigidGroups<2>&, std::size_t,
                                                   const Incidence&, const Touches<2>&, const Walls<2>&);
 template double largest_stiffness_over_inertia<3>(const Specimen<3>&, const RigidGroups<3>&, std::size_t,

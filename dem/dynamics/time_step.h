@@ -14,4 +14,8 @@ namespace feldspar
 template <int dim>
 double largest_stiffness_over_inertia(const Specimen<dim>& body, const RigidGroups<dim>& groups, std::size_t n_own,
                                       const Incidence& joints_of, const Touches<dim>& touches, const Walls<dim>& walls);
+
+/// The same of a body with its joints alone, which no wall presses.
+template <int dim>
+double largest_stiffness_over_inertia(const Specimen<dim>& body);
 } // namespace feldspar

@@ -31,7 +31,8 @@ namespace
 constexpr double share_for_rounding = 1e-6;
 constexpr std::size_t most_steps_that_round = 100'000;
 
-/// Whether a smooth plane lies between them, along which they pass over one another, or they are of one rigid body.
+/// Returns whether two grains cannot come into contact: a smooth plane, along which they slide past each other, lies
+/// between them, or they belong to one rigid body.
 template <int dim>
 bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 {
@@ -45,7 +46,7 @@ bool never_touch(const Specimen<dim>& body, const GrainPair& pair)
 }
 } // namespace
 
-/// Where a pair stands, or would stand.
+/// Finds the place of a pair in the list, or the place where it would be inserted.
 template <int dim>
 auto Touches<dim>::find(const GrainPair& pair) const
 {
@@ -74,7 +75,7 @@ void Touches<dim>::number(const Images<dim>& images)
     looks.push_back({touch.grain_1, touch.grain_2, touch.zero_distance, images.owner(touch.grain_2), touch.touching});
 }
 
-/// All pairs are looked at in the next update().
+/// All pairs are computed in the next update().
 template <int dim>
 void Touches<dim>::forget_ways()
 {
@@ -170,7 +171,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
         else if (way_is_known) // which both may go
           apart_until[k] = way_gone + 0.5 * (std::sqrt(squared) - (1.0 + share_for_rounding) * look.zero_distance);
         if (!was_touching && !look.touching)
-          continue; // as it was; most of those that are kept in mind never touch
+          continue; // as it was; most of those that are kept in mind never come into contact
         if (was_touching != look.touching)
           say(contact_changed);
         Touch<dim>& touch = touches[k];
@@ -220,7 +221,7 @@ bool Touches<dim>::update(const Grains<dim>& grains, const double friction, cons
     return contact_made;
   touching_ones_are_known = true;
   n_touching = 0;
-  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which touch cannot be foretold
+  for (std::size_t k = 0; k < looks.size(); ++k) // without branches: which are in contact cannot be foretold
     {
       touching_ones[n_touching] = std::uint32_t(k);
       n_touching += looks[k].touching ? 1 : 0;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/images.h"
 #include "dem/dynamics/incidence.h"
@@ -9,6 +8,7 @@
 #include "dem/laws/linear_contact_law.h"
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Touch
   double zero_distance;          ///< centre distance below which they press [m]
   double half_radius_difference; ///< [m]
   bool touching = false;
-  ContactFrame<dim, double> frame{}; ///< at the last step in which they touched
+  ContactFrame<dim, double> frame{}; ///< at the last step in which they were in contact
   std::array<double, dim - 1> shear_force{};
   double normal_force = 0.0;
   double slip_energy = 0.0;
@@ -36,7 +36,7 @@ struct Touch
   GrainPair ends() const { return {grain_1, grain_2}; }
 };
 
-/// A touch of two grains of a body that have not touched yet.
+/// The contact of two grains of a body that have not been in contact yet.
 template <int dim>
 Touch<dim> make_touch(const Specimen<dim>& body, std::uint32_t grain_1, std::uint32_t grain_2);
 
@@ -46,13 +46,13 @@ class Touches
 {
 public:
   const std::vector<Touch<dim>>& list() const { return touches; }
-  /// Which of them each grain takes part in.
+  /// Contacts in which each grain takes part.
   const Incidence& incidence() const { return contacts_of; }
-  /// Whether the touch of this number presses; does not read the touch itself.
+  /// Returns whether the contact of this number presses; does not read the Touch itself.
   bool is_touching(const std::size_t touch) const { return looks[touch].touching; }
   /// The grain that feels what grain 2 of one does: itself, or the grain that it is an image of.
   std::uint32_t owner_2(const std::size_t touch) const { return looks[touch].owner_2; }
-  /// Numbers of those that touched at the last update(), ascending; none from number() to the next one.
+  /// Numbers of the contacts that were closed at the last update(), ascending; none from number() to the next one.
   std::span<const std::uint32_t> touching() const { return std::span(touching_ones).first(n_touching); }
 
   /// Notes the pairs within `skin` [m]; those with a face are told by the joints. `check` as of pairs_within().
@@ -63,11 +63,11 @@ public:
   void number(const Images<dim>& images);
   void clear() { *this = {}; }
 
-  /// Carries all over a step [s]; whether a pair has come to touch. No grain or image may have gone farther than
-  /// `farthest_way` [m] since the last update() or number(); infinite where that is not known.
+  /// Carries all over a step [s]; returns whether a pair has come into contact. No grain or image may have gone farther
+  /// than `farthest_way` [m] since the last update() or number(); infinite where that is not known.
   bool update(const Grains<dim>& grains, double friction, double dt, double farthest_way);
 
-  /// `sum` with what the touches store and have dissipated.
+  /// `sum` with what the contacts store and have dissipated.
   Energies added_to(Energies sum) const;
 
   /// number() before the next step.
@@ -78,8 +78,8 @@ public:
   }
 
 private:
-  /// What a step has to know of a pair that may have come to touch and most often has not: kept together and small,
-  /// while a Touch takes lines of the cache.
+  /// Data by which a step finds out whether a pair has come into contact. Most pairs have not; therefore these data are
+  /// small and kept together, while a Touch takes several lines of the cache.
   struct Look
   {
     std::uint32_t grain_1, grain_2;
@@ -92,9 +92,9 @@ private:
   void forget_ways();
 
   std::vector<Touch<dim>> touches;
-  std::vector<Look> looks;         ///< of each touch
+  std::vector<Look> looks;         ///< of each contact
   double way_gone = 0.0;           ///< by a grain at most, since number() [m]
-  std::vector<double> apart_until; ///< way_gone up to which the grains of each touch cannot meet [m]
+  std::vector<double> apart_until; ///< way_gone up to which the grains of each contact cannot meet [m]
   std::size_t n_updates = 0;       ///< in which way_gone has grown
   bool touching_ones_are_known = false;
   std::vector<std::uint32_t> touching_ones; ///< the first n_touching hold

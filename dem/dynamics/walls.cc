@@ -55,14 +55,14 @@ void add_wall_shear(Grains<3>& grains, const Wall& wall, const std::uint32_t gra
   grains.couple[two][grain] -= arm * shear_force[0];
 }
 
-/// Of a grain from the middle of a plate that pivots [m]; 0 for other walls.
+/// Distance of a grain from the middle of a plate that pivots [m]; 0 for other walls.
 template <int dim>
 double lever_of(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
 {
   return wall.pivots ? body.grains.position[extent_axis<dim>(wall)][grain] - wall.middle() : 0.0;
 }
 
-/// Of a grain from a wall, along `side` [m].
+/// Distance of a grain from a wall, along `side` [m].
 template <int dim>
 double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain, const double lever)
 {
@@ -75,7 +75,7 @@ double distance_from(const Specimen<dim>& body, const Wall& wall, const std::uin
   return distance_from(body, wall, grain, lever_of(body, wall, grain));
 }
 
-/// Whether it stands above the plate, which may end.
+/// Returns whether a grain stands above the plate, which may end.
 template <int dim>
 bool is_above(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
 {
@@ -83,14 +83,14 @@ bool is_above(const Specimen<dim>& body, const Wall& wall, const std::uint32_t g
   return wall.round || (place >= wall.extent[0] && place <= wall.extent[1]);
 }
 
-/// Whether it stands within half a width of a plate that pivots beyond its ends.
+/// Returns whether a grain stands beyond the ends of a plate that pivots by at most half a width.
 template <int dim>
 bool is_beside(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
 {
   return std::abs(lever_of(body, wall, grain)) <= wall.extent[1] - wall.extent[0];
 }
 
-/// Whether it has come round the end of a plate, so far that it is not pressed any more.
+/// Returns whether a grain has come round the end of a plate so far that it is not pressed any more.
 template <int dim>
 bool is_past(const Specimen<dim>& body, const Wall& wall, const std::uint32_t grain)
 {
@@ -167,7 +167,8 @@ void Walls<dim>::search(const Specimen<dim>& body, const std::size_t n_own, cons
       const auto& before = touches[w]; // ascending, as `near` will be
       auto known = before.begin();
       std::vector<WallTouch<dim>> near;
-      // What a grain still pressed with where it crosses the end of a plate becomes vibration, soon damped.
+      // Energy of a grain that is still pressed where it crosses the end of a plate becomes vibration, which is soon
+      // damped.
       const auto lose = [&](const WallTouch<dim>& touch) {
         ledger.slip_of_lost_contacts += touch.slip_energy + stored_energy(body, touch);
       };
@@ -272,7 +273,7 @@ bool Walls<dim>::press(const double dt, Specimen<dim>& body)
           const double overlap = touch.zero_distance - distance;
           if (touch.overlap == 0.0 && overlap > 0.0)
             contact_made = true;
-          // A grain that begins to touch, or a smooth wall, gathers no shear.
+          // A grain that comes into contact, or a smooth wall, gathers no shear.
           std::array<double, dim - 1> slip{};
           if (wall.friction > 0.0 && touch.overlap > 0.0)
             slip = slip_on_wall(grains, wall, i, distance, dt);

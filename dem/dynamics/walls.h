@@ -1,9 +1,9 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/energy_ledger.h"
 #include "dem/dynamics/zero_force.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <array>
 #include <cmath>
@@ -31,13 +31,13 @@ struct Wall
   /// The extent of a plate that is not endless along extent_axis(), from and to [m].
   std::array<double, 2> extent{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
-  /// Whether it is a plate. Which grains stand above it is looked up with each search for contacts.
+  /// Returns whether the wall is a plate with an end. The grains above a plate are found with each search for contacts.
   bool ends() const { return std::isfinite(extent[0]) || std::isfinite(extent[1]); }
   /// About which a plate with two ends pivots, along extent_axis() [m].
   double middle() const { return 0.5 * (extent[0] + extent[1]); }
 };
 
-/// Along which a plate may end: the last axis, or the first for one that lies across the last.
+/// Axis along which a plate may end: the last axis, or the first for one that lies across the last.
 template <int dim>
 int extent_axis(const Wall& wall)
 {
@@ -51,10 +51,10 @@ Wall round_wall(const Specimen<dim>& specimen)
   return {.side = -1.0, .position = 0.5 * specimen.size[0], .round = true};
 }
 
-/// Along which the coordinate of a wall grows.
+/// Direction in which the coordinate of a wall grows.
 template <int dim>
 Vector<dim> wall_direction(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
-/// Of a grain [m].
+/// Coordinate of a grain across the wall [m].
 template <int dim>
 double wall_coordinate(const Specimen<dim>& body, const Wall& wall, std::uint32_t grain);
 
@@ -108,7 +108,7 @@ public:
   void search(const Specimen<dim>& body, std::size_t n_own, double skin, ZeroForce zero_force, EnergyLedger& ledger);
   /// Forgets them.
   void clear();
-  /// How far a wall has gone since the last search, at the ends of a plate that has tilted [m].
+  /// Distance that a wall has moved since the last search, at the ends of a plate that has tilted [m].
   double way_since_search(std::size_t wall) const;
   /// The smallest gap between a wall and the grains that were not near it at the last search [m].
   double smallest_gap_not_listed(const Specimen<dim>& body, std::size_t n_own, std::size_t wall) const;
@@ -118,10 +118,10 @@ public:
     for (Wall& wall : walls)
       wall.position += dt * wall.velocity;
   }
-  /// Presses the grains, whose forces and couples it adds to; whether one has come to touch.
+  /// Presses the grains, whose forces and couples it adds to; returns whether one has come into contact.
   bool press(double dt, Specimen<dim>& body);
 
-  /// `sum` with what the touches store and have dissipated.
+  /// `sum` with what the contacts store and have dissipated.
   Energies added_to(Energies sum, const Specimen<dim>& body) const;
 
   template <typename Archive>

@@ -2,7 +2,7 @@
 
 namespace feldspar
 {
-/// Where a contact without a face begins to press.
+/// Overlap at which a contact without a face begins to press.
 enum class ZeroForce
 {
   at_touch, ///< where the surfaces touch

@@ -1,6 +1,7 @@
 #include "dem/flaws/apply.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/flaws/smooth_planes.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
@@ -17,7 +18,7 @@ namespace feldspar
 {
 namespace
 {
-/// Grains that fall out of a hole's rim with it: as many hang together at most.
+/// Grains that fall out of a hole's rim with it: at most so many connected ones.
 constexpr std::uint32_t largest_crumb = 3;
 
 /// The coordinates of the plane of the pictures.
@@ -33,7 +34,7 @@ struct Effect
 {
   std::function<bool(const Vector<dim>&)> takes_out;
   std::function<bool(const Vector<dim>&, const Vector<dim>&)> cuts;
-  /// Of a closed flaw, where it cuts, the normal of its plane there.
+  /// Normal of the plane of a closed flaw where it cuts.
   std::function<Vector<dim>(const Vector<dim>&, const Vector<dim>&)> normal = {};
 };
 
@@ -147,7 +148,7 @@ std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& e
       const Vector<dim> branch = (joints.rest_distance[j] + joints.opening[j]) * at<dim>(joints.normal, j);
       const Vector<dim> one = at<dim>(specimen.grains.position, joints.grain_1[j]);
       cut[j] = effect.cuts(one, one + branch);
-      if (specimen.periodic && !cut[j])
+      if (specimen.is_periodic() && !cut[j])
         {
           const Vector<dim> two = at<dim>(specimen.grains.position, joints.grain_2[j]);
           cut[j] = effect.cuts(two - branch, two);
@@ -156,7 +157,7 @@ std::vector<bool> joints_cut(const Specimen<dim>& specimen, const Effect<dim>& e
   return cut;
 }
 
-/// Which of the grains hang in the largest piece, by joints whether bonded or not; [n_grains].
+/// Returns which grains belong to the largest piece, connected by joints whether bonded or not; [n_grains].
 template <int dim>
 std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
 {
@@ -169,7 +170,7 @@ std::vector<bool> in_largest_piece(const Specimen<dim>& specimen)
   return within;
 }
 
-/// By joint: whether it stays.
+/// Removes joints; `dropped` says for each joint whether it is removed.
 template <int dim>
 void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
 {
@@ -182,7 +183,8 @@ void drop_joints(Specimen<dim>& specimen, const std::vector<bool>& dropped)
   specimen.report.coordination_number = 2.0 * double(specimen.n_joints()) / double(specimen.grains.size());
 }
 
-/// Takes grains and faces out; what hung together with the body and is left alone goes too where it is a crumb.
+/// Takes out grains and faces. A part that was connected with the body and is separated from it is taken out too where
+/// it is a crumb.
 template <int dim>
 void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_take_no_grain, Flaw<dim>& flaw)
 {
@@ -201,7 +203,7 @@ void open(Specimen<dim>& specimen, const Effect<dim>& effect, const bool may_tak
 
   const std::size_t n_joints = specimen.joints.size();
   drop_joints(specimen, cut);
-  // The rest of the body: pieces without a face to the largest hang on nothing.
+  // The rest of the body: pieces without a face to the largest are held by nothing.
   Specimen<dim> rest = part_of(specimen, kept);
   std::vector<std::uint32_t> old_number;
   for (std::uint32_t i = 0; i < n_grains; ++i)
@@ -242,7 +244,7 @@ void unbond(Specimen<dim>& specimen, const Effect<dim>& effect, Flaw<dim>& flaw)
       }
 }
 
-/// Of the plane of a closed flaw within the specimen [m²].
+/// Area of the plane of a closed flaw within the specimen [m²].
 template <int dim>
 double area_of(const Shape& shape, const Specimen<dim>& specimen)
 {
@@ -260,7 +262,7 @@ template <int dim>
 void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>& effect, const SmoothSides& sides,
                  const SmoothJointParameters& all, Flaw<dim>& flaw)
 {
-  if (specimen.periodic)
+  if (specimen.is_periodic())
     throw InputError("has smooth joints, which a periodic specimen cannot have; leave out its word smooth");
   const SmoothJointParameters wanted = sides.among(all);
   if (const std::string what = objection(wanted); !what.empty())
@@ -277,7 +279,7 @@ void make_smooth(Specimen<dim>& specimen, const Shape& shape, const Effect<dim>&
         places.push_back({j, effect.normal(one, two), joints.face_area(j)});
         sum += places.back().area;
       }
-  if (!specimen.round) // of a cylinder the faces keep their own areas
+  if (!specimen.is_round()) // of a cylinder the faces keep their own areas
     for (auto& place : places)
       place.area *= area_of(shape, specimen) / sum;
   flaw.n_joints = places.size();
@@ -318,7 +320,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
   if (shapes.empty())
     return;
   if (const std::string what = objection<dim>(shapes, specimen.size); !what.empty())
-    throw InputError("Flaws: " + what);
+    throw ParameterError(parameters_id<FlawParameters>(), what);
   for (std::size_t k = 0; k < shapes.size(); ++k)
     try
       {
@@ -343,7 +345,7 @@ void put_in_flaws(Specimen<dim>& specimen, const std::vector<Shape>& shapes, con
       }
     catch (const InputError& error)
       {
-        throw InputError(fmt::format("Flaws: {}: {}", title(shapes, k), error.what()));
+        throw ParameterError(parameters_id<FlawParameters>(), fmt::format("{}: {}", title(shapes, k), error.what()));
       }
   // Numbers of joints are places in lists; those of the ones taken out are free.
   number_joints(specimen);

@@ -1,9 +1,10 @@
 #include "dem/flaws/clumps.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/random.h"
 #include "dem/flaws/seeds.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
 
@@ -18,28 +19,32 @@ namespace feldspar
 {
 namespace
 {
-constexpr const char* size_entry = "Clumps/Diameter";
+ParameterId size_id() { return parameter_id<&ClumpParameters::diameter>(); }
+
+[[noreturn]] void refuse(const double diameter, const std::string& why)
+{
+  throw ParameterError(size_id(), fmt::format("{:g} mm", 1e3 * diameter), why);
+}
 
 template <int dim>
 void check(const Specimen<dim>& specimen, const double diameter)
 {
-  const auto refuse = [&](const char* why) {
-    throw InputError(fmt::format("{} = {:g} mm: {}", size_entry, 1e3 * diameter, why));
-  };
   if (dim == 3)
-    refuse("clumps are of the plane; Specimen/Dimension must be 2");
-  if (specimen.periodic)
-    refuse("a periodic specimen has no clumps; Specimen/Shape must be box");
+    refuse(diameter, fmt::format("clumps are of the plane; {} must be 2",
+                                 in_words(parameter_id<&SpecimenParameters::dimension>())));
+  if (specimen.is_periodic())
+    refuse(diameter, fmt::format("a periodic specimen has no clumps; {} must be box",
+                                 in_words(parameter_id<&SpecimenParameters::shape>())));
   if (!specimen.groups.empty())
-    refuse("the specimen has mineral grains or clumps already; leave it out");
+    refuse(diameter, "the specimen has mineral grains or clumps already; leave it out");
   if (!specimen.flaws.empty() || !specimen.smooth_joints.empty())
-    refuse("the specimen has flaws, which clumps cannot have; leave one of both out");
+    refuse(diameter, "the specimen has flaws, which clumps cannot have; leave one of both out");
   if (diameter < 4.0 * specimen.report.mean_radius)
-    throw InputError(fmt::format("{} = {:g} mm: must be at least two mean diameters of the grains, {:.3g} mm",
-                                 size_entry, 1e3 * diameter, 4e3 * specimen.report.mean_radius));
+    refuse(diameter, fmt::format("must be at least two mean diameters of the grains, {:.3g} mm",
+                                 4e3 * specimen.report.mean_radius));
 }
 
-/// Of each grain those that it is joined to, by the numbers of the joints.
+/// Neighbours of each grain by its joints, in the order of the joints' numbers.
 template <int dim>
 std::vector<std::vector<std::uint32_t>> joined(const Specimen<dim>& specimen)
 {
@@ -76,15 +81,15 @@ void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
     }
   else
     {
-      const auto seeds = throw_seeds(specimen, *wanted.diameter, RandomStream::clumps, size_entry, "clump");
+      const auto seeds = throw_seeds(specimen, *wanted.diameter, RandomStream::clumps, size_id(), "clump");
       std::vector<std::uint32_t> cell;
       for (std::uint32_t i = 0; i < n_grains; ++i)
         cell.push_back(nearest<dim>(seeds, at<dim>(grains.position, i)));
       belong_together = [cell](const std::uint32_t one, const std::uint32_t two) { return cell[one] == cell[two]; };
     }
 
-  // From the middle of each stamp, or any grain of a cell, along the joints: what hangs together only across another
-  // group stays apart.
+  // Groups grow from the middle of each stamp, or any grain of a cell, along the joints: grains that are connected only
+  // across another group stay apart.
   const auto others = joined(specimen);
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> group(n_grains, none);
@@ -114,8 +119,7 @@ void put_in_clumps(Specimen<dim>& specimen, const ClumpParameters& wanted)
       kept.push_back(j);
   specimen.joints.keep(kept);
   if (specimen.joints.size() == 0)
-    throw InputError(fmt::format("{} = {:g} mm: leaves no joint between two clumps; make it smaller", size_entry,
-                                 1e3 * *wanted.diameter));
+    refuse(*wanted.diameter, "leaves no joint between two clumps; make it smaller");
   specimen.report.n_joints = specimen.n_joints();
   number_joints(specimen);
 }

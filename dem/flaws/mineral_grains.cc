@@ -1,8 +1,11 @@
 #include "dem/flaws/mineral_grains.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/flaws/seeds.h"
 #include "dem/flaws/smooth_planes.h"
+#include "dem/specimen/parameters.h"
+
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <vector>
@@ -15,16 +18,15 @@ void put_in_mineral_grains(Specimen<dim>& specimen, const MineralGrainParameters
 {
   if (!wanted.mean_size)
     return;
+  const ParameterId size = parameter_id<&MineralGrainParameters::mean_size>();
   if (!specimen.groups.empty())
-    throw InputError("Mineral grains/Mean size: the specimen has mineral grains or clumps already; leave it out");
-  if (specimen.periodic)
-    throw InputError(
-      "Mineral grains/Mean size: a periodic specimen has no smooth joints; Specimen/Shape must be box or "
-      "cylinder");
+    throw ParameterError(size, "the specimen has mineral grains or clumps already; leave it out");
+  if (specimen.is_periodic())
+    throw ParameterError(size, fmt::format("a periodic specimen has no smooth joints; {} must be box or cylinder",
+                                           in_words(parameter_id<&SpecimenParameters::shape>())));
   if (const std::string what = objection(boundary); !what.empty())
-    throw InputError("Smooth joint: " + what);
-  const auto seeds =
-    throw_seeds(specimen, *wanted.mean_size, RandomStream::mineral_grains, "Mineral grains/Mean size", "mineral grain");
+    throw ParameterError(parameters_id<SmoothJointParameters>(), what);
+  const auto seeds = throw_seeds(specimen, *wanted.mean_size, RandomStream::mineral_grains, size, "mineral grain");
   specimen.groups.clear();
   for (std::size_t i = 0; i < specimen.grains.size(); ++i)
     specimen.groups.push_back(nearest<dim>(seeds, at<dim>(specimen.grains.position, i)));

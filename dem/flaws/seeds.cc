@@ -1,6 +1,6 @@
 #include "dem/flaws/seeds.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 
 #include <fmt/format.h>
 
@@ -20,31 +20,29 @@ constexpr double least_distance = 0.65;
 
 template <int dim>
 std::vector<Vector<dim>> throw_seeds(const Specimen<dim>& specimen, const double mean_size, const RandomStream stream,
-                                     const std::string_view entry, const std::string_view name)
+                                     const ParameterId& size, const std::string_view name)
 {
   const double volume = specimen.size.prod();
   const double unit_cell = dim == 2 ? 0.25 * std::numbers::pi : std::numbers::pi / 6.0; // of mean size 1
   const auto n = std::size_t(std::llround(volume / (unit_cell * std::pow(mean_size, dim))));
   const double least = 4.0 * specimen.report.mean_radius;
+  const auto refuse = [&](const std::string& why) {
+    throw ParameterError(size, fmt::format("{:g} mm", 1e3 * mean_size), why);
+  };
   if (n < 2)
     {
       // 1.5 cells are rounded to two; a little smaller, so that no rounding of the message names a size that is refused.
       const double most = 0.995 * std::pow(volume / (1.5 * unit_cell), 1.0 / dim);
       if (most < least)
-        throw InputError(
-          fmt::format("{} = {:g} mm: this specimen is too small for two {}s of two mean diameters of its "
-                      "particles, {:.3g} mm",
-                      entry, 1e3 * mean_size, name, 1e3 * least));
-      throw InputError(
-        fmt::format("{} = {:g} mm: must be at most {:.3g} mm in this specimen, which would have {} {}(s), "
-                    "and at least {:.3g} mm, two mean diameters of its particles",
-                    entry, 1e3 * mean_size, 1e3 * most, n, name, 1e3 * least));
+        refuse(fmt::format("this specimen is too small for two {}s of two mean diameters of its particles, {:.3g} mm",
+                           name, 1e3 * least));
+      refuse(fmt::format(
+        "must be at most {:.3g} mm in this specimen, which would have {} {}(s), and at least {:.3g} mm, two mean diameters of its particles",
+        1e3 * most, n, name, 1e3 * least));
     }
   if (mean_size < least)
-    throw InputError(
-      fmt::format("{} = {:g} mm: must be at least two mean diameters of the particles that make up a {}, "
-                  "{:.3g} mm",
-                  entry, 1e3 * mean_size, name, 1e3 * least));
+    refuse(fmt::format("must be at least two mean diameters of the particles that make up a {}, {:.3g} mm", name,
+                       1e3 * least));
   Random random(specimen.seed, stream);
   const double apart = least_distance * mean_size;
   std::vector<Vector<dim>> seeds;
@@ -70,9 +68,9 @@ std::uint32_t nearest(const std::vector<Vector<dim>>& seeds, const Vector<dim>& 
   return best;
 }
 
-template std::vector<Vector<2>> throw_seeds<2>(const Specimen<2>&, double, RandomStream, std::string_view,
+template std::vector<Vector<2>> throw_seeds<2>(const Specimen<2>&, double, RandomStream, const ParameterId&,
                                                std::string_view);
-template std::vector<Vector<3>> throw_seeds<3>(const Specimen<3>&, double, RandomStream, std::string_view,
+template std::vector<Vector<3>> throw_seeds<3>(const Specimen<3>&, double, RandomStream, const ParameterId&,
                                                std::string_view);
 template std::uint32_t nearest<2>(const std::vector<Vector<2>>&, const Vector<2>&);
 template std::uint32_t nearest<3>(const std::vector<Vector<3>>&, const Vector<3>&);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/parameter_id.h"
 #include "base/random.h"
 #include "dem/specimen/specimen.h"
 
@@ -10,11 +11,12 @@
 /// Random points whose Voronoi cells divide the grains of a specimen.
 namespace feldspar
 {
-/// As many as cells of this mean size fill the specimen: diameter of the circle or ball of the mean volume [m], the entry
-/// of the input that an InputError names for cells that cannot be, and what the cells are called there.
+/// Returns as many points as cells of this mean size fill the specimen. `mean_size` is the diameter of the circle or
+/// ball of the mean volume [m]. `size` is the parameter that an InputError names for impossible cells, and `name` is the
+/// word for the cells there.
 template <int dim>
 std::vector<Vector<dim>> throw_seeds(const Specimen<dim>& specimen, double mean_size, RandomStream stream,
-                                     std::string_view entry, std::string_view name);
+                                     const ParameterId& size, std::string_view name);
 
 /// The number of the nearest.
 template <int dim>

@@ -1,6 +1,8 @@
 #include "dem/flaws/shapes.h"
 
+#include "base/parameter_id.h"
 #include "base/random.h"
+#include "dem/specimen/parameters.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +65,7 @@ std::string outside(const std::vector<Vector<dim>>& points, const Vector<dim>& s
   return "";
 }
 
-/// Whether a ring of corners cuts itself.
+/// Returns whether a ring of corners cuts itself.
 bool cuts_itself(const std::vector<Vector<2>>& corners)
 {
   const std::size_t n = corners.size();
@@ -167,7 +169,7 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size)
   const Vector<2> along(std::cos(set.angle), std::sin(set.angle));
   const Vector<2> across(-along[1], along[0]);
   const Vector<2> middle = 0.5 * size;
-  // Of the corners of the box from its middle, along and across the lines.
+  // Largest distances of the corners of the box from its middle, along and across the lines.
   double half_length = 0.0;
   double half_breadth = 0.0;
   for (const double x : {-middle[0], middle[0]})
@@ -219,7 +221,7 @@ std::string objection(const Shape& shape, const Vector<dim>& size)
 {
   const Vector<2> plane_size(size[0], size[dim - 1]);
   if (dim == 2 && (std::holds_alternative<SphereHole>(shape) || std::holds_alternative<DiscFlaw>(shape)))
-    return "lies in space; it needs Specimen/Dimension = 3";
+    return fmt::format("lies in space; it needs {} = 3", in_words(parameter_id<&SpecimenParameters::dimension>()));
   if constexpr (dim == 3)
     {
       if (const auto* hole = std::get_if<SphereHole>(&shape))

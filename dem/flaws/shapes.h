@@ -30,7 +30,7 @@ struct PolygonHole
   std::vector<Vector<2>> corners; ///< three at least [m]
 };
 
-/// In space only.
+/// Hole in space only.
 struct SphereHole
 {
   static constexpr std::string_view name = "sphere";
@@ -62,7 +62,7 @@ struct SmoothSides
   SmoothJointParameters among(const SmoothJointParameters& all) const;
 };
 
-/// A crack without width whose sides touch: the joints across it are unbonded, or smooth.
+/// A crack without width whose sides are in contact: the joints across it are unbonded, or smooth.
 struct ClosedFlaw
 {
   static constexpr std::string_view name = "closed flaw";
@@ -113,7 +113,7 @@ struct FlawParameters
 
 std::string_view name(const Shape& shape);
 
-/// Whether grains are taken out.
+/// Returns whether the flaw is open: grains are taken out.
 bool is_open(const Shape& shape);
 
 /// The smooth sides of a flaw whose sides slide on a plane; else null.
@@ -130,9 +130,9 @@ std::vector<ClosedFlaw> traces(const JointSet& set, const Vector<2>& size);
 template <int dim>
 std::string objection(const Shape& shape, const Vector<dim>& size);
 
-/// Whether a point of the plane lies in a polygon.
+/// Returns whether a point of the plane lies in a polygon.
 bool is_inside(const std::vector<Vector<2>>& corners, const Vector<2>& point);
 
-/// Whether the way from a to b meets the line from c to d.
+/// Returns whether the straight line from a to b meets the one from c to d.
 bool cross(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c, const Vector<2>& d);
 } // namespace feldspar

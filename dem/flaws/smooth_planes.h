@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// How smooth joints get into a specimen; docs/theory.md §1.9.
+/// Installation of smooth joints in a specimen; docs/theory.md §1.9.
 namespace feldspar
 {
 /// A joint that a plane crosses.

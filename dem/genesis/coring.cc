@@ -19,7 +19,7 @@ namespace
 template <int dim>
 using Place = std::array<int, dim>;
 
-/// In which order the elements of a face follow each other when it is seen from its other grain: the normal is turned
+/// Order in which the elements of a face follow each other when it is seen from its other grain: the normal is turned
 /// round and t_1 kept in space, so that t_2 turns round; in the plane t turns round.
 template <int dim>
 std::vector<unsigned int> mirrored_elements(const std::vector<FaceElement<dim>>& elements)
@@ -148,16 +148,14 @@ Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int,
 }
 
 template <int dim>
-Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
+Specimen<dim> cored(const Specimen<dim>& cell, const BodyShape shape)
 {
   Specimen<dim> core = cell;
-  core.periodic = false;
-  core.walled_ends = false;
-  core.round = round;
+  core.shape = shape;
   const std::size_t n = cell.grains.size();
   std::vector<bool> lies_inside(n);
   for (std::size_t i = 0; i < n; ++i)
-    lies_inside[i] = !round || cell.distance_from_axis(at<dim>(cell.grains.position, i)) < 0.5 * cell.size[0];
+    lies_inside[i] = !core.is_round() || cell.distance_from_axis(at<dim>(cell.grains.position, i)) < 0.5 * cell.size[0];
 
   DisjointSets groups(n);
   std::vector<bool> is_cut(n, false); // lost a joint
@@ -208,6 +206,6 @@ Specimen<dim> cored(const Specimen<dim>& cell, const bool round)
 
 template Specimen<2> repeated<2>(const Specimen<2>&, const std::array<unsigned int, 2>&);
 template Specimen<3> repeated<3>(const Specimen<3>&, const std::array<unsigned int, 3>&);
-template Specimen<2> cored<2>(const Specimen<2>&, bool);
-template Specimen<3> cored<3>(const Specimen<3>&, bool);
+template Specimen<2> cored<2>(const Specimen<2>&, BodyShape);
+template Specimen<3> cored<3>(const Specimen<3>&, BodyShape);
 } // namespace feldspar

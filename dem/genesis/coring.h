@@ -8,15 +8,15 @@
 /// everywhere, then cut free; docs/theory.md §3.
 namespace feldspar
 {
-/// So many equal cells side by side as one periodic cell, with the grains, joints and strengths of the one. Its report is
-/// that of the one but for the number of grains and joints and the resolution.
+/// Joins equal cells side by side to one periodic cell, with the grains, joints and strengths of the single one. Its
+/// report is that of the single cell except for the numbers of grains and joints and the resolution.
 template <int dim>
 Specimen<dim> repeated(const Specimen<dim>& cell, const std::array<unsigned int, dim>& n_cells);
 
-/// Cuts a periodic cell at the faces of its box (one with walled ends at the sides only), and in space at the largest upright cylinder in it if `round`: grains
-/// stay whole and belong to the body where their centres do; joints that lead out of it are cut. Groups of grains that
-/// lose their last joint to the body are removed. Its report has the coordination number, porosity and overlaps of what
-/// is left, and the installation gap of the cell.
+/// Cuts a periodic cell at the faces of its box (one with walled ends at the sides only), and in space at the largest
+/// upright cylinder in it for the shape of a cylinder. Grains stay whole and belong to the body where their centres do; joints that lead
+/// out of it are cut. Groups of grains that lose their last joint to the body are removed. The report has the
+/// coordination number, porosity and overlaps of what is left, and the installation gap of the cell.
 template <int dim>
-Specimen<dim> cored(const Specimen<dim>& cell, bool round);
+Specimen<dim> cored(const Specimen<dim>& cell, BodyShape shape);
 } // namespace feldspar

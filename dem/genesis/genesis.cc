@@ -1,6 +1,6 @@
 #include "dem/genesis/genesis.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/random.h"
 #include "dem/dynamics/dynamics.h"
 #include "dem/genesis/coring.h"
@@ -89,8 +89,10 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
 {
   const auto radii = draw_radii<dim>(wanted, specimen.volume(), specimen.thickness, specimen.seed);
   if (radii.size() < 2)
-    throw InputError(fmt::format("Specimen: {} grain(s) fill a {} of {} m × {} m; make it larger or the grains smaller",
-                                 radii.size(), specimen.round ? "cylinder" : "box", wanted.width, wanted.height));
+    throw ParameterError(parameters_id<SpecimenParameters>(),
+                         fmt::format("{} grain(s) fill a {} of {} m × {} m; make it larger or the grains smaller",
+                                     radii.size(), specimen.is_round() ? "cylinder" : "box", wanted.width,
+                                     wanted.height));
   Random random(specimen.seed, RandomStream::positions);
   Components<dim> positions;
   for (const double radius : radii)
@@ -102,7 +104,7 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
             const double margin = specimen.repeats(c) ? 0.0 : radius;
             position[c] = random.uniform(margin, specimen.size[c] - margin);
           }
-      while (specimen.round && specimen.distance_from_axis(position) > 0.5 * specimen.size[0] - radius);
+      while (specimen.is_round() && specimen.distance_from_axis(position) > 0.5 * specimen.size[0] - radius);
       for (int c = 0; c < dim; ++c)
         positions[c].push_back(position[c]);
     }
@@ -122,16 +124,16 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
     }
   Dynamics<dim> dynamics(std::move(loose), DynamicsParameters{}, ZeroForce::at_touch);
   dynamics.set_check(check_within);
-  for (int axis = specimen.round ? dim - 1 : 0; axis < dim; ++axis)
+  for (int axis = specimen.is_round() ? dim - 1 : 0; axis < dim; ++axis)
     if (!specimen.repeats(axis))
       {
         dynamics.add_wall({axis, 1.0, 0.0, 0.0});
         dynamics.add_wall({axis, -1.0, dynamics.specimen().size[axis], 0.0});
       }
-  if (specimen.round)
+  if (specimen.is_round())
     dynamics.add_wall(round_wall(specimen));
 
-  // The first overlaps are as large as grains; let go, they would throw grains about: follow the forces step by step
+  // The first overlaps are as large as grains; released, they would throw grains about: follow the forces step by step
   // without gathering speed.
   constexpr unsigned int n_creeps = 300;
   for (unsigned int k = 0; k < n_creeps; ++k)
@@ -157,14 +159,17 @@ void pack(Specimen<dim>& specimen, const SpecimenParameters& wanted, const std::
           break;
         }
       if (k == most_scalings)
-        throw InputError(
-          fmt::format("Specimen: no packing at a mean stress of {:.3g} Pa within {} scalings (reached "
-                      "{:.3g} Pa); Packing relaxation = static, another Porosity, Packing stress ratio or seed may do",
-                      target, most_scalings, stress));
+        throw ParameterError(parameters_id<SpecimenParameters>(),
+                             fmt::format("no packing at a mean stress of {:.3g} Pa within {} scalings (reached "
+                                         "{:.3g} Pa); {} = static, another {}, {} or seed may do",
+                                         target, most_scalings, stress,
+                                         entry_in_words(parameter_id<&SpecimenParameters::packed_by_descent>()),
+                                         entry_in_words(parameter_id<&SpecimenParameters::porosity>()),
+                                         entry_in_words(parameter_id<&SpecimenParameters::packing_stress_ratio>())));
       if (std::abs(error) <= stress_tolerance)
         continue; // only time is missing
       // Near jamming the stress of a packing rises by about its contact modulus per unit of relative radius; one that
-      // does not touch yet grows faster.
+      // is not in contact yet grows faster.
       const double growth = stress < 0.05 * target ? std::max(5e-4, 2.0 * wanted.packing_stress_ratio)
                                                    : std::clamp((target - stress) / modulus, -5e-3, 5e-3);
       scale_radii(dynamics, 1.0 + growth);
@@ -219,9 +224,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
       specimen.size[0] /= wanted.cells_across;
       specimen.size[dim - 1] /= wanted.cells_along;
     }
-  specimen.periodic = wanted.shape == "periodic" || wanted.is_cored();
-  specimen.walled_ends = wanted.coring == Coring::sides_only;
-  specimen.round = wanted.shape == "cylinder" && !wanted.is_cored();
+  specimen.shape = wanted.shape_when_packed();
   specimen.bulk_density = wanted.bulk_density;
   specimen.seed = seed;
   specimen.particle_contact = particle_contact;
@@ -240,7 +243,7 @@ Specimen<dim> make_specimen(const SpecimenParameters& wanted, const JointParamet
   n_cells.fill(1);
   n_cells[0] = wanted.cells_across;
   n_cells[dim - 1] = wanted.cells_along;
-  return cored<dim>(repeated<dim>(specimen, n_cells), wanted.shape == "cylinder");
+  return cored<dim>(repeated<dim>(specimen, n_cells), wanted.shape);
 }
 
 template Specimen<2> make_specimen<2>(const SpecimenParameters&, const JointParameters&,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/random.h"
 #include "dem/laws/contact_motion.h"
 #include "dem/laws/joint_law.h"
@@ -19,7 +19,7 @@
 #include <tuple>
 #include <vector>
 
-/// Installation of joints, written over the law; docs/theory.md §3. Of every law's parameters it reads modulus,
+/// Installation of joints, written over the law; docs/theory.md §3. It reads from every law's parameters modulus,
 /// stiffness_ratio, radius_multiplier, bond_friction_angle, installation_gap_ratio, coordination_number,
 /// gapped_fraction, slit_fraction and initial_gap as FlatJointParameters has them; the law divides the faces and draws
 /// the strengths.
@@ -44,8 +44,8 @@ template <int dim>
 std::vector<PairGap<dim>> pair_gaps(
   const Specimen<dim>& specimen, const double largest_gap, const std::function<void()>& check = [] {})
 {
-  const auto images = specimen.periodic ? images_within(specimen.grains, specimen.cell(), largest_gap)
-                                        : std::vector<PeriodicImage<dim>>();
+  const auto images = specimen.is_periodic() ? images_within(specimen.grains, specimen.cell(), largest_gap)
+                                             : std::vector<PeriodicImage<dim>>();
   const std::size_t n_own = specimen.grains.size();
   const Grains<dim> grains = with_images(specimen.grains, images, specimen.cell());
   std::vector<PairGap<dim>> gaps;
@@ -64,11 +64,11 @@ std::vector<PairGap<dim>> pair_gaps(
   return gaps;
 }
 
-/// How many of the pairs, sorted by gap, get a joint. A gap below which exactly so many lie is what bisection on the
-/// gap would find.
+/// Number of pairs, sorted by gap, that get a joint. Bisection on the gap would find a gap below which exactly so many
+/// pairs lie.
 template <int dim, typename Parameters>
 std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Parameters& wanted, const std::size_t n_grains,
-                            const double mean_radius, const std::string& section)
+                            const double mean_radius)
 {
   if (!wanted.coordination_number)
     return std::size_t(std::partition_point(gaps.begin(), gaps.end(),
@@ -82,10 +82,11 @@ std::size_t n_joints_wanted(const std::vector<PairGap<dim>>& gaps, const Paramet
     gaps.begin());
   const auto n = std::size_t(std::llround(0.5 * z * double(n_grains)));
   if (n < n_overlapping || n > gaps.size())
-    throw InputError(fmt::format(
-      "{}/Coordination number = {}: this packing allows {:.2f} (pairs that touch) to {:.2f} (gaps up to "
-      "the mean radius)",
-      section, z, 2.0 * double(n_overlapping) / double(n_grains), 2.0 * double(gaps.size()) / double(n_grains)));
+    throw ParameterError(parameter_id<&Parameters::coordination_number, Parameters>(), fmt::format("{}", z),
+                         fmt::format("this packing allows {:.2f} (pairs that touch) to {:.2f} (gaps up to "
+                                     "the mean radius)",
+                                     2.0 * double(n_overlapping) / double(n_grains),
+                                     2.0 * double(gaps.size()) / double(n_grains)));
   return n;
 }
 
@@ -107,13 +108,13 @@ void fill_report(Specimen<dim>& specimen, const std::vector<PairGap<dim>>& gaps)
       ++n_joints[specimen.joints.grain_1[j]];
       ++n_joints[specimen.joints.grain_2[j]];
     }
-  const double margin = specimen.periodic ? -std::numeric_limits<double>::infinity() : 6.0 * report.mean_radius;
+  const double margin = specimen.is_periodic() ? -std::numeric_limits<double>::infinity() : 6.0 * report.mean_radius;
   double sum = 0.0;
   std::size_t n_core = 0;
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
       const Vector<dim> x = at<dim>(grains.position, i);
-      const bool inside = !specimen.round || specimen.distance_from_axis(x) < 0.5 * specimen.size[0] - margin;
+      const bool inside = !specimen.is_round() || specimen.distance_from_axis(x) < 0.5 * specimen.size[0] - margin;
       if (inside && (x.array() > margin).all() && (x.array() < specimen.size.array() - margin).all())
         {
           sum += n_joints[i];
@@ -147,7 +148,7 @@ void install_joints(
   const double mean_radius = grains.mean_radius();
   const double search_gap = std::max(search_gap_ratio, wanted.installation_gap_ratio.value_or(0.0)) * mean_radius;
   const auto gaps = pair_gaps(specimen, search_gap * (1.0 + 1e-12), check);
-  const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius, section_of(Law::name));
+  const std::size_t n = n_joints_wanted(gaps, wanted, grains.size(), mean_radius);
   specimen.report.installation_gap_ratio = !wanted.coordination_number ? *wanted.installation_gap_ratio
                                            : n > 0                     ? gaps[n - 1].gap / mean_radius
                                                                        : 0.0;
@@ -189,7 +190,7 @@ void install_joints(
         }
     }
 
-  // Slit and gapped joints are drawn from all by lot.
+  // Slit and gapped joints are drawn from all at random.
   std::vector<std::size_t> lot(n);
   std::iota(lot.begin(), lot.end(), std::size_t(0));
   Random(specimen.seed, RandomStream::bonds).shuffle(lot);

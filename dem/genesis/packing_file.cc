@@ -1,6 +1,7 @@
 #include "dem/genesis/packing_file.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "dem/specimen/pair_search.h"
@@ -18,8 +19,6 @@ namespace feldspar
 namespace
 {
 constexpr double largest_overlap = 0.05; // of the smaller radius
-
-bool is_periodic(const SpecimenParameters& wanted) { return wanted.shape == "periodic"; }
 
 /// The numbers of one line, which must be exactly n.
 std::vector<double> numbers(const std::string& line, const std::size_t n, const std::string& where)
@@ -53,7 +52,7 @@ void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, co
 {
   Tensor<dim> cell = wanted.width * Tensor<dim>::Identity();
   cell(dim - 1, dim - 1) = wanted.height;
-  const auto images = is_periodic(wanted) ? images_within(own, cell, 0.0) : std::vector<PeriodicImage<dim>>();
+  const auto images = is_periodic(wanted.shape) ? images_within(own, cell, 0.0) : std::vector<PeriodicImage<dim>>();
   const Grains<dim> grains = with_images(own, images, cell);
   for_each_pair_within<dim>(
     grains, 0.0,
@@ -82,7 +81,7 @@ void check_overlaps(const Grains<dim>& own, const SpecimenParameters& wanted, co
 template <int dim>
 void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, const std::vector<std::size_t>& line_of)
 {
-  const bool is_round = wanted.shape == "cylinder";
+  const bool is_round = wanted.shape == BodyShape::cylinder;
   for (std::size_t i = 0; i < grains.size(); ++i)
     {
       const Vector<dim> x = at<dim>(grains.position, i);
@@ -92,8 +91,10 @@ void check_walls(const Grains<dim>& grains, const SpecimenParameters& wanted, co
         if (overlap > allowed)
           throw InputError(
             fmt::format("{}:{}: reaches through the {} by {:.3g} m; allowed are {:.0f} % of the radius, {:.3g} "
-                        "m: make Specimen/Width and Height those of the grains",
-                        wanted.packing_file, line_of[i], wall, overlap, 100.0 * largest_overlap, allowed));
+                        "m: make {} and {} those of the grains",
+                        wanted.packing_file, line_of[i], wall, overlap, 100.0 * largest_overlap, allowed,
+                        in_words(parameter_id<&SpecimenParameters::width>()),
+                        entry_in_words(parameter_id<&SpecimenParameters::height>())));
       };
       for (int axis = is_round ? dim - 1 : 0; axis < dim; ++axis)
         {
@@ -138,14 +139,14 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
                                          "xyz"[c], values[c], length));
           // Before it has an image in each of very many boxes.
           if (const double overlap = 2.0 * values[dim] - length;
-              is_periodic(wanted) && overlap > largest_overlap * values[dim])
+              is_periodic(wanted.shape) && overlap > largest_overlap * values[dim])
             throw InputError(fmt::format("{}: overlaps its own image by {:.3g} m across the sides of the periodic box; "
                                          "allowed are {:.0f} % of the radius, {:.3g} m",
                                          where, overlap, 100.0 * largest_overlap, largest_overlap * values[dim]));
           // The two sides of a periodic box are one place.
-          positions[c].push_back(is_periodic(wanted) && values[c] == length ? 0.0 : values[c]);
+          positions[c].push_back(is_periodic(wanted.shape) && values[c] == length ? 0.0 : values[c]);
         }
-      if (wanted.shape == "cylinder")
+      if (wanted.shape == BodyShape::cylinder)
         if (const double r = std::hypot(values[0] - 0.5 * wanted.width, values[1] - 0.5 * wanted.width);
             r > 0.5 * wanted.width)
           throw InputError(fmt::format("{}: lies {} m from the axis of the cylinder; allowed are 0 to {} m", where, r,
@@ -159,7 +160,7 @@ Grains<dim> read_packing(const SpecimenParameters& wanted, const std::function<v
   Grains<dim> grains;
   grains.place(radii, positions);
   check_overlaps(grains, wanted, line_of, check);
-  if (!is_periodic(wanted) && !wanted.is_cored())
+  if (!is_periodic(wanted.shape) && !wanted.is_cored())
     check_walls(grains, wanted, line_of);
   return grains;
 }

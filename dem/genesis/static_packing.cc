@@ -1,7 +1,7 @@
 #include "dem/genesis/static_packing.h"
 
-#include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/parameter_id.h"
 #include "dem/dynamics/walls.h"
 #include "dem/laws/face_elements.h"
 #include "dem/specimen/neighbours.h"
@@ -25,8 +25,9 @@ constexpr double packing_stress_tolerance = 1e-3; // of the packing stress
 // for 5e-3 of an overlap, 1e-6 of a radius.
 constexpr double force_tolerance = 5e-3;
 
-/// Of the contact modulus: grains are pressed together until they overlap by half a percent of a radius before they are
-/// let go to the packing stress, or the answer would depend on the porosity that was asked for.
+/// Stress of the dense packing as a share of the contact modulus. Grains are pressed together until they overlap by
+/// half a percent of a radius, and then unloaded to the packing stress; otherwise the result would depend on the
+/// requested porosity.
 template <int dim>
 constexpr double dense_stress_ratio = dim == 2 ? 3e-3 : 2e-3;
 
@@ -42,10 +43,10 @@ struct Neighbour
 {
   std::uint32_t grain;
   std::uint32_t box; ///< number of the shift to the box in which it lies
-  double stiffness;  ///< of the touch, radii as drawn [N/m]
+  double stiffness;  ///< of the contact, radii as drawn [N/m]
 };
 
-/// Over grains and contacts, the growth of the radii included.
+/// Sums over grains and contacts, the growth of the radii included.
 struct Sums
 {
   double power = 0.0;      ///< force times velocity
@@ -77,7 +78,7 @@ class Descent
 public:
   Descent(const Specimen<dim>& loose, const std::function<void()>& check_within);
 
-  /// Of all forces and, where radii grow, of what is missing of the wanted stress [Pa].
+  /// Sums all forces and, where radii grow, the missing part of the wanted stress [Pa].
   Sums sum_forces(double wanted_stress, bool radii_grow);
   /// Kicks velocities, of which a share is kept, by the force over so long, then moves.
   void advance(double time_step, double keep, double kick, bool radii_grow);
@@ -110,7 +111,7 @@ private:
   double growth_force = 0.0;   ///< [J]
   double growth_inertia = 0.0; ///< [J]
 
-  // Of the last search for neighbours
+  // State of the last search for neighbours
   double skin = 0.0;
   std::vector<Place> at_search;
   double growth_at_search = 0.0;
@@ -172,7 +173,7 @@ void Descent<dim>::find_neighbours()
       for (Place& grain : grains)
         grain[c] -= body.size[c] * std::floor(grain[c] / body.size[c]);
   const Grains<dim> own = result();
-  const auto images = body.periodic ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
+  const auto images = body.is_periodic() ? images_within(own, body.cell(), skin) : std::vector<PeriodicImage<dim>>();
   const Grains<dim> all = with_images(own, images, body.cell());
 
   std::map<std::array<int, dim>, std::uint32_t> number_of_box;
@@ -214,8 +215,9 @@ void Descent<dim>::find_neighbours()
   for (std::size_t i = 0; i < n; ++i)
     first[i + 1] += first[i];
   neighbours.resize(2 * pairs.size());
-  // As stiff as all that could touch: (u_1 - u_2)² ≤ 2 (u_1² + u_2²) then bounds the stiffness of any motion by twice its
-  // inertia, and steps up to √2 are stable. A wall counts half, for it does not move.
+  // The inertia of a grain equals the stiffness of all its neighbours that could come into contact: (u_1 - u_2)² ≤ 2
+  // (u_1² + u_2²) then bounds the stiffness of any motion by twice its inertia, and steps up to √2 are stable. A wall
+  // counts half, because it does not move.
   for (std::size_t i = 0; i < n; ++i)
     {
       const double radius = grains[i].back();
@@ -245,7 +247,7 @@ template <int dim>
 template <typename Visitor>
 void Descent<dim>::visit_walls(const Place& grain, const double reach, Visitor&& visit) const
 {
-  for (int axis = body.round ? dim - 1 : 0; axis < dim; ++axis)
+  for (int axis = body.is_round() ? dim - 1 : 0; axis < dim; ++axis)
     for (const double side : {1.0, -1.0})
       if (const double distance = side > 0.0 ? grain[axis] : body.size[axis] - grain[axis];
           !body.repeats(axis) && distance < reach)
@@ -254,7 +256,7 @@ void Descent<dim>::visit_walls(const Place& grain, const double reach, Visitor&&
           normal[axis] = side;
           visit(distance, normal);
         }
-  if (!body.round)
+  if (!body.is_round())
     return;
   const double x = grain[0] - 0.5 * body.size[0];
   const double y = grain[1] - 0.5 * body.size[0];
@@ -382,7 +384,7 @@ void Descent<dim>::advance(const double time_step, const double keep, const doub
 /// The treatment of the radii.
 enum class Stage
 {
-  as_drawn,   ///< the first overlaps are let go
+  as_drawn,   ///< the first overlaps are released
   pressed,    ///< grown or shrunk until grains are at rest under the dense stress
   let_go,     ///< the stress is lowered bit by bit: one that falls below on the way makes grains flow
   at_pressure ///< until at rest
@@ -435,10 +437,15 @@ StaticPacking pack_by_descent(Specimen<dim>& loose, const double stress, const s
           error <= packing_stress_tolerance)
         break;
       if (k == most_iterations)
-        throw InputError(fmt::format(
-          "Specimen: no packing at rest at a mean stress of {:.3g} Pa within {} iterations (reached {:.3g} Pa, forces "
-          "balanced to {:.2g}); another Porosity, Packing stress ratio or seed may do, or Packing relaxation = dynamics",
-          stress, most_iterations, packing.stress, packing.unbalanced_ratio));
+        throw ParameterError(
+          parameters_id<SpecimenParameters>(),
+          fmt::format(
+            "no packing at rest at a mean stress of {:.3g} Pa within {} iterations (reached {:.3g} Pa, forces "
+            "balanced to {:.2g}); another {}, {} or seed may do, or {} = dynamics",
+            stress, most_iterations, packing.stress, packing.unbalanced_ratio,
+            entry_in_words(parameter_id<&SpecimenParameters::porosity>()),
+            entry_in_words(parameter_id<&SpecimenParameters::packing_stress_ratio>()),
+            entry_in_words(parameter_id<&SpecimenParameters::packed_by_descent>())));
 
       double keep = 1.0;
       double kick = time_step;

@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-/// How a packing came to rest.
+/// Figures of a packing as it came to rest.
 struct StaticPacking
 {
   double multiplier = 1.0;       ///< by which all radii were scaled

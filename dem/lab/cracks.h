@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/dynamics/dynamics.h"
-#include "results/record.h"
+#include "laboratory/record.h"
 
 namespace feldspar
 {

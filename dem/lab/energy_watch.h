@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
+#include "laboratory/energies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace feldspar
 class EnergyWatch
 {
 public:
-  /// Whether more has been stored and dissipated than twice what was put in, at the most there has been until now. What the
-  /// scheme itself leaves open is a thousandth of that. Energies that are no numbers count as grown.
+  /// Returns whether more has been stored and dissipated than twice what was put in, at the most there has been until
+  /// now. The scheme itself leaves a thousandth of that open. Energies that are no numbers count as grown.
   bool has_grown_without_work(const Energies& now)
   {
     most_put_in = std::max(most_put_in, std::abs(now.boundary_work) + now.kinetic_at_start);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,7 @@
 #include "dem/lab/laboratory_run.h"
 
-#include "base/hdf5_archive.h"
+#include "base/parameter_id.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/lab/cracks.h"
 #include "dem/lab/seating.h"
 #include "dem/lab/servo.h"
@@ -51,12 +52,12 @@ std::string what_bears_nothing(const TestRecord& record)
   if (record.notch)
     return fmt::format(
       "no bond broke up to a strain of {:.0f} %: the body does not bear between its rollers; one that is "
-      "a few grains thick may fall aside: make it larger, or its grains smaller (Specimen/Minimum "
-      "radius)",
-      percent);
-  return fmt::format("the stress stayed below {:.3g} MPa (Tests/Least peak stress) up to a strain of {:.0f} %: nothing "
+      "a few grains thick may fall aside: make it larger, or its grains smaller ({})",
+      percent, in_words(parameter_id<&SpecimenParameters::minimum_radius>()));
+  return fmt::format("the stress stayed below {:.3g} MPa ({}) up to a strain of {:.0f} %: nothing "
                      "holds the specimen, or it has no strength",
-                     record.peak_demands.least_stress / 1e6, percent);
+                     record.peak_demands.least_stress / 1e6,
+                     in_words(parameter_id<&TestParameters::least_peak_stress>()), percent);
 }
 
 template <int dim>
@@ -99,7 +100,7 @@ template <int dim>
 void LabTest<dim>::start_gauge()
 {
   const Specimen<dim>& specimen = set_up.dynamics.specimen();
-  gauge = StrainGauge<dim>(specimen.size, specimen.round, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
+  gauge = StrainGauge<dim>(specimen.size, specimen.shape, BodyCentres<dim>(specimen, gauge_positions).all(), is_part);
 }
 
 template <int dim>
@@ -139,9 +140,9 @@ void LabTest<dim>::seat(const std::function<void()>& check)
   gauge_positions = dynamics.specimen().grains.position;
   start_gauge();
   if (stage_walk.needs_lateral_strain() && std::isnan(displacement_gradient()(0, 0)))
-    throw InputError(
-      "Tests/Loading table: lateral_strain cannot be measured: too few grains with joints in the middle of "
-      "the specimen; make it wider or the grains smaller");
+    throw ParameterError(parameter_id<&LoadingTable::file>(),
+                         "lateral_strain cannot be measured: too few grains with joints in the middle of "
+                         "the specimen; make it wider or the grains smaller");
   time_at_start = time_of_last_row = dynamics.time();
   seated = true;
   record.curve.push_back(sample());
@@ -152,7 +153,7 @@ void LabTest<dim>::seat(const std::function<void()>& check)
     stage_walk.begin(moment());
 }
 
-/// Along the last axis, tension positive.
+/// Strain along the last axis, tension positive.
 template <int dim>
 double LabTest<dim>::axial_strain() const
 {
@@ -316,8 +317,8 @@ Snapshot LabTest<dim>::snapshot() const
   return now;
 }
 
-/// How long the curve will be is not known: when there are too many, every second one goes. The last one comes when the
-/// test is finished.
+/// Takes a snapshot. The length of the curve is not known beforehand: when there are too many snapshots, every second
+/// one is removed. The last one is taken when the test is finished.
 template <int dim>
 void LabTest<dim>::take_snapshot()
 {
@@ -357,7 +358,7 @@ TestOutcome LabTest<dim>::finish(const bool interrupted) const
       result.appearance.flaws.push_back(std::move(picture));
     }
 
-  // Where numbers went wrong, the grains stand as they last stood right.
+  // Grains are given as they last stood right if numbers went wrong.
   const bool went_wrong = !record.failure.empty();
   if (went_wrong && snapshots.empty())
     return result;

@@ -3,11 +3,11 @@
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/energy_watch.h"
 #include "dem/lab/laboratory_protocol.h"
-#include "dem/lab/parameters.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
 #include "dem/lab/strain_gauge.h"
-#include "results/test_outcome.h"
+#include "laboratory/parameters.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
+#include "laboratory/test_outcome.h"
 
 #include <filesystem>
 #include <functional>
@@ -24,7 +24,7 @@ struct EndStress
   double upper;
 };
 
-/// How a specimen is loaded and measured once its walls or grips stand; keeps no state of its own.
+/// Loading and measurement of a specimen once its walls or grips stand; keeps no state of its own.
 template <int dim>
 struct Loading
 {
@@ -62,7 +62,7 @@ struct LaboratoryCase
   double confining_pressure = 0.0;
 };
 
-/// A laboratory test that can be left and taken up again: run row by row of its curve.
+/// A laboratory test that can be left and resumed: run row by row of its curve.
 template <int dim>
 class LabTest
 {
@@ -73,18 +73,18 @@ public:
   /// Seats the specimen at the first call, then loads it to the next row of the curve. False once the test has ended: by
   /// the stop rule, after its last stage, or because numbers went wrong, which its record then says. Calls check() at
   /// every step, which may throw; a row that this broke off is gone on with at the next call, a seating cannot be. Throws
-  /// InputError where the confinement cannot be reached, or a strain that leads not be measured.
+  /// InputError where the confinement cannot be reached, or a prescribed strain not be measured.
   bool advance(const std::function<void()>& check = [] {});
 
   bool has_ended() const { return ended; }
   bool is_seated() const { return seated; }
-  /// Whether it has ended because of its numbers.
+  /// Returns whether the test has ended because of its numbers.
   bool went_wrong() const { return !record.failure.empty(); }
   std::uint64_t n_steps() const { return set_up.dynamics.n_steps(); }
   const std::vector<CurveSample>& curve() const { return record.curve; }
 
-  /// The test as it stands, whether it has ended or not. Of one whose numbers went wrong, all that was before the row in
-  /// which they did.
+  /// The test as it stands, whether it has ended or not. A test whose numbers went wrong has all that was before the
+  /// row in which they did.
   TestOutcome finish(bool interrupted) const;
 
   /// The whole state, so that a test read back runs on to the same bits. `identity` tells whose state it is.

@@ -24,7 +24,7 @@ WallPair add_platens(SetUpTest<dim>& test, const double friction)
           stand_wall<dim>(test, {axis, -1.0, body.size[axis], 0.0, friction}, "upper platen")};
 }
 
-/// Between them [m].
+/// Distance between the walls of a pair [m].
 template <int dim>
 double distance(const Dynamics<dim>& dynamics, const WallPair& pair)
 {

@@ -1,6 +1,6 @@
 #include "dem/lab/seating.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/specimen/fragments.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ std::vector<Side> sides_of_box(const Specimen<dim>& specimen)
   constexpr int last = dim - 1;
   std::vector<Side> sides{{"lower end", {.axis = last}},
                           {"upper end", {.axis = last, .side = -1.0, .position = specimen.size[last]}}};
-  if (specimen.round)
+  if (specimen.is_round())
     sides.push_back({"round side", round_wall(specimen)});
   else
     for (int axis = 0; axis < last; ++axis)
@@ -52,8 +52,12 @@ std::vector<Side> sides_of_box(const Specimen<dim>& specimen)
   return sides;
 }
 
-constexpr std::string_view advice =
-  "make Specimen/Width and Height those of the grains, let a packing begin at 0, or take no end off by a flaw";
+std::string advice()
+{
+  return fmt::format("make {} and {} those of the grains, let a packing begin at 0, or take no end off by a flaw",
+                     in_words(parameter_id<&SpecimenParameters::width>()),
+                     entry_in_words(parameter_id<&SpecimenParameters::height>()));
+}
 } // namespace
 
 template <int dim>
@@ -93,9 +97,10 @@ void check_fills_its_box(const Specimen<dim>& specimen)
       gaps.push_back(fmt::format("{} {:.3g} mm", name, 1e3 * gap));
     }
   if (const double most = largest_gap * specimen.grains.mean_radius(); largest > most)
-    throw InputError(fmt::format("Specimen: its grains end inside of its box, by more than half of a mean radius, "
-                                 "{:.3g} mm: {}; {}",
-                                 1e3 * most, fmt::join(gaps, ", "), advice));
+    throw ParameterError(parameters_id<SpecimenParameters>(),
+                         fmt::format("its grains end inside of its box, by more than half of a mean radius, "
+                                     "{:.3g} mm: {}; {}",
+                                     1e3 * most, fmt::join(gaps, ", "), advice()));
 }
 
 template <int dim>
@@ -122,9 +127,9 @@ void check_leads_from_end_to_end(const Specimen<dim>& specimen)
   for (const auto& [one, two] : pairs_within(specimen.grains, 0.0))
     pieces.merge(one, two);
   if (!lead_from_end_to_end())
-    throw InputError(
-      "Specimen: no grains that are joined or touch lead from its lower to its upper end: an open flaw or a "
-      "gap in the packing goes right through it; let a flaw end inside, or close it");
+    throw ParameterError(parameters_id<SpecimenParameters>(),
+                         "no grains that are joined or touch lead from its lower to its upper end: an open flaw or a "
+                         "gap in the packing goes right through it; let a flaw end inside, or close it");
 }
 
 template <int dim>
@@ -134,9 +139,10 @@ std::size_t stand_wall(SetUpTest<dim>& test, Wall wall, const std::string_view n
   const double gap = gap_at(body, wall, grains_of_body(body));
   const double radius = body.grains.mean_radius();
   if (const double most = largest_gap * radius; gap > most)
-    throw InputError(fmt::format("Specimen: the nearest grain is {:.3g} mm away from the {}, more than half of a mean "
-                                 "radius, {:.3g} mm; {}",
-                                 1e3 * gap, name, 1e3 * most, advice));
+    throw ParameterError(parameters_id<SpecimenParameters>(),
+                         fmt::format("the nearest grain is {:.3g} mm away from the {}, more than half of a mean "
+                                     "radius, {:.3g} mm; {}",
+                                     1e3 * gap, name, 1e3 * most, advice()));
   if (gap > 0.0)
     {
       wall.position += wall.side * gap;

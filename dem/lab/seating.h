@@ -8,8 +8,8 @@
 /// Walls that hold a specimen from the first step of its test on; docs/theory.md §4.
 namespace feldspar
 {
-/// Whether each grain is a part of the body: has a joint, or, in a rigid group, a member of it has; all of a body without
-/// joints. [n_grains]
+/// Returns whether each grain is a part of the body: it has a joint, or, in a rigid group, a member of the group has
+/// one. In a body without joints all grains are parts of it. [n_grains]
 template <int dim>
 std::vector<bool> grains_of_body(const Specimen<dim>& specimen);
 
@@ -18,12 +18,13 @@ std::vector<bool> grains_of_body(const Specimen<dim>& specimen);
 template <int dim>
 void check_fills_its_box(const Specimen<dim>& specimen);
 
-/// Throws InputError where no grains that are joined, or touch, lead from one end of the last axis to the other.
+/// Throws InputError where no grains that are joined, or in contact, lead from one end of the last axis to the other.
 template <int dim>
 void check_leads_from_end_to_end(const Specimen<dim>& specimen);
 
-/// Stands a wall at rest in the test; where no grain of the body touches it, as much nearer as it takes. Throws InputError
-/// where that is more than half of a mean radius. `name`: of the wall in this message. Returns its number.
+/// Stands a wall at rest in the test; where no grain of the body is in contact with it, as much nearer as it takes.
+/// Throws InputError where that is more than half of a mean radius. `name`: of the wall in this message. Returns its
+/// number.
 template <int dim>
 std::size_t stand_wall(SetUpTest<dim>& test, Wall wall, std::string_view name);
 } // namespace feldspar

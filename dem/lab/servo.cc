@@ -1,6 +1,6 @@
 #include "dem/lab/servo.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 
 #include <fmt/format.h>
 
@@ -42,8 +42,8 @@ void raise_pressures(Dynamics<dim>& dynamics, const PressureRamp& ramp, const st
       ramp.hold(std::min(1.0, dynamics.time() / ramp.duration));
       dynamics.step();
       if (dynamics.time() > most_ramps * ramp.duration)
-        throw InputError(
-          fmt::format("{}: the walls cannot hold {:g} MPa on this specimen", ramp.entry, ramp.pressure / 1e6));
+        throw ParameterError(ramp.asked_by,
+                             fmt::format("the walls cannot hold {:g} MPa on this specimen", ramp.pressure / 1e6));
     }
   while (dynamics.time() < 1.5 * ramp.duration || ramp.largest_deviation() >= tolerance);
 }

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "base/parameter_id.h"
 #include "dem/dynamics/dynamics.h"
+#include "laboratory/kinds.h"
 
 #include <functional>
-#include <string_view>
 
 namespace feldspar
 {
@@ -15,11 +16,11 @@ void hold_pressure(Dynamics<dim>& dynamics, std::size_t wall, double area, doubl
 /// Pressures on walls that are raised together.
 struct PressureRamp
 {
-  double pressure;                               ///< compression positive, for the words of an error [Pa]
-  double duration;                               ///< of the rise [s]
-  std::function<void(double)> hold;              ///< this share of the pressures, for one step
-  std::function<double()> largest_deviation;     ///< of a wall's pressure from its target, relative
-  std::string_view entry = "Tests/Confinements"; ///< that asks for the pressure
+  double pressure;                           ///< compression positive, for the words of an error [Pa]
+  double duration;                           ///< of the rise [s]
+  std::function<void(double)> hold;          ///< this share of the pressures, for one step
+  std::function<double()> largest_deviation; ///< of a wall's pressure from its target, relative
+  ParameterId asked_by = parameter_id<&TestCase::confining_pressure>();
 };
 
 /// The speed of a wave along a rod of the specimen's rock, by the modulus of its particle contacts [m/s].

@@ -8,7 +8,7 @@
 namespace feldspar
 {
 template <int dim>
-StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const bool round, const Components<dim>& undeformed,
+StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const BodyShape shape, const Components<dim>& undeformed,
                               const std::vector<bool>& jointed)
 {
   const Vector<dim> centre = 0.5 * size;
@@ -19,7 +19,7 @@ StrainGauge<dim>::StrainGauge(const Vector<dim>& size, const bool round, const C
     {
       const Vector<dim> x = at<dim>(undeformed, i);
       const Vector<dim> from_centre = x - centre;
-      const bool inside = !round || from_centre.template head<dim - 1>().norm() < reach[0];
+      const bool inside = shape != BodyShape::cylinder || from_centre.template head<dim - 1>().norm() < reach[0];
       if (jointed[i] && inside && (from_centre.array().abs() < reach.array()).all())
         {
           members.push_back(i);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/body.h"
 #include "dem/storage/grains.h"
 
 #include <cstdint>
@@ -17,9 +18,10 @@ class StrainGauge
 public:
   StrainGauge() = default;
 
-  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m]; round: a cylinder; jointed:
+  /// Takes these positions of all grains as the undeformed ones. size: of the specimen [m]; jointed:
   /// whether each grain has had a joint, [n_grains].
-  StrainGauge(const Vector<dim>& size, bool round, const Components<dim>& undeformed, const std::vector<bool>& jointed);
+  StrainGauge(const Vector<dim>& size, BodyShape shape, const Components<dim>& undeformed,
+              const std::vector<bool>& jointed);
 
   /// Displacement gradient ∂u_i/∂x_j of grains that stand here; NaN where too few lie in the gauge to tell.
   Tensor<dim> displacement_gradient(const Components<dim>& position) const;

@@ -35,7 +35,7 @@ Surroundings<dim> surround(SetUpTest<dim>& test, const WallPair& ends, const dou
   const double thickness = specimen.thickness;
   Surroundings<dim> around;
   if constexpr (dim == 3)
-    if (specimen.round)
+    if (specimen.is_round())
       {
         if (confinement.lateral_boundary == LateralBoundary::membrane)
           {

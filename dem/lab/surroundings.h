@@ -2,9 +2,9 @@
 
 #include "dem/dynamics/dynamics.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
-#include "dem/lab/parameters.h"
 #include "dem/lab/platens.h"
+#include "laboratory/own_entries.h"
+#include "laboratory/parameters.h"
 
 #include <cstddef>
 #include <functional>

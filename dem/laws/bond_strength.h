@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-/// When a bond breaks: in tension beyond its tensile strength, in shear beyond Coulomb's strength, which a pull lowers
-/// and a pressure raises. One surface in the plane of σ and |τ|, asked in the forms that explicit steps, equilibria and
-/// straight strain paths need. (n) is equation n of the flat-joint paper; docs/theory.md §1.4.
+/// Strength of bonds. A bond breaks in tension beyond its tensile strength, and in shear beyond Coulomb's strength,
+/// which tension lowers and pressure raises. The surface in the plane of σ and |τ| is evaluated in the forms that
+/// explicit steps, equilibria and straight strain paths need. (n) is equation n of the flat-joint paper; docs/theory.md
+/// §1.4.
 namespace feldspar
 {
 /// Strength of the bond of one element of a face.
@@ -19,7 +20,7 @@ struct Bond
   double friction_slope; ///< tan φ_b [-]
 };
 
-/// Stress that a bond bears, or its rate along a straight path.
+/// Stress that a bond carries, or its rate along a straight path.
 struct BondStress
 {
   double tension; ///< largest normal stress, held against the tensile strength [Pa]
@@ -58,7 +59,7 @@ inline double overload_ratio(const Bond<double>& bond, const BondStress& stress)
   return std::max(stress.tension / bond.tensile_strength, in_shear);
 }
 
-/// Where a path whose stress grows from zero meets the surface.
+/// Point at which a path whose stress grows from zero meets the surface of strength.
 struct PathToBreak
 {
   double factor; ///< of the rate; infinite where it never does
@@ -75,7 +76,8 @@ inline PathToBreak path_to_break(const Bond<double>& bond, const BondStress& rat
   return path;
 }
 
-/// Not smaller than the inverse of the factor of any path whose stress has components of no more than these sizes.
+/// Upper bound of the overload: the inverse of the factor of no path is larger if its stress components do not exceed
+/// these sizes.
 inline double largest_overload(const Bond<double>& bond, const BondStress& sizes)
 {
   return std::max(sizes.tension / bond.tensile_strength, cohesion_needed(bond, sizes) / bond.cohesion);

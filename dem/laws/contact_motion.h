@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-/// How the contact plane of two grains moves over a step; docs/theory.md §1.2. Real is double or a pack of doubles.
+/// Motion of the contact plane of two grains over a step; docs/theory.md §1.2. Real is double or a pack of doubles.
 namespace feldspar
 {
 /// The exact angle from one unit vector to another, given sine and cosine [rad].
@@ -54,7 +54,7 @@ struct ContactFrame
   Real distance;
 };
 
-/// In space one tangent t_1 is carried along; t_2 = n × t_1.
+/// Frame in space: one tangent t_1 is carried along; t_2 = n × t_1.
 template <typename Real>
 struct ContactFrame<3, Real>
 {
@@ -250,7 +250,8 @@ ContactMotion<3, Real> contact_motion(const ContactFrame<3, Real>& before, const
   for (int c = 0; c < 3; ++c)
     t[c] = (t[c] - along * n[c]) * lengthen;
 
-  // Along the mean of the old axes and the new, so that forces before and after do the work they store.
+  // Rotations are taken along the mean of the old axes and the new, so that forces before and after do the work they
+  // store.
   const auto mean = [&](const Triple<Real>& old_axis, const Triple<Real>& new_axis) {
     Real sum(0.0);
     for (int c = 0; c < 3; ++c)

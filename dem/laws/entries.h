@@ -13,7 +13,7 @@ template <typename P>
 std::vector<Entry<P>> and_installation(std::vector<Entry<P>> entries, const EntryFlags& of_rock,
                                        const EntryFlags& basic)
 {
-  // Over a gap of a mean radius lie other grains.
+  // Other grains lie over a gap of a mean radius.
   for (
     const Entry<P>& entry :
     {entry::optional_number<P>("Installation gap ratio", &P::installation_gap_ratio, ranges::fraction,

@@ -19,7 +19,7 @@ struct Face
   double friction;       ///< μ [-]
 };
 
-/// How a face moves over a step.
+/// Motion of a face over a step.
 template <int dim, typename Real>
 struct FaceMotion
 {
@@ -88,7 +88,7 @@ struct FaceSprings
   double twist;   ///< [N m]; 0 in the plane
 };
 
-/// Those of k_n and k_s per area.
+/// Springs of a face with the stiffnesses k_n and k_s per area.
 template <int dim>
 FaceSprings face_springs(const Face<double>& face)
 {

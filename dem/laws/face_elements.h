@@ -54,7 +54,7 @@ Real face_polar_moment(const Real& half_length)
     return 2.0 * face_second_moment<dim>(half_length, 1.0);
 }
 
-/// Normal stiffness of two grains that touch without a face, that of a face as wide as the smaller grain [N/m].
+/// Normal stiffness of two grains in contact without a face, that of a face as wide as the smaller grain [N/m].
 template <int dim>
 double touch_stiffness(const double modulus, const double radius_1, const double radius_2, const double thickness)
 {
@@ -131,7 +131,7 @@ WholeFace<dim> whole_face(const std::vector<FaceElement<dim>>& elements)
   return whole;
 }
 
-/// How a face is divided: {N}, or {N_r, N_α}.
+/// Division of a face into elements: {N} in the plane, {N_r, N_α} in space.
 template <int dim>
 using FaceDivision = std::array<unsigned int, dim - 1>;
 

@@ -88,7 +88,7 @@ FaceResultants<dim, Real> update_face_by(UpdateSegment&& update_segment, const F
   return sum;
 }
 
-/// By the law of flat_joint_law.h.
+/// Updates a face by the law of flat_joint_law.h and returns its resultants.
 template <int dim, typename Real, typename Segments>
 FaceResultants<dim, Real> update_face(const Face<Real>& face, const std::vector<FaceElement<dim>>& elements,
                                       const FaceMotion<dim, Real>& motion, Segments&& segments)
@@ -151,7 +151,8 @@ FaceResultants<3, Real> whole_face_response(const Face<Real>& face, const WholeF
           Real(0.0)};
 }
 
-/// By how much the gap at the centroid of a segment can differ from that in the middle, at most [m].
+/// Upper bound of the difference between the gap at the centroid of a segment and the gap in the middle of the face
+/// [m].
 template <typename Real>
 Real largest_rise(const Face<Real>& face, const WholeFace<2>& whole, const std::array<Real, 1>& rotation)
 {
@@ -165,7 +166,7 @@ Real largest_rise(const Face<Real>& face, const WholeFace<3>& whole, const std::
                              flat_joint::absolute(rotation[2]) * whole.farthest_offset[0]);
 }
 
-/// Not below the square of the shear of any segment [m²].
+/// Upper bound of the square of the shear displacement of any segment [m²].
 template <typename Real>
 Real farthest_slip_squared(const Face<Real>& /*face*/, const WholeFace<2>& /*whole*/,
                            const std::array<Real, 1>& /*rotation*/, const std::array<Real, 1>& slip)
@@ -183,8 +184,8 @@ Real farthest_slip_squared(const Face<Real>& face, const WholeFace<3>& whole, co
   return along_1 * along_1 + along_2 * along_2;
 }
 
-/// As a joint law (joint_law.h). All that it is told of a face is common to the faces of every law, so that it has no
-/// numbers of its own.
+/// The flat joint as a joint law (joint_law.h). All that the law needs of a face is common to the faces of every law,
+/// so that it has no numbers of its own.
 template <int dim>
 struct FlatJoint : CarriedPlane<dim>
 {
@@ -226,7 +227,8 @@ struct FlatJoint : CarriedPlane<dim>
     return update_face<dim, Real>(face, elements, motion, std::forward<Elements>(states));
   }
 
-  /// Whether no bond of a face breaks whose weakest bonds, each the least of its kind, these are: sufficient, and cheap.
+  /// Returns whether certainly no bond of a face breaks; `least` holds the least strength of each kind. The test is
+  /// sufficient and cheap.
   template <typename Real>
   static auto surely_holds(const Face<Real>& face, const WholeFace<dim>& whole, const Bond<Real>& least,
                            const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
@@ -239,8 +241,8 @@ struct FlatJoint : CarriedPlane<dim>
            k_s * k_s * farthest_slip_squared(face, whole, rotation, slip) <= strength * strength;
   }
 
-  /// Whether no segment of a face without bonds would be closed: in the plane anywhere, in space at its centroid. Sufficient, by
-  /// a margin for round-off, and cheap.
+  /// Returns whether certainly no segment of a face without bonds is closed: in the plane at any of its points, in
+  /// space at its centroid. The test is sufficient, by a margin for round-off, and cheap.
   template <typename Real>
   static auto surely_open(const Face<Real>& face, const WholeFace<dim>& whole, const Real& opening,
                           const std::array<Real, n_rotations<dim>>& rotation)

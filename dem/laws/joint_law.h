@@ -19,7 +19,7 @@
 ///   2. One header here: a struct that fulfils the concept JointLaw below, member by member as FlatJoint (flat_joint.h)
 ///      does. An element is a part of a face with a bond of its own; a face that breaks as a whole is divided into one,
 ///      {1} in the plane and {1, 1} in space.
-///   3. Its name in the list of joint_laws.h and in the choices of `Specimen/Joint law`.
+///   3. Its name in the list of joint_laws.h, from which the entries of a specimen take its choices.
 ///   4. Tests as those of the flat joint: closed forms of one face, then tests/unit/joint_law_test.cc as a pattern.
 /// Storage, genesis, the sweep by packs, energies, loss of faces, checkpoints and specimen files are written over the
 /// concept and made for every law of the list; so are stiffness and overload of intact faces in the network. How a face
@@ -46,14 +46,6 @@ struct ElementsOfOneFace
   void set(unsigned int element, const Update& update);
 };
 
-/// The section of the input that holds a law's entries: the name of the law with a capital letter.
-inline std::string section_of(const std::string_view law_name)
-{
-  std::string section(law_name);
-  section.front() = char(section.front() - 'a' + 'A');
-  return section;
-}
-
 /// The state of an element, to which the law may add `std::array<Real, n_more> more`.
 template <typename State, int dim, typename Real>
 concept ElementState = requires(State state)
@@ -66,7 +58,8 @@ concept ElementState = requires(State state)
     } -> std::convertible_to<decltype(Real() < Real())>;
 };
 
-/// How a joint's plane follows its grains, and how its forces reach them; CarriedPlane of contact_motion.h is one.
+/// Functions by which a joint's plane follows its grains and its forces reach them; CarriedPlane of contact_motion.h is
+/// one.
 template <typename Law, int dim, typename Real>
 concept MovesWithItsGrains = requires(const ContactFrame<dim, Real> frame, const std::array<Real, dim> centre,
                                       const Real length, const std::array<Real, dim - 1> shear_force,
@@ -92,21 +85,22 @@ concept UpdatesFaces = ElementState<typename Law::template State<Real>, dim, Rea
     } -> std::same_as<FaceResultants<dim, Real>>;
 };
 
-/// A law may know the response of a face whose elements are all bonded, and remember nothing else, from its motion since
-/// installation. Such a law also knows when a face without bonds is open and bears nothing. The sweep then looks at elements one
-/// by one only where a bond may break or a broken face may press, and the shear stress of bonded faces need not be stored.
+/// A law may know the response of a face whose elements are all bonded, and store nothing else, from its motion since
+/// installation. Such a law also knows when a face without bonds is open and carries nothing. The sweep then computes
+/// elements one by one only where a bond may break or a broken face may press, and the shear stress of bonded faces
+/// need not be stored.
 template <typename Law, int dim, typename Real>
 concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> whole, const Bond<Real> least,
                                  const FaceElement<dim> element, const Real opening,
                                  const std::array<Real, n_rotations<dim>> rotation,
                                  const std::array<Real, dim - 1> slip, const typename Law::template State<Real> state)
 {
-  // Whether it is certain that no bond breaks; the bond has the least strengths of the face.
+  // True if certainly no bond breaks; the bond has the least strengths of the face.
   {
     Law::surely_holds(face, whole, least, opening, rotation, slip)
     } -> std::same_as<decltype(Real() < Real())>;
-  // Whether it is certain that a face without bonds is open. If it was so before and had no shear stress, it bears nothing and
-  // its elements stay as they are.
+  // True if a face without bonds is certainly open. If it was open before and had no shear stress, it carries nothing
+  // and its elements stay as they are.
   {
     Law::surely_open(face, whole, opening, rotation)
     } -> std::same_as<decltype(Real() < Real())>;
@@ -116,7 +110,7 @@ concept RespondsAsOne = requires(const Face<Real> face, const WholeFace<dim> who
   {
     Law::whole_state(face, element, rotation, slip)
     } -> std::same_as<typename Law::template State<Real>>;
-  // Whether a bonded element remembers more than whole_state() tells: its face no longer responds as one.
+  // True if a bonded element has stored more than whole_state() tells: its face no longer responds as one.
   {
     Law::remembers(state)
     } -> std::same_as<decltype(Real() < Real())>;
@@ -141,7 +135,7 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
            typename Law::template State<double> (*state_of)(unsigned int), const ElementRows<dim> rows,
            const Motion<dim> motion)
 {
-  // The choice of `Specimen/Joint law`.
+  // The name, by which the input chooses it.
   {
     Law::name
     } -> std::convertible_to<std::string_view>;
@@ -149,11 +143,11 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
   {
     Law::n_more
     } -> std::convertible_to<std::size_t>;
-  // Whether a face without a bond is a face still; else its grains touch without one.
+  // True if a face persists when it has lost its last bond; otherwise its grains are then in contact without a face.
   {
     Law::face_outlives_bonds
     } -> std::convertible_to<bool>;
-  // Whether such a face is gone once its sides have slid past each other; else only once they are far apart.
+  // True if such a face is removed once its sides have slid past each other; otherwise only once they are far apart.
   {
     Law::face_can_slide_off
     } -> std::convertible_to<bool>;
@@ -175,21 +169,22 @@ concept JointLaw = std::copyable<Law> && std::default_initializable<Law> && Upda
     law.stored_energy(face, elements, 0.0, rotation, state_of)
     } -> std::same_as<double>;
 
-  // For the time step: no state of the face is stiffer.
+  // Springs for the time step: no state of the face is stiffer.
   {
     law.stiffest(face)
     } -> std::same_as<FaceSprings>;
 
-  // In small strains: whether a face responds linearly as long as all its bonds hold and none remembers anything, with the
-  // stiffness below, and none of its elements has a shear stress to remember.
+  // In small strains: whether a face responds linearly as long as all its bonds hold and none has stored anything, with
+  // the stiffness below, and none of its elements has a shear stress to store.
   {
     Law::linear_while_bonded
     } -> std::convertible_to<bool>;
-  // Whether representative volumes find equilibria of its faces event by event: coupling/network has its face_response().
+  // True if representative volumes find equilibria of its faces event by event: coupling/network has its
+  // face_response().
   {
     Law::has_equilibria
     } -> std::convertible_to<bool>;
-  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond bears.
+  // In small strains: share of a bonded element in the stiffness of its face, and the stress its bond carries.
   {
     law.bonded_stiffness(face, elements.front(), rows)
     } -> std::same_as<JointStiffness<dim>>;

@@ -27,7 +27,7 @@ struct JointLawList
 
   static std::vector<std::string_view> names() { return {Laws<2>::name...}; }
 
-  /// Whether representative volumes find equilibria of the law of this name event by event.
+  /// Returns whether representative volumes find equilibria of the law of this name event by event.
   static bool has_equilibria(const std::string_view name)
   {
     return ((Laws<2>::name == name && Laws<2>::has_equilibria) || ...);

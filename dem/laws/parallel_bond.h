@@ -13,7 +13,7 @@
 #include <vector>
 
 /// The linear parallel bond (Potyondy and Cundall 2004): beside a linear contact with friction a beam of cement that
-/// bears tension, shear, bending and twist, and breaks as a whole; docs/theory.md §1.8. Signs as of the flat joint.
+/// carries tension, shear, bending and twist, and breaks as a whole; docs/theory.md §1.8. Signs as of the flat joint.
 namespace feldspar
 {
 namespace parallel_bond
@@ -26,7 +26,7 @@ struct State
   std::array<Real, dim - 1> more; ///< shear force of the linear contact [N]
 };
 
-/// Whether and how a bond breaks in a step.
+/// Verdict on a bond in a step: whether it breaks, and in tension or in shear.
 template <typename Real>
 struct Verdict
 {
@@ -78,10 +78,11 @@ Real twist(const std::array<Real, 3>& rotation)
 }
 } // namespace parallel_bond
 
-/// As a joint law (joint_law.h): one element, the bond. Its normal force and its moments follow from opening and rotation
-/// since rest, which with constant stiffness are the sums of their increments. The linear contact presses from the
-/// distance at installation, keeps its shear force and slides with friction whether the bond holds or not: a break takes
-/// away the force and the moments of the bond and leaves the contact as it was, until the grains are far apart.
+/// The parallel bond as a joint law (joint_law.h) with one element, the bond. Its normal force and its moments follow
+/// from opening and rotation since rest, which with constant stiffness are the sums of their increments. The linear
+/// contact presses from the distance at installation, keeps its shear force and slides with friction whether the bond
+/// holds or not. A break removes the force and the moments of the bond and leaves the contact as it was, until the
+/// grains are far apart.
 template <int dim>
 struct ParallelBond : CarriedPlane<dim>
 {
@@ -92,7 +93,7 @@ struct ParallelBond : CarriedPlane<dim>
   /// The contact beside the bond presses and slides, and does not pull.
   static constexpr bool linear_while_bonded = false;
   static constexpr bool has_equilibria = true;
-  /// Grains whose bond has broken roll and slide about each other as long as they touch.
+  /// Grains whose bond has broken roll and slide about each other as long as they are in contact.
   static constexpr bool face_can_slide_off = false;
 
   template <typename Real>
@@ -293,8 +294,8 @@ private:
     result.tension_break = old.bonded && tension > bond.tensile_strength;
     result.shear_break = old.bonded && !result.tension_break && shear > shear_strength(bond, normal_stress);
     result.released_energy = Real(0.0);
-    // By the trapezoid of its work, whose force at the end of the step is gone: what the bond stored at its beginning, and
-    // half of what its old force did in it.
+    // Energy by the trapezoidal rule for the work of the bond, whose force vanishes at the end of the step: the energy
+    // stored at the beginning, and half of the work of its old force in the step.
     if (const auto broke = result.tension_break || result.shear_break; simd::any(broke))
       result.released_energy =
         simd::select(broke,

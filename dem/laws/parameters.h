@@ -32,7 +32,7 @@ struct FlatJointParameters
   std::optional<double> installation_gap_ratio = 0.05; ///< largest gap that gets a joint, over the mean radius
   std::optional<double> coordination_number;           ///< z = 2 joints/grains; instead of the gap, which follows
   double gapped_fraction = 0.0;                        ///< share of joints without bonds and with an initial gap
-  double slit_fraction = 0.0;                          ///< share of joints without bonds whose faces touch
+  double slit_fraction = 0.0;                          ///< share of joints without bonds whose faces are in contact
   double initial_gap = 0.0;                            ///< g_0 of the gapped joints [m]
 };
 
@@ -73,7 +73,7 @@ struct SmoothJointParameters
   std::optional<double> friction_angle; ///< φ of the bond; none: that of the friction [rad]
 };
 
-/// Pairs that touch without a face, grains at walls, and the contact beside a parallel bond.
+/// Pairs in contact without a face, grains at walls, and the contact beside a parallel bond.
 struct ParticleContactParameters
 {
   double modulus = 80e9; ///< E_c [Pa]

@@ -20,7 +20,7 @@ struct SpringOnPlate
 inline double balanced_tilt(const std::span<const SpringOnPlate> springs, const double before,
                             const int most_trials = 100)
 {
-  // With more tilt contacts beyond the pivot let go, and those before it come to press: the moment falls, linearly from
+  // With more tilt, contacts beyond the pivot open, and those before it come to press: the moment falls, linearly from
   // one such change to the next.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double all_beyond_off = -infinity;

@@ -7,8 +7,9 @@
 #include <cmath>
 
 /// The smooth joint: two grains that meet at a plane whose normal is fixed, whatever the direction between their centres.
-/// Per area of the plane it has a normal and a shear stiffness, bears tension and cohesion while it is bonded, then slides
-/// by Coulomb's law and opens by dilation; it bears no moment. docs/theory.md §1.9. Signs as of the flat joint.
+/// Per area of the plane it has a normal and a shear stiffness, carries tension and cohesion while it is bonded, then
+/// slides by Coulomb's law and opens by dilation; it carries no moment. docs/theory.md §1.9. Signs as of the flat
+/// joint.
 namespace feldspar::smooth_joint
 {
 /// The constants of a joint.
@@ -51,7 +52,7 @@ struct Update
   double slip_energy;     ///< dissipated by friction in this step [J/m²]
 };
 
-/// Its sides press, or the bond holds them.
+/// Returns whether the joint carries forces: its sides press, or its bond holds them.
 template <int dim>
 bool acts(const State<dim>& state)
 {
@@ -119,8 +120,8 @@ Update<dim> update(const Face& face, const State<dim>& old, const double opening
     component *= kept;
   state.gap -= dilation_slope * sliding;
 
-  // By the trapezoid of forces over ways: what the step put in and the joint does not store. Dilation lifts the pressure,
-  // so that friction is left with the rest of the work.
+  // Friction work by the trapezoidal rule of forces over displacements: the work of the step less the energy that the
+  // joint stores. Dilation raises the pressure, so that friction takes the rest of the work.
   std::array<double, dim - 1> mean, unfollowed;
   for (int c = 0; c < dim - 1; ++c)
     {

@@ -63,7 +63,7 @@ struct SofteningFlatJoint : CarriedPlane<dim>
       face, elements, motion, states);
   }
 
-  /// As long as no segment has softened: the flat joint.
+  /// Test of the flat joint, valid as long as no segment has softened.
   template <typename Real>
   static auto surely_holds(const Face<Real>& face, const WholeFace<dim>& whole, const Bond<Real>& least,
                            const Real& opening, const std::array<Real, n_rotations<dim>>& rotation,
@@ -121,7 +121,7 @@ struct SofteningFlatJoint : CarriedPlane<dim>
 
   static FaceSprings stiffest(const Face<double>& face) { return FlatJoint<dim>::stiffest(face); }
 
-  /// As long as no segment has softened.
+  /// Stiffness of the flat joint, valid as long as no segment has softened.
   JointStiffness<dim> bonded_stiffness(const Face<double>& face, const FaceElement<dim>& element,
                                        const ElementRows<dim>& rows) const
   {

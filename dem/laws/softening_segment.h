@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
-/// A segment of a flat joint whose bond does not lose its stress at once: beyond its strength it falls along a straight line
-/// over the softening opening, in tension and in shear. What remains of the bond is one number between both, so that what
-/// one takes is lost to the other. Without a bond the segment is that of the flat joint. docs/theory.md §1.10, (s.n) below;
-/// signs and notation as in flat_joint_law.h.
+/// A segment of a flat joint whose bond does not lose its stress at once: beyond its strength the stress falls along a
+/// straight line over the softening opening, in tension and in shear. One number says for both how much of the bond
+/// remains, so that softening in one weakens the other. Without a bond the segment is that of the flat joint.
+/// docs/theory.md §1.10, (s.n) below; signs and notation as in flat_joint_law.h.
 namespace feldspar::softening
 {
 using simd::larger;
@@ -53,7 +53,7 @@ public:
   {
   }
 
-  /// d of a bond that has borne this stress as if it were elastic; below 0 of one that has not come to its strength.
+  /// d of a bond that has carried this stress as if it were elastic; below 0 of one that has not come to its strength.
   Real at(const Real& elastic_stress) const { return smaller(Real(1.0), (elastic_stress - strength) / fall); }
 
   /// D of d: (s.2).
@@ -66,7 +66,7 @@ private:
   Real fall;     ///< k_n w [Pa]
 };
 
-/// Between the response with the bond and that without: (s.3).
+/// Value between the response with the bond and that without: (s.3).
 template <typename Real>
 Real between(const Real& damage, const Real& bonded, const Real& unbonded)
 {
@@ -94,14 +94,14 @@ Real energy_of_bond(const flat_joint::Segment<dim, Real>& segment, const Real& g
          flat_joint::normal_energy(segment, gap, slope, Mask(false));
 }
 
-/// How far a bond would soften to follow its segment.
+/// Softening by which a bond would follow its segment.
 template <typename Real>
 struct Demand
 {
   Real before; ///< d so far
   Real pulled; ///< d that the opening asks for (s.1), at least `before`
   Real now;    ///< d that the shear asks for beyond that (s.5)
-  // What the segment bears in shear: (s.4).
+  // Parts of the shear stress that the segment carries: (s.4).
   Real residual; ///< τ_r of friction [Pa]
   Real of_bond;  ///< τ_c - τ_r [Pa]
   Real size;     ///< |τ| as if the bond did not soften [Pa]

@@ -1,6 +1,6 @@
 #include "dem/rock/rock.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/flaws/apply.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
@@ -22,8 +22,8 @@ Specimen<dim> read_finished_specimen(const SpecimenParameters& wanted, const std
   auto specimen = read_specimen<dim>(wanted.specimen_file, check);
   const auto law = std::visit([](const auto& known) { return known.name; }, specimen.joints.law);
   if (law != wanted.joint_law)
-    throw InputError(fmt::format("Specimen/Joint law = {}: the joints of {} are of the law {}", wanted.joint_law,
-                                 wanted.specimen_file, law));
+    throw ParameterError(parameter_id<&SpecimenParameters::joint_law>(), wanted.joint_law,
+                         fmt::format("the joints of {} are of the law {}", wanted.specimen_file, law));
   return specimen;
 }
 } // namespace

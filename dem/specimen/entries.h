@@ -20,16 +20,27 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
   const EntryFlags of_body{.of_specimen = true}; // one for all variants
   const EntryFlags basic_of_rock{.varies = true, .of_specimen = true, .basic = true};
   const EntryFlags basic_of_body{.of_specimen = true, .basic = true};
+  constexpr std::string_view cells_need = "needs Coring = free sides or sides only, and Dimension = 2";
+  const EntryFlags of_cells{.varies = true,
+                            .of_specimen = true,
+                            .demands = {{"", "Specimen/Coring", {"free sides", "sides only"}, cells_need},
+                                        {"", "Specimen/Dimension", {"2"}, cells_need}}};
+  EntryFlags of_cells_along = of_cells;
+  of_cells_along.demands.push_back(
+    {"", "Specimen/Coring", {"free sides"}, "needs Coring = free sides; sides only has walls at the ends of a cell"});
   std::vector<std::pair<std::string_view, std::string>> laws;
   for (const std::string_view name : JointLaws::names())
     laws.emplace_back(name, name);
   return {
     entry::choice("Dimension", &P::dimension, {{"2", 2}, {"3", 3}},
                   "2: discs in the plane, one metre thick; 3: spheres", basic_of_body),
-    entry::choice("Shape", &P::shape, {{"box", "box"}, {"cylinder", "cylinder"}, {"periodic", "periodic"}},
+    entry::choice("Shape", &P::shape,
+                  {{"box", BodyShape::box}, {"cylinder", BodyShape::cylinder}, {"periodic", BodyShape::periodic}},
                   "box or, in three dimensions, upright cylinder with the width as diameter: between walls, "
                   "for laboratory tests; periodic: a cell that repeats itself, for `feldspar rve`",
-                  basic_of_body),
+                  {.of_specimen = true,
+                   .basic = true,
+                   .demands = {{"cylinder", "Specimen/Dimension", {"3"}, "needs Dimension = 3"}}}),
     entry::quantity(
       "Width", &P::width, Measure::length, "mm", ranges::above_zero,
       "of the box or cell, across the axis of the tests, and in space its depth too; at least four radii of the "
@@ -45,7 +56,7 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
     entry::number("Porosity", &P::porosity, {'(', 0.0, 1.0, ')'},
                   "of the finished packing; with the radii it gives the number of grains; in three dimensions "
                   "0.36 unless it is given",
-                  basic_of_rock),
+                  {.varies = true, .of_specimen = true, .basic = true, .in_space = "0.36"}),
     entry::quantity("Density", &P::bulk_density, Measure::density, "kg/m^3", ranges::above_zero,
                     "of the rock as a body; a grain's is this over (1 - Porosity)", of_rock),
     entry::number("Packing stress ratio", &P::packing_stress_ratio, {'(', 0.0, 0.1, ']'},
@@ -64,19 +75,28 @@ inline std::vector<Entry<SpecimenParameters>> specimen_entries()
       "periodic cell, joined everywhere and then cut free, at the sides and where the platens touch; sides only: packed "
       "between walls at the ends and periodic sideways, joined everywhere and cut free at the sides, so that the platens "
       "touch the ends of a walled specimen. Coordination number is then that of the rock before it is cut",
-      of_rock),
+      {.varies = true,
+       .of_specimen = true,
+       .demands =
+         {{"",
+           "Specimen/Shape",
+           {"box", "cylinder"},
+           "a periodic cell has no sides to be cut free; set Shape = box or cylinder"},
+          {"", "Specimen/Packing file", {}, "excludes Packing file, whose grains are not packed as a periodic cell"}}}),
     entry::integer("Cells across", &P::cells_across, {'[', 1.0, 1000.0, ']'},
                    "of a cored specimen in the plane: it is put together from so many equal cells, each with the same "
                    "grains, joints and strengths as a representative volume of that size and seed",
-                   of_rock),
+                   of_cells),
     entry::integer("Cells along", &P::cells_along, {'[', 1.0, 1000.0, ']'}, "the same along the axis of the tests",
-                   of_rock),
+                   of_cells_along),
     entry::file("Packing file", &P::packing_file,
                 "grains packed elsewhere, a line `x y radius` in metres each; none makes a packing", of_body),
-    entry::file("Specimen file", &P::specimen_file,
-                "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "
-                "of `feldspar multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
-                of_body),
+    entry::file(
+      "Specimen file", &P::specimen_file,
+      "a finished specimen.h5 to be tested, or, for `feldspar rve`, a representative volume "
+      "of `feldspar multiscale --extract`, whose path begins in the state it is in; none makes a specimen",
+      {.of_specimen = true,
+       .demands = {{"", "Specimen/Packing file", {}, "excludes Packing file, which is given too; keep one of them"}}}),
     entry::choice(
       "Joint law", &P::joint_law, laws,
       "between grains that meet; its parameters are in the section of its name. Clumps and the mineral grains of a "

@@ -18,7 +18,7 @@ enum class Faces
 template <int dim>
 DisjointSets connected_grains(const Specimen<dim>& specimen, Faces faces);
 
-/// The number of the fragment each grain belongs to; [n_grains]. Grains hang together by joints with at least one
+/// The number of the fragment each grain belongs to; [n_grains]. Grains are connected by joints with at least one
 /// bonded segment; the largest fragment is 0, equal ones are ordered by their first grain.
 template <int dim>
 std::vector<std::uint32_t> fragments(const Joints<dim>& joints, std::size_t n_grains);

@@ -11,7 +11,7 @@ namespace feldspar
 {
 namespace
 {
-/// Cells no smaller than the reach of the search, so that partners lie in touching cells.
+/// Cells no smaller than the reach of the search, so that partners lie in adjacent cells.
 template <int dim>
 struct CellGrid
 {

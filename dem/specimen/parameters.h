@@ -1,12 +1,14 @@
 #pragma once
 
+#include "base/body.h"
+
 #include <string>
 
 /// Parameters of a specimen, in SI units and radians, tension positive. Default-constructed values are the defaults of the
 /// input in the plane; in space an input without a porosity means 0.36.
 namespace feldspar
 {
-/// Whether a specimen is cut out of a body that repeats itself; docs/theory.md §3.
+/// Choice whether a specimen is cut out of a periodic body; docs/theory.md §3.
 enum class Coring
 {
   none,       ///< packed between walls
@@ -14,14 +16,14 @@ enum class Coring
   sides_only  ///< packed between the walls of its ends and periodic sideways, then cut at the sides
 };
 
-/// Without an entry, in three dimensions.
+/// Default porosity in three dimensions.
 inline constexpr double porosity_in_space = 0.36;
 
 /// The body of grains to be made (or read).
 struct SpecimenParameters
 {
   unsigned int dimension = 2;
-  std::string shape = "box";
+  BodyShape shape = BodyShape::box;
   double width = 0.050;           ///< [m]
   double height = 0.100;          ///< along the axis of the test [m]
   double minimum_radius = 6.2e-4; ///< [m]
@@ -38,5 +40,11 @@ struct SpecimenParameters
   std::string specimen_file;     ///< a finished specimen.h5; empty: make one
 
   bool is_cored() const { return coring != Coring::none; }
+
+  /// Shape of the cell that a cored specimen is cut from; of any other specimen its own.
+  BodyShape shape_when_packed() const
+  {
+    return !is_cored() ? shape : coring == Coring::sides_only ? BodyShape::periodic_sideways : BodyShape::periodic;
+  }
 };
 } // namespace feldspar

@@ -13,7 +13,7 @@ std::vector<PeriodicImage<dim>> images_within(const Grains<dim>& grains, const T
   std::vector<PeriodicImage<dim>> images;
   if (grains.size() == 0)
     return images;
-  // In units of the cell's edges, where the box is a cube; a sphere of radius 1 is so wide there.
+  // Lengths are in units of the cell's edges, where the box is a cube; a sphere of radius 1 is so wide there.
   const Tensor<dim> to_cell = cell.inverse();
   const Vector<dim> width = to_cell.rowwise().norm();
   std::vector<Vector<dim>> place;

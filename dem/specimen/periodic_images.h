@@ -24,7 +24,7 @@ struct PeriodicImage
   }
 };
 
-/// Where an image lies away from its owner [m]; the columns of `cell` are the edges of the box.
+/// Displacement of an image from its owner [m]; the columns of `cell` are the edges of the box.
 template <int dim>
 Vector<dim> shift(const PeriodicImage<dim>& image, const Tensor<dim>& cell)
 {
@@ -43,8 +43,8 @@ template <int dim>
 Grains<dim> with_images(const Grains<dim>& grains, const std::vector<PeriodicImage<dim>>& images,
                         const Tensor<dim>& cell);
 
-/// Whether a contact of these two is the one of its kind that counts: the same pair shows once for each of both grains.
-/// owner_1, a grain of the box itself, touches owner_2 displaced by so many boxes.
+/// Returns whether this contact is the one of its kind that counts: the same pair occurs once for each of its two
+/// grains. `owner_1`, a grain of the box itself, is in contact with owner_2 displaced by so many boxes.
 template <int dim>
 bool counts(const std::uint32_t owner_1, const PeriodicImage<dim>& second)
 {

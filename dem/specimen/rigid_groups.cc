@@ -125,7 +125,7 @@ void RigidGroups<dim>::carry_members(Grains<dim>& grains, const double dt)
     for_each_block(size(), [&](std::size_t, const std::size_t begin, const std::size_t end) {
       for (std::size_t g = begin; g < end; ++g)
         {
-          // By the whole angle, so that the shape of a group is that of its first step for good.
+          // Positions follow from the whole angle, so that a group keeps the shape of its first step for good.
           angle[g] += dt * bodies.spin[0][g];
           const double cosine = std::cos(angle[g]);
           const double sine = std::sin(angle[g]);

@@ -8,7 +8,7 @@
 /// Grains that move as one rigid body: the groups of a specimen of clumps, in the plane; docs/theory.md §2.6.
 namespace feldspar
 {
-/// Where the body stands that each grain is a part of: the centre of its group, or its own.
+/// Position of the body that each grain is a part of: the centre of its group, or its own centre.
 template <int dim>
 class BodyCentres
 {
@@ -46,7 +46,7 @@ public:
   /// The group that a grain is a part of.
   std::uint32_t body_of(const std::uint32_t grain) const { return of[grain]; }
 
-  /// They move as grains do: mass, motion, forces. Their radii are those of discs of their volumes.
+  /// Bodies move as grains do: mass, motion, forces. Their radii are those of discs of their volumes.
   Grains<dim> bodies;
 
   /// An impulse m Δv at the centre of a member [m/s]: pushes its group and turns it.

@@ -1,14 +1,15 @@
 #pragma once
 
+#include "base/body.h"
 #include "dem/laws/parameters.h"
 #include "dem/specimen/flaw.h"
 #include "dem/specimen/neighbours.h"
 #include "dem/specimen/parameters.h"
 #include "dem/specimen/periodic_images.h"
-#include "dem/specimen/specimen_report.h"
 #include "dem/storage/grains.h"
 #include "dem/storage/joints.h"
 #include "dem/storage/smooth_joints.h"
+#include "laboratory/specimen_report.h"
 
 #include <cmath>
 #include <cstdint>
@@ -22,30 +23,35 @@ template <int dim>
 struct Specimen
 {
   Vector<dim> size = Vector<dim>::Zero(); ///< width, (depth,) height [m]; the last axis is that of the tests
-  bool periodic = false;                  ///< repeats itself over the box; a joint may lead to an image of grain 2
-  bool walled_ends = false;               ///< of a periodic body while it is packed: along the last axis it does not
-  bool round = false;                     ///< a cylinder about the last axis, in space; the box is around it
-  double thickness = 1.0;                 ///< of the plane [m]
-  double bulk_density = 0.0;              ///< [kg/m³]
+  BodyShape shape =
+    BodyShape::box;          ///< of a cylinder the box is around it; in a periodic body a joint may lead to an image
+  double thickness = 1.0;    ///< of the plane [m]
+  double bulk_density = 0.0; ///< [kg/m³]
   std::uint64_t seed = 0;
   ParticleContactParameters particle_contact;
   Grains<dim> grains;
   Joints<dim> joints;
   std::vector<SmoothJoint<dim>> smooth_joints; ///< by their grains; where one stands no joint of the law does
-  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, they never touch
+  std::vector<GrainPair> kept_apart;           ///< ascending; on either side of a smooth plane, never in contact
   std::vector<std::uint32_t> groups;           ///< the mineral grain or clump that each grain is a part of; or empty
   bool groups_are_rigid = false;               ///< they are clumps: each moves as one body; numbered without gaps
   SpecimenReport report;
   std::vector<Flaw<dim>> flaws; ///< that have been put in
 
-  /// Along an axis; where it does not, the body has ends.
-  bool repeats(const int axis) const { return periodic && !(walled_ends && axis == dim - 1); }
+  /// Returns whether the specimen repeats itself along an axis; where it does not, the body has ends.
+  bool repeats(const int axis) const
+  {
+    return shape == BodyShape::periodic || (shape == BodyShape::periodic_sideways && axis < dim - 1);
+  }
+
+  bool is_periodic() const { return feldspar::is_periodic(shape); }
+  bool is_round() const { return shape == BodyShape::cylinder; }
 
   /// The edges of the cell as columns [m]: those of the box; along walled ends so long that no image comes near the body.
   Tensor<dim> cell() const
   {
     Tensor<dim> edges = size.asDiagonal();
-    if (walled_ends)
+    if (shape == BodyShape::periodic_sideways)
       edges(dim - 1, dim - 1) *= 4.0;
     return edges;
   }
@@ -55,7 +61,10 @@ struct Specimen
 
   std::size_t n_joints() const { return joints.size() + smooth_joints.size(); }
 
-  double volume() const { return size.prod() * (dim == 2 ? thickness : 1.0) * (round ? 0.25 * std::numbers::pi : 1.0); }
+  double volume() const
+  {
+    return size.prod() * (dim == 2 ? thickness : 1.0) * (is_round() ? 0.25 * std::numbers::pi : 1.0);
+  }
 
   /// Distance of a point from the axis of the tests through the middle [m].
   double distance_from_axis(const Vector<dim>& point) const
@@ -72,7 +81,7 @@ PeriodicImage<dim> Specimen<dim>::second_of(const std::size_t joint) const
   const Vector<dim> between =
     at<dim>(grains.position, joints.grain_2[joint]) - at<dim>(grains.position, joints.grain_1[joint]);
   PeriodicImage<dim> image{joints.grain_2[joint], {}};
-  if (periodic)
+  if (is_periodic())
     for (int c = 0; c < dim; ++c)
       image.boxes[c] = int(std::lround((branch[c] - between[c]) / size[c]));
   return image;

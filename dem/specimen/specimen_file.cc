@@ -1,8 +1,9 @@
 #include "dem/specimen/specimen_file.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "base/quoted.h"
+#include "base/system/hdf5_archive.h"
 
 #include <fmt/format.h>
 
@@ -93,7 +94,7 @@ void transfer_flaws(Archive& root, std::vector<Flaw<dim>>& flaws)
     }
 }
 
-/// As transfer_flaws(): nothing of a specimen without any.
+/// Transfers the smooth joints; like transfer_flaws(), it stores nothing of a specimen without any.
 template <int dim, typename Archive>
 void transfer_smooth_joints(Archive& root, Specimen<dim>& specimen)
 {
@@ -180,12 +181,11 @@ void transfer(Archive& root, Specimen<dim>& specimen)
   const auto component = [](const char* what, const int c) { return fmt::format("{}_{}_m", what, "xyz"[c]); };
   for (int c = 0; c < dim; ++c)
     root.value(component("size", c), specimen.size[c]);
-  std::uint32_t periodic = specimen.periodic;
+  std::uint32_t periodic = specimen.is_periodic();
   root.value("periodic", periodic);
-  specimen.periodic = periodic != 0;
-  std::uint32_t round = specimen.round;
+  std::uint32_t round = specimen.is_round();
   root.value("round", round);
-  specimen.round = round != 0;
+  specimen.shape = periodic != 0 ? BodyShape::periodic : round != 0 ? BodyShape::cylinder : BodyShape::box;
   root.value("thickness_m", specimen.thickness);
   root.value("bulk_density_kg_per_m3", specimen.bulk_density);
   root.value("seed", specimen.seed);
@@ -280,7 +280,7 @@ void require(const bool holds, const char* otherwise)
     throw InputError(otherwise);
 }
 
-/// In [low, high]; false for what is not a number.
+/// Returns whether a value lies in [low, high]; false for what is not a number.
 bool lies(const double value, const double low, const double high) { return value >= low && value <= high; }
 
 template <typename Values>
@@ -330,7 +330,7 @@ void check_joints(const Specimen<dim>& specimen)
     {
       require(joints.grain_1[j] < specimen.grains.size() && joints.grain_2[j] < specimen.grains.size() &&
                 (joints.grain_1[j] < joints.grain_2[j] ||
-                 (specimen.periodic && joints.grain_1[j] == joints.grain_2[j])), // its own image
+                 (specimen.is_periodic() && joints.grain_1[j] == joints.grain_2[j])), // its own image
               "a joint names a grain that is not there");
       require(joints.number[j] < n && !is_taken[joints.number[j]], "two joints have one number");
       is_taken[joints.number[j]] = true;
@@ -356,7 +356,7 @@ void check_clumps(const Specimen<dim>& specimen)
   const auto& group = specimen.groups;
   if (!specimen.groups_are_rigid)
     return;
-  require(dim == 2 && !specimen.periodic && specimen.smooth_joints.empty(), "it has clumps, which it cannot have");
+  require(dim == 2 && !specimen.is_periodic() && specimen.smooth_joints.empty(), "it has clumps, which it cannot have");
   std::vector<bool> has_members(group.size(), false);
   for (const auto g : group)
     {
@@ -459,7 +459,7 @@ Specimen<dim> read_specimen(const std::filesystem::path& file, const std::functi
     transfer(root, specimen);
     check(specimen);
   };
-  read_foreign_hdf5(file, "a specimen.h5 of `feldspar specimen`", read, check_now);
+  read_foreign_hdf5(file, "a specimen.h5 of " + in_words(Work::specimen), read, check_now);
 
   auto& grains = specimen.grains;
   const auto masses = grains.mass;

@@ -9,7 +9,7 @@ namespace feldspar
 {
 namespace
 {
-/// In the order in which they come; how many there are.
+/// Numbers groups in the order in which they come; returns how many there are.
 std::uint32_t number_without_gaps(std::vector<std::uint32_t>& groups)
 {
   std::map<std::uint32_t, std::uint32_t> number;

@@ -15,8 +15,8 @@ Specimen<dim> part_of(Specimen<dim> specimen, const std::vector<bool>& kept);
 template <int dim>
 Specimen<dim> shifted(Specimen<dim> specimen, const Vector<dim>& way, const Vector<dim>& size);
 
-/// In space, turned by a quarter about the first axis, so that the last axis runs across a cylinder and the second along
-/// it; in the plane as it is.
+/// Specimen turned in space by a quarter about the first axis, so that the last axis runs across a cylinder and the
+/// second along it; in the plane as it is.
 template <int dim>
 Specimen<dim> laid_on_side(Specimen<dim> specimen);
 

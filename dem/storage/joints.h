@@ -50,11 +50,11 @@ struct JointTables
   }
   ~JointTables() = default;
 
-  PackedRows state;         ///< what a joint is and remembers
+  PackedRows state;         ///< what a joint is and stores
   PackedTable<1> response;  ///< its force and couples, those of a joint together: grains gather them
-  PackedRows segment_state; ///< what its segments remember; all rows of a segment, then all of the next
+  PackedRows segment_state; ///< what its segments store; all rows of a segment, then all of the next
   PackedRows strength;      ///< of the segments' bonds
-  PackedRows more_state;    ///< what else the law has its segments remember; in the order of segment_state
+  PackedRows more_state;    ///< what else the law has its segments store; in the order of segment_state
 
   /// Numbers of the rows of `state`.
   struct Row
@@ -79,7 +79,7 @@ struct JointTables
   PackedRow half_radius_difference{state, Row::half_radius_difference}; ///< ½(R1 - R2) [m]
   PackedRow rest_distance{state, Row::rest_distance}; ///< centre distance at which the gap is zero [m]
 
-  /// From grain 1 to grain 2.
+  /// Normal from grain 1 to grain 2.
   PackedComponents<dim> normal = packed_components<dim>(state, Row::normal);
   /// t_1 in space, carried with the contact plane; t_2 = n × t_1.
   PackedComponents<n_tangents> tangent = packed_components<n_tangents>(state, Row::tangent);
@@ -93,7 +93,7 @@ struct JointTables
   static constexpr std::size_t n_segment_rows = n_shear + 1;
   static constexpr std::size_t n_strength_rows = 2;
 
-  /// τ of each segment [Pa]. Of a face whose segments are all bonded it is left as it was: its law may know it from the
+  /// τ of each segment [Pa]. It is not updated on a face whose segments are all bonded: its law may know it from the
   /// motion of the face (RespondsAsOne in dem/laws/joint_law.h).
   PackedComponents<n_shear> shear_stress = packed_components<n_shear>(segment_state, 0, n_segment_rows);
   PackedRow bonded{segment_state, n_shear, n_segment_rows}; ///< 1 bonded, 0 not (a double: it is a mask in the sweep)
@@ -105,11 +105,11 @@ struct JointTables
   static constexpr std::size_t first_couple_1 = dim;
   static constexpr std::size_t first_couple_2 = first_couple_1 + n_rotations<dim>;
 
-  /// On grain 2 [N].
+  /// Force on grain 2 [N].
   PackedComponents<dim, 1> force = packed_components<dim>(response, 0);
-  /// On grain 1 [N m].
+  /// Couple on grain 1 [N m].
   PackedComponents<n_rotations<dim>, 1> couple_1 = packed_components<n_rotations<dim>>(response, first_couple_1);
-  /// On grain 2 [N m].
+  /// Couple on grain 2 [N m].
   PackedComponents<n_rotations<dim>, 1> couple_2 = packed_components<n_rotations<dim>>(response, first_couple_2);
 };
 
@@ -137,7 +137,7 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
   std::size_t size() const { return grain_1.size(); }
   std::size_t segment(const unsigned int i, const std::size_t joint) const { return i * size() + joint; }
 
-  /// How the law divides every face, and how many numbers of its own a segment remembers.
+  /// Sets how the law divides every face, and how many numbers of its own are stored for a segment.
   void divide(const FaceDivision<dim>& into, const std::size_t numbers_of_the_law)
   {
     division = into;
@@ -176,7 +176,8 @@ struct Joints : JointTables<dim> // NOLINT(cppcoreguidelines-slicing): assigning
     return true;
   }
 
-  /// What each joint is and remembers, but for its grains, its number and its response; for whoever stores or permutes.
+  /// Visits all properties and states of the joints except their grains, numbers and responses; for code that stores or
+  /// permutes joints.
   template <typename Visitor>
   void visit_per_joint(Visitor&& visit)
   {

@@ -66,7 +66,7 @@ private:
   std::vector<double, PageAllocator<double>> values;
 };
 
-/// By packs, for a sweep.
+/// Width of a table whose rows are read by packs, for a sweep.
 inline constexpr std::size_t pack_width = simd::width<simd::Pack>;
 
 /// A row of a table as if it were an array of its own; or every `stride`-th row, one after the other.

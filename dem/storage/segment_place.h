@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-/// Where the segments of faces lie, and so the cracks that they become.
+/// Positions of the segments of faces, and of the cracks that they become.
 namespace feldspar
 {
 template <int dim>

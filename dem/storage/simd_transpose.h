@@ -8,16 +8,16 @@
 #include <cstdint>
 #include <cstring>
 
-/// Between records of four numbers, one for each of many things, and packs of one number of many things. What a loop
-/// over joints gathers from grains, and leaves for them to gather, lies in records: a record comes by one load, where
-/// numbers in arrays of their own take one each.
+/// Conversion between records of four numbers, one for each of many things, and packs of one number of many things.
+/// Numbers that a loop over joints gathers from grains, and leaves for them to gather, lie in records: a record comes
+/// by one load, where numbers in arrays of their own take one each.
 namespace feldspar::simd
 {
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
 
 using Eight = double __attribute__((vector_size(8 * sizeof(double))));
 
-// By shuffles and not by way of memory: a load waits for two stores that it spans.
+// Shuffles replace a way by memory, where a load would wait for the two stores that it spans.
 inline Eight joined(const Four& low, const Four& high)
 {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);

@@ -41,7 +41,7 @@ struct SmoothJoint
 
 static_assert(std::is_trivially_copyable_v<SmoothJoint<2>> && std::is_trivially_copyable_v<SmoothJoint<3>>);
 
-/// How far along the branch the sides meet, in the middle of overlap or gap.
+/// Share of the branch from grain 1 to the point at which the sides meet, in the middle of overlap or gap.
 template <int dim>
 double share_of_grain_1(const SmoothJoint<dim>& joint, const Vector<dim>& branch)
 {

@@ -53,7 +53,8 @@ def hidden(rock):
 
 
 def settings_of(truth):
-    """The entries of its specimens. What a calibration ties is tied: coefficients of variation, and the particle contact."""
+    """Returns the entries of its specimens. Entries that a calibration ties are tied: coefficients of variation, and
+    the particle contact."""
     contact = {"Modulus": f"{truth['modulus']:.9g} Pa", "Stiffness ratio": f"{truth['stiffness_ratio']:.9g}",
                "Friction": f"{truth['friction']:.9g}"}
     strength, cohesion = truth["bond_tensile_strength"], truth["bond_cohesion"]
@@ -105,7 +106,7 @@ def calibrate(feldspar, work, rock):
 
 
 def merged(work):
-    """What is told of all rocks, with the provenance of the last run."""
+    """Returns the results of all rocks, with the provenance of the last run."""
     rocks = []
     for rock in range(1, N_ROCKS + 1):
         answer = read(os.path.join(work, f"rock-{rock}"), "calibration.json")

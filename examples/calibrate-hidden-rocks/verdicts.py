@@ -33,7 +33,7 @@ ENDS = {0: "reached", 4: "missed", 5: "not_decided"}  # exit codes of a calibrat
 
 def calibrate(feldspar, work, rock):
     laboratory = os.path.join(work, f"rock-{rock}-laboratory")
-    # Its shape of the gap and its size are those of the calibration, its bonds are hidden.
+    # Shape of the gap and size are those of the calibration, the bonds are hidden.
     feldspar_run(feldspar, "lab", laboratory, [*settings_of(hidden(rock)), f"Seeds/Seeds = {LABORATORY}"], input_file=INPUT)
     ensemble = read(laboratory, "summary.json")["ensemble"]
     experiment = {key: {"mean": ensemble[group][figure]["mean"] / unit,
@@ -53,7 +53,7 @@ def calibrate(feldspar, work, rock):
 
 
 def merged(work):
-    """What is told of all rocks, with the provenance of the last run."""
+    """Returns the results of all rocks, with the provenance of the last run."""
     rocks = []
     for rock in range(1, N_ROCKS + 1):
         answer = read(os.path.join(work, f"rock-{rock}"), "calibration.json")

@@ -4,7 +4,7 @@
 #   examples/contact-models/four-models.sh [FELDSPAR [FOLDER]]
 #
 # FELDSPAR is the program (default: feldspar), FOLDER where the results go (default: four-models). A model whose folder is
-# there is taken up where it stands, or left as it is when it is done; the page is FOLDER/page/report.html.
+# there is resumed where it stands, or left as it is when it is done; the page is FOLDER/page/report.html.
 set -euo pipefail
 inputs=$(cd "$(dirname "$0")" && pwd)
 program=$(command -v "${1:-feldspar}") || { echo "${1:-feldspar} is not there: name the program" >&2; exit 2; }

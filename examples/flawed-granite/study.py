@@ -185,7 +185,7 @@ def slots_of(test):
 
 
 def joining(test, body, curve):
-    """When and how the two slots of a test are joined."""
+    """Returns when and how the two slots of a test are joined."""
     row = {"test": test["name"]}
     for n in (1, SEGMENTS // 2, SEGMENTS):
         found = body.way(n)
@@ -205,8 +205,9 @@ def joining(test, body, curve):
 
 
 def first_cracks(test, cracks, curve):
-    """How many of the first ten cracks lie where Kirsch's hoop stress is the highest tension, within 30° and five mean
-    diameters of the rim: the crowns in compression, the sides in tension. And the stress at the first of them."""
+    """Returns how many of the first ten cracks lie where Kirsch's hoop stress is the highest tension, within 30° and
+    five mean diameters of the rim: the crowns in compression, the sides in tension. Returns also the stress at the
+    first of them."""
     x, y, radius = (
         float(word) / 1e3
         for word in re.search(r"hole centre ([\d.]+), ([\d.]+) mm radius ([\d.]+) mm", test["variant"]).groups()

@@ -345,13 +345,13 @@ BODIES = (
 
 
 def crushed_at(rate):
-    """By seed, UCS at a rate [MPa]."""
+    """Returns the UCS at a rate by seed [MPa]."""
     tests = tests_of("rate", "uniaxial_compression", f"= {rate} 1/s")
     return {test["seed"]: test["peak_stress_Pa"] / 1e6 for test in tests}
 
 
 def of_angle(name, key):
-    """By angle, one value a packing."""
+    """Returns values by angle, one a packing."""
     summary = results(name)
     table = {}
     for row in summary["after_peak"] if summary else []:

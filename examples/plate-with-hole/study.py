@@ -73,7 +73,7 @@ def stages():
 
 
 def cracks_by_stage(out):
-    """Of each stage its name and the cracks until its end: x, y, length [m]."""
+    """Returns for each stage its name and the cracks until its end: x, y, length [m]."""
     name = f"own_loading_seed_{SEED}"
     with open(os.path.join(out, "curves", name + ".csv"), encoding="utf-8") as file:
         curve = [(float(row["axial_strain"]), float(row["axial_stress_Pa"])) for row in csv.DictReader(file)]
@@ -103,7 +103,7 @@ class Patches:
             self.area = [[area / n_sectors] * n_sectors for area in ring_areas()]
 
     def length_of(self, crack):
-        """What a crack stands for [m]."""
+        """Returns the length that a crack stands for [m]."""
         x, y, length = crack
         return length * self.share[round(x, 6), round(y, 6)] if self.share else length
 
@@ -116,7 +116,7 @@ class Patches:
         return [[one / area for one, area in zip(*rows)] for rows in zip(length, self.area)]
 
     def map(self, cracks):
-        """Where there are cracks: x, y [mm], m/m²."""
+        """Returns the places of cracks and their length per area: x, y [mm], m/m²."""
         density = {}
         for x, y, length in cracks:
             if self.share:
@@ -161,7 +161,7 @@ def results(name):
 
 
 def draw():
-    """Where the cracks are at the last stage, over log of their length per area."""
+    """Draws where the cracks are at the last stage, over log of their length per area."""
     titles = {"sample": "finite elements with cells of grains", "grains": "93 000 grains"}
     names = [name for name in titles if results(name)]
     script = [

@@ -30,7 +30,8 @@ struct ElasticConstants
   double poissons_ratio;
 };
 
-/// With which plane strain responds in the plane as a thin plate, free of stress across it, does with these.
+/// Elastic constants for plane strain that give the response in the plane of a thin plate with these constants, free of
+/// stress across it.
 inline ElasticConstants plane_strain_equal_to_plate(const ElasticConstants& plate)
 {
   const auto [E, nu] = plate;

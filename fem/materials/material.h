@@ -129,7 +129,7 @@ public:
   virtual std::any structure() const { return {}; }
 };
 
-/// Where a point sits; the same for any number of ranks.
+/// Position of a point in the sample; the same for any number of ranks.
 struct PointPlace
 {
   std::string cell;              ///< deal.II's CellId, as in 0_3:201

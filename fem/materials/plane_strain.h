@@ -32,7 +32,7 @@ struct PlaneWithinSpace
         result(i, j) = tangent(place[i], place[j]);
     return result;
   }
-  /// Its projection.
+  /// Projection of a direction on the plane.
   static Eigen::Vector2d direction_without(const Eigen::Vector3d& direction) { return {direction[0], direction[2]}; }
 };
 

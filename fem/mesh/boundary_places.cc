@@ -141,7 +141,7 @@ private:
         fmt::format("{0} lies at {1} = {2:g} m, but the sample ends at {1} = {3:g} m", name, x, found.middle(), place));
   }
 
-  /// From the axis of the sample; in the plane the first coordinate.
+  /// Distance from the axis of the sample; in the plane the first coordinate.
   static double radius(const Point<dim>& place) { return dim == 3 ? std::hypot(place[0], place[1]) : place[0]; }
 
   /// The cosine of the angle between its normal and the way from the axis; in the plane, from left to right.

@@ -16,7 +16,7 @@ std::vector<unsigned int> partition_weights(const std::vector<double>& seconds, 
   for (const double time : seconds)
     weights.push_back(mean > 0.0 ? time / mean + least_share_of_mean : 1.0);
 
-  // What is cut off lowers the share of a rank, so that more may have to be cut off.
+  // Each cut of a weight lowers the share of a rank, so that more may have to be cut off.
   double sum = 0.0;
   for (int round = 0; round < 50; ++round)
     {

@@ -35,7 +35,7 @@
 ///          +--> x                       +--> x
 namespace feldspar::fem
 {
-/// A mesh or boundary that cannot be used, told in one line.
+/// A mesh or boundary that cannot be used, reported in one line.
 struct MeshError : std::runtime_error
 {
   using std::runtime_error::runtime_error;

@@ -11,7 +11,7 @@
 /// The weak form of equilibrium and its derivative by the displacement; docs/theory.md §8.1.
 namespace feldspar::fem
 {
-/// On every node [N].
+/// Forces on every node [N].
 struct NodalForces
 {
   NodalVector internal;   ///< by the stresses, as if nothing were held

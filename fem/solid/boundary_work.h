@@ -10,7 +10,7 @@
 /// changed their structure. Between two vertices forces and displacements are taken to go in proportion (trapezoidal rule).
 namespace feldspar::fem
 {
-/// Since the solid was at rest [J]; in the plane per metre of thickness.
+/// Works since the solid was at rest [J]; in the plane per metre of thickness.
 struct BoundaryWork
 {
   double reactions = 0.0; ///< of what holds displacements, times their travel
@@ -43,7 +43,7 @@ struct PathVertex
              const dealii::IndexSet& owned);
 };
 
-/// By the forces on the degrees of freedom of this rank. held: those whose displacement is prescribed.
+/// Work by the forces on the degrees of freedom of this rank. `held` are those whose displacement is prescribed.
 BoundaryWork work_between(const PathVertex& from, const PathVertex& to, const std::vector<bool>& held);
 
 /// The work of all ranks. Collective.

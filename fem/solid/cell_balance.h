@@ -7,7 +7,7 @@
 
 namespace feldspar::fem
 {
-/// How long ranks were at work in their points since the last balance was struck, on one core each [s].
+/// Time that ranks worked in their points since the last balance was struck, on one core each [s].
 struct Balance
 {
   double mean = 0.0;
@@ -16,7 +16,7 @@ struct Balance
   bool moved = false;           ///< now
 };
 
-/// The rounds of time that ranks spend in their cells, and when it pays to deal the cells out anew.
+/// Records the rounds of time that ranks spend in their cells, and decides when it pays to distribute the cells anew.
 ///
 /// A round: every rank asks each of its points for something, and waits for the others. p4est cuts the curve through all
 /// cells into pieces, one a rank.
@@ -35,10 +35,10 @@ public:
     Balance balance;                   ///< moved: the cells should be
     std::vector<unsigned int> weights; ///< of the cells of this rank, as repartition() takes them; empty if not moved
   };
-  /// Since the last one. Collective.
+  /// Verdict on the rounds since the last one. Collective.
   Verdict strike(MPI_Comm communicator);
 
-  /// How long it took to move cells [s].
+  /// Records how long it took to move cells [s].
   void note_move(const double seconds) { cost_of_moving = seconds; }
 
 private:
@@ -47,8 +47,8 @@ private:
   std::vector<std::size_t> along_curve;    ///< the cells of this rank in its order
   std::vector<unsigned int> rank_at_first; ///< of each cell of this rank
   double cost_of_moving = 0.01;            ///< the last time, at first a guess [s]
-  /// Since the last balance, what all points of this rank took in each round, and thereof those of each rank's first
-  /// cells [s].
+  /// Times since the last balance that all points of this rank took in each round, and thereof those of each rank's
+  /// first cells [s].
   std::vector<double> rounds;
   std::vector<double> rounds_at_first;
   std::vector<double> seconds_noted; ///< of each cell of this rank, up to the last round

@@ -29,8 +29,8 @@ struct SolidConstraints
   std::string places{}; ///< what is held where; loads that say the same have a matrix of the same pattern
 };
 
-/// To go this fraction of the way from an accepted displacement (with ghosts) to a load. Collective. Throws MeshError for
-/// a boundary that is not there.
+/// Constraints that go this fraction of the way from an accepted displacement (with ghosts) to a load. Collective.
+/// Throws MeshError for a boundary that is not there.
 template <int dim>
 SolidConstraints constrain(const Discretisation<dim>& elements, const Load<dim>& load, const NodalVector& accepted,
                            double fraction);

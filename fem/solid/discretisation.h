@@ -30,7 +30,8 @@ dealii::ComponentMask only(const unsigned int component)
   return mask;
 }
 
-/// Of all cells of a mesh whose coarse cells are all refined as often, in the order of their CellIds.
+/// Number of a cell among all cells of a mesh whose coarse cells are all refined as often, in the order of their
+/// CellIds.
 template <typename Cell>
 std::uint64_t number_of(const Cell& cell)
 {
@@ -59,9 +60,9 @@ struct Discretisation
   NodalVector ghosted_vector() const { return NodalVector(owned, relevant, communicator()); }
 
   using Integrand = std::function<double(const dealii::Tensor<1, dim>&, const dealii::Tensor<1, dim>&)>;
-  /// Over a boundary, of a function of the displacement and the outer normal. Collective.
+  /// Integral over a boundary, of a function of the displacement and the outer normal. Collective.
   double integral(const std::string& boundary, const NodalVector& displacement, const Integrand& integrand) const;
-  /// Between the boundary at rest and as it is displaced, outwards positive [m³]. Collective.
+  /// Volume between the boundary at rest and as it is displaced, outwards positive [m³]. Collective.
   double swept_volume(const std::string& boundary, const NodalVector& displacement) const;
 
   const SampleMesh<dim>& mesh;

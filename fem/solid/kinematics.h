@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// How a displacement field on a mesh strains a material point.
+/// Strain of a material point by a displacement field on a mesh.
 ///
 /// | kinematics   | mesh        | material | material's x, y, z          | weight of an area |
 /// |--------------|-------------|----------|-----------------------------|-------------------|
@@ -15,7 +15,7 @@
 /// | axisymmetric | 2D (r, z)   | 3D       | r, around the axis, z       | 2πr               |
 /// | full         | 3D          | 3D       | x, y, z                     | 1                 |
 ///
-/// The axis of the sample, its last coordinate, is so always the last of the material.
+/// The axis of the sample, its last coordinate, is therefore always the last of the material.
 namespace feldspar::fem
 {
 enum class Kinematics

@@ -21,7 +21,8 @@ struct Solved
   unsigned int n_iterations;
 };
 
-/// By PETSc itself: deal.II's wrappers stop by its default norm, that of the preconditioned residual, which is no force.
+/// Solves by PETSc itself: deal.II's wrappers stop by its default norm, that of the preconditioned residual, which is
+/// no force.
 Solved solve_once(const LinearSolver solver, const Mat matrix, const Vec solution, const Vec right_side,
                   const int n_components, const double relative_tolerance)
 {

@@ -23,7 +23,7 @@ struct Load
     std::function<double(const dealii::Point<dim>&)> value;
   };
 
-  /// Against the normal of the boundary, inwards positive [Pa].
+  /// Pressure against the normal of the boundary, inwards positive [Pa].
   struct Pressure
   {
     std::string boundary;

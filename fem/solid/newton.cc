@@ -137,7 +137,7 @@ PathVertex NewtonSearch<dim, material_dim>::vertex_of(const SolidState<material_
   return {state.displacement, state.internal_force, state.external_force, elements.owned};
 }
 
-/// Of the degrees of freedom of this rank those whose displacement is prescribed; those of a free plate are not.
+/// Returns which degrees of freedom of this rank have a prescribed displacement; those of a free plate have none.
 template <int dim, int material_dim>
 std::vector<bool> NewtonSearch<dim, material_dim>::held_by(const AffineConstraints<double>& constraints) const
 {
@@ -174,7 +174,7 @@ auto NewtonSearch<dim, material_dim>::over_points(const Work& work) -> Round
   return round;
 }
 
-/// False where a point of any rank has no response.
+/// Updates the points; returns false where a point of any rank has no response.
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::update_points()
 {
@@ -203,7 +203,8 @@ bool NewtonSearch<dim, material_dim>::tangents_are_symmetric() const
   return Utilities::MPI::min(int(symmetric), elements.communicator()) == 1;
 }
 
-/// As much of a correction as all points have a response to, halved down to a sixteenth; 0 where there is none.
+/// Applies as much of a correction as all points have a response to, halved down to a sixteenth. Returns the share; 0
+/// if there is no response.
 template <int dim, int material_dim>
 double NewtonSearch<dim, material_dim>::correct(const NodalVector& correction)
 {
@@ -221,7 +222,7 @@ double NewtonSearch<dim, material_dim>::correct(const NodalVector& correction)
   return 0.0;
 }
 
-/// Empty where there is none.
+/// Returns the next correction; empty where there is none.
 template <int dim, int material_dim>
 std::optional<NodalVector> NewtonSearch<dim, material_dim>::next_correction(const SolidConstraints& constraints,
                                                                             const bool boundary_moves)
@@ -243,8 +244,8 @@ std::optional<NodalVector> NewtonSearch<dim, material_dim>::correction_by(const 
   return correction;
 }
 
-/// Of two corrections, with the plate standing and moved by a metre, the mixture that lets the boundaries sweep what is
-/// wanted.
+/// Returns the mixture of two corrections, with the plate standing and moved by a metre, for which the boundaries sweep
+/// the wanted amount.
 template <int dim, int material_dim>
 std::optional<NodalVector> NewtonSearch<dim, material_dim>::following_correction(const SolidConstraints& constraints)
 {
@@ -265,7 +266,7 @@ std::optional<NodalVector> NewtonSearch<dim, material_dim>::following_correction
   return standing;
 }
 
-/// Of any vector, with or without ghosts.
+/// Amount that the following boundaries sweep by a displacement; any vector, with or without ghosts.
 template <int dim, int material_dim>
 double NewtonSearch<dim, material_dim>::swept_by(const SolidConstraints::Following& following,
                                                  const NodalVector& displacement) const
@@ -275,7 +276,7 @@ double NewtonSearch<dim, material_dim>::swept_by(const SolidConstraints::Followi
   return swept_between(elements, following.boundaries, with_ghosts);
 }
 
-/// Its plate has gone as far as was wanted.
+/// Returns whether the plate that follows has moved as far as wanted.
 template <int dim, int material_dim>
 bool NewtonSearch<dim, material_dim>::follows(const SolidConstraints& constraints) const
 {

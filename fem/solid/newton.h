@@ -12,8 +12,8 @@ namespace feldspar::fem
 {
 /// One search of an equilibrium by Newton's method, cascade by cascade; docs/theory.md §8.3.
 ///
-/// Between two cascades the structure of every point is frozen. Its responses come from the points' accepted states, which
-/// the search leaves as they are; their structure at work it changes.
+/// Between two cascades the structure of every point is frozen. Responses come from the points' accepted states, which
+/// the search leaves as they are; it changes the points' structure at work.
 template <int dim, int material_dim>
 class NewtonSearch
 {
@@ -29,7 +29,7 @@ public:
     SolidState<material_dim> state; ///< in equilibrium if it converged
   };
 
-  /// From an accepted state with the pressures that are wanted. Collective.
+  /// Searches from an accepted state with the pressures that are wanted. Collective.
   Outcome run(SolidConstraints constraints, const SolidState<material_dim>& start);
 
 private:
@@ -43,7 +43,7 @@ private:
   double unbalanced_resultant() const;
   PathVertex vertex_of(const SolidState<material_dim>& state) const;
   std::vector<bool> held_by(const dealii::AffineConstraints<double>& constraints) const;
-  /// How a round over the points of all ranks ended: of any the worst, which is the last.
+  /// Outcome of a round over the points of all ranks: the worst of any, which is the last in this list.
   enum class Round
   {
     answered,

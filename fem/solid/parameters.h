@@ -11,7 +11,7 @@
 
 namespace feldspar::fem
 {
-/// How a solve went.
+/// Outcome of a solve.
 struct NewtonReport
 {
   bool converged = false;
@@ -33,10 +33,12 @@ struct SolidParameters
   unsigned int most_iterations = 15; ///< between two cascades
   unsigned int most_cascades = 1000;
   std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max(); ///< in one solve
-  /// Called after each iteration and cascade, on every rank. What it throws ends the solve; the accepted state stays.
+  /// Called after each iteration and cascade, on every rank. An exception of it ends the solve; the accepted state
+  /// stays.
   std::function<void(const NewtonReport&)> watch = [](const NewtonReport&) {};
-  /// Asked before each point, by any thread of any rank: a round over the points of a large sample takes long. Where it says
-  /// so, or a point throws GivenUp, the round is left and `watch` called on every rank, which is to throw. Empty: never.
+  /// Called before each point, by any thread of any rank: a round over the points of a large sample takes long. Where
+  /// it returns true, or a point throws GivenUp, the round is left and `watch` called on every rank, which is to throw.
+  /// Empty: never.
   std::function<bool()> gives_up = {};
 };
 } // namespace feldspar::fem

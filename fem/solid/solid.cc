@@ -52,7 +52,7 @@ NewtonReport Solid<dim, material_dim>::solve(const Load<dim>& load, const double
       places_of_matrix = constraints.places;
     }
   SolidState<material_dim> start = *accepted;
-  // What the new load does not name goes to zero.
+  // Pressures that the new load does not name go to zero.
   for (auto& [boundary, pressure] : start.pressures)
     pressure *= 1.0 - fraction;
   for (const auto& pressure : load.pressures)

@@ -35,18 +35,19 @@ public:
 
   /// The state of the cells of this rank.
   StoredSolid stored() const;
-  /// Each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of another mesh;
-  /// the solid is then unusable.
+  /// Restores each cell from whatever rank brings it. Throws std::invalid_argument, on every rank, where it is of
+  /// another mesh; the solid is then unusable.
   void restore(const StoredSolid& stored);
 
-  /// Deals the cells out to the ranks anew, by the time each took, if what the present deal has lost would have paid for
-  /// it. What is of this rank is then of other points. Not between solve() and accept() or reject().
+  /// Distributes the cells to the ranks anew, by the time each took, if the loss of the present distribution would have
+  /// paid for it. Data of this rank then belong to other points. Not to be called between solve() and accept() or
+  /// reject().
   Balance rebalance();
 
-  /// From the next solve on.
+  /// Limits the events, from the next solve on.
   void limit_events(const std::uint64_t most_events) { parameters.most_events = most_events; }
 
-  /// Against a boundary [Pa]; zero where none has been applied.
+  /// Pressure against a boundary [Pa]; zero where none has been applied.
   double pressure(const std::string& boundary) const;
 
   /// Turns the force that holds a displacement of a boundary into a pressure on it, so that a free plate may take over
@@ -57,12 +58,12 @@ public:
   /// the plane per metre of thickness; in r-z around the whole circle.
   double reaction(const std::string& boundary, unsigned int component) const;
 
-  /// On the way from rest to here.
+  /// Work on the way from rest to here.
   const BoundaryWork& boundary_work() const { return accepted->work; }
 
   /// Mean over the boundary [m].
   double mean_displacement(const std::string& boundary, unsigned int component) const;
-  /// Between the boundary at rest and as it is displaced, outwards positive [m³].
+  /// Volume between the boundary at rest and as it is displaced, outwards positive [m³].
   double swept_volume(const std::string& boundary) const;
 
   /// The area of a boundary [m²].
@@ -79,13 +80,13 @@ public:
   const std::vector<std::string>& field_names() const { return material.field_names; }
   MPI_Comm communicator() const { return elements.communicator(); }
 
-  /// On all ranks.
+  /// Number of points on all ranks.
   std::uint64_t n_points() const { return elements.n_cells() * n_points_per_cell(); }
 
   // The points of this rank, in the order of its cells, n_points_per_cell() each.
   unsigned int n_points_per_cell() const { return elements.n_points_per_cell(); }
   const MaterialPoints<material_dim>& material_points() const { return points.materials; }
-  /// Among all points; the same for any number of ranks.
+  /// Number of a point among all points; the same for any number of ranks.
   std::uint64_t number_of_point(const std::size_t i) const
   {
     return places()[i].cell_number * n_points_per_cell() + places()[i].quadrature_point;
@@ -107,7 +108,7 @@ private:
   SolidPoints<material_dim> points;
   CellBalance<dim> balance;
 
-  /// Made anew, never assigned, where cells move: PETSc assigns only where ranks have as many entries of both.
+  /// State made anew, never assigned, where cells move: PETSc assigns only where ranks have as many entries of both.
   std::optional<SolidState<material_dim>> accepted;
   std::optional<SolidState<material_dim>> tried; ///< since the last solve()
 

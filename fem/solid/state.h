@@ -35,7 +35,7 @@ struct SolidPoints
 template <int dim, int material_dim>
 SolidPoints<material_dim> make_points(const Discretisation<dim>& elements, const Material<material_dim>& material);
 
-/// At rest, with the responses of the points to no strain. Collective.
+/// State at rest, with the responses of the points to no strain. Collective.
 template <int dim, int material_dim>
 SolidState<material_dim> state_at_rest(const Discretisation<dim>& elements,
                                        const MaterialPoints<material_dim>& materials);

@@ -36,7 +36,7 @@ public:
 
   double done() const { return where; }
   bool finished() const { return where >= 1.0; }
-  /// Where the next step should end. The last two are made equal rather than leave a sliver.
+  /// Returns where the next step should end. The last two steps are made equal, so that no sliver is left.
   double next() const
   {
     const double left = 1.0 - where;
@@ -50,7 +50,7 @@ public:
       size = std::min(1.5 * size, largest);
   }
 
-  /// False when the step cannot be cut any more; then it stays as it is.
+  /// Cuts the step. Returns false when it cannot be cut any more; then it stays as it is.
   bool cut()
   {
     n_in_a_row = 0;

@@ -32,7 +32,7 @@ struct StoredSolid
   BoundaryWork work{};                     ///< the same on every rank
 };
 
-/// Of this rank.
+/// Cells of this rank, as they are stored.
 template <int dim, int material_dim>
 std::vector<StoredCell> stored_cells(const Discretisation<dim>& elements, const MaterialPoints<material_dim>& materials,
                                      const SolidState<material_dim>& state);

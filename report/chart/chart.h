@@ -14,7 +14,7 @@ namespace feldspar
 /// Abscissa, ordinate and two numbers with a meaning by the kind of the series.
 using ChartPoint = std::array<double, 4>;
 
-/// Where a line has a gap, and where one area ends and the next begins.
+/// Separator of points: a gap in a line, or the end of one area and the beginning of the next.
 inline constexpr ChartPoint gap{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
 struct ChartSeries

@@ -70,11 +70,12 @@ std::pair<int, int> size_of_key(const Chart& chart)
 
 constexpr int usual_rows = 5;
 
-/// Where labels are too long for columns of the usual rows side by side there are fewer columns with more rows: gnuplot
-/// would draw what does not fit beyond the edge of the picture.
+/// Number of rows of a key. Where labels are too long for columns of the usual rows side by side, there are fewer
+/// columns with more rows: gnuplot would draw the rest beyond the edge of the picture.
 int rows_of_key(const Chart& chart, const int width)
 {
-  // What gnuplot reckons for a column, and how far columns may stick out: it takes letters for wider than they are.
+  // Width that gnuplot computes for a column, and limit of how far columns may stick out: it takes letters for wider
+  // than they are.
   constexpr double letter = 8.4, mark = 53.0, reach = 1.08;
   const auto [n, longest] = size_of_key(chart);
   const int n_columns = std::max(1, int(reach * width / (letter * longest + mark)));
@@ -155,7 +156,7 @@ std::string rows(const ChartSeries& series)
   return text;
 }
 
-/// What a plot says of a series beside its colour.
+/// Style of a series in a plot beside its colour.
 std::string style(const ChartSeries& series)
 {
   const std::string line = fmt::format(" lw {} dt {}", series.width, series.dashes);
@@ -231,8 +232,8 @@ private:
                               series.colour);
   }
 
-  /// As objects, which may have any corners. gnuplot draws the bar of a palette for plots only: a dot in the middle of
-  /// each area is one.
+  /// Adds areas as objects, which may have any corners. gnuplot draws the bar of a palette for plots only; a dot in the
+  /// middle of each area is one.
   void add_coloured_areas(const ChartSeries& series)
   {
     std::string dots;
@@ -306,12 +307,12 @@ int further_height(const Chart& chart, const int width)
 
 std::string gnuplot_text(const std::string_view text)
 {
-  // Between single quotes gnuplot reads only the quote itself as anything but text. Doubling it is not enough: of
-  // three in a row the second ends the string. So the typographic one stands for it.
+  // Gnuplot reads everything between single quotes as text, except the quote itself. Doubling it is not enough: of
+  // three in a row the second ends the string. Therefore the typographic quote stands for it.
   std::string result = "'";
   for (const char c : printable(text))
     {
-      // Its SVG writes "]]>" as it is, which is no XML.
+      // SVG of gnuplot has "]]>" unchanged, which is no XML.
       if (c == '>' && result.ends_with("]]"))
         result += ' ';
       result += c == '\'' ? std::string("’") : std::string(1, c);

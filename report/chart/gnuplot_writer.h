@@ -12,7 +12,7 @@ namespace feldspar
 /// title stays empty. The width of the picture [px] tells what has room in a key.
 std::string gnuplot_script(const std::vector<Chart>& panels, int columns, int width);
 
-/// What a picture of this width must be higher, so that its key takes no room from the axes [px].
+/// Height to add to a picture of this width, so that its key takes no room from the axes [px].
 int further_height(const Chart& chart, int width);
 
 /// Text as gnuplot's single-quoted string, on one line whatever is in it; ’ stands for a quote. Every text that is not

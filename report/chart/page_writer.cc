@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace feldspar::live
@@ -97,6 +99,11 @@ std::string base64(const std::string& bytes)
 
 Json number(const double value, const int digits)
 {
-  return std::isfinite(value) ? Json(std::stod(fmt::format("{:.{}g}", value, digits))) : Json();
+  if (!std::isfinite(value))
+    return Json();
+  const std::string decimal = fmt::format("{:.{}g}", value, digits);
+  double rounded = value; // stays where the decimal lies beyond the range of numbers; std::stod throws below 2e-308 too
+  std::from_chars(decimal.data(), decimal.data() + decimal.size(), rounded);
+  return Json(rounded);
 }
 } // namespace feldspar::live

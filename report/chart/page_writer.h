@@ -13,12 +13,12 @@ namespace feldspar::live
 /// page shows the picture alone: with circles, segments, texts or values by colour.
 std::string chart_data(const Chart& chart);
 
-/// As text in which no tag can begin, so that it may stand in a page. What is not UTF-8 is replaced.
+/// Text of the data in which no tag can begin, so that it may stand in a page. Bytes that are not UTF-8 are replaced.
 std::string text(const nlohmann::ordered_json& data);
 
 /// Bytes as text of letters, digits, + and /.
 std::string base64(const std::string& bytes);
 
-/// Of a number so many digits; null if it is none.
+/// Number with so many digits; null if the value is none.
 nlohmann::ordered_json number(double value, int digits = 5);
 } // namespace feldspar::live

@@ -27,7 +27,7 @@ using live::base64;
 constexpr std::size_t most_bytes = 9'900'000; // of a page of 10 MB; sentences in place of pictures need a little
 constexpr int wide_picture = 900;             // from here on a picture takes the width of the page [px]
 
-/// As a policy names the one script that may run: no other does, whatever text comes into the page.
+/// Hash by which a policy names the one script that may run: no other does, whatever text comes into the page.
 std::string hash_of_script()
 {
   std::string bytes;
@@ -61,7 +61,7 @@ std::vector<std::size_t> columns_with_contents(const Table& table)
   return columns;
 }
 
-/// How a cell is shown: a verdict in its colour, a sentence in lines.
+/// Class of a cell, by which it is shown: a verdict in its colour, a sentence in lines.
 std::string class_of(const std::string& cell)
 {
   constexpr std::size_t longest_figure = 40; // in bytes: "1234.5 ± 12.3 (−10.1 %)"
@@ -98,7 +98,7 @@ data describe(const Table& table)
   data result = data::type::object;
   result.set("id", "table_" + table.name);
   result.set("caption", table.caption);
-  // In the page itself: a link into its folder would be lost where it is mailed.
+  // The table is in the page itself: a link into its folder would be lost where it is mailed.
   result.set("csv", "data:text/csv;charset=utf-8;base64," + base64(as_csv(table)));
   result.set("file", table.name + ".csv");
   result.set("header", list(header));
@@ -110,7 +110,7 @@ data describe(const Table& table)
 class PictureShelf
 {
 public:
-  /// Of pictures, and of their files in PDF, whose data stand on the page.
+  /// `room` limits the bytes of pictures whose data stand on the page, `room_for_pdf` those of their files in PDF.
   PictureShelf(const std::filesystem::path& figures, const std::size_t room, const std::size_t room_for_pdf)
     : folder(figures)
     , most_picture_bytes(room)
@@ -183,7 +183,7 @@ private:
     return objection_to_reading(folder / name).empty() ? base64(content_of(folder / name)) : "";
   }
 
-  /// As the target of a link, as long as there is room; else empty.
+  /// Returns the PDF as the target of a link, as long as there is room; otherwise nothing.
   std::string pdf_in_page(const std::string& name)
   {
     std::string target = n_pdf_bytes < most_pdf_bytes ? encoded(name) : "";
@@ -231,7 +231,7 @@ data describe(const PageBlock& block, PictureShelf& shelf)
   return result;
 }
 
-/// With pictures, and with PDFs of them, of so many bytes at most.
+/// Renders a page with pictures, and with PDFs of them, of so many bytes at most.
 std::string rendered(const Page& page, const std::filesystem::path& figures, const std::size_t room,
                      const std::size_t room_for_pdf)
 {

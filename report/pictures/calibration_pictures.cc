@@ -47,7 +47,7 @@ SampledColumn column_of(const std::string& name, const std::vector<double>& si_v
   return column;
 }
 
-/// Between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
+/// Step between the marks of an axis, so that one to three stand on it: 1, 2 or 5 times a power of ten.
 double step_of_marks(const std::vector<double>& values)
 {
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
@@ -57,7 +57,7 @@ double step_of_marks(const std::vector<double>& values)
   return power * (first >= 5.0 ? 5.0 : first >= 2.0 ? 2.0 : 1.0);
 }
 
-/// How many values fall into each of equal parts of the range, as columns of one area.
+/// Numbers of values in equal parts of the range, as columns of one area.
 ChartSeries histogram(const std::vector<double>& values)
 {
   constexpr std::size_t n_bins = 24;

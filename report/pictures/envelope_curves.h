@@ -21,7 +21,7 @@ struct PlaneStress
   double shear;
 };
 
-/// Where the Mohr circle of an envelope's state at sigma_3 touches the envelope of all circles (Balmer 1952):
+/// Point at which the Mohr circle of an envelope's state at sigma_3 touches the envelope of all circles (Balmer 1952):
 /// sigma_n = sigma_3 + (sigma_1 - sigma_3)/(N + 1), tau = (sigma_n - sigma_3) sqrt(N), N = d sigma_1/d sigma_3.
 PlaneStress touching_point(const std::function<double(double)>& sigma_1, double sigma_3);
 } // namespace feldspar

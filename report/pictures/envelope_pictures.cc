@@ -84,10 +84,10 @@ struct EnvelopePlot
     points.push_back(std::move(marks));
   }
 
-  /// Between two confinements [Pa].
+  /// Adds a curve between two confinements [Pa].
   void add_curve(const std::function<double(double)>& sigma_1, const double begin, const double end, ChartSeries looks)
   {
-    // At its beginning the bracket is 0, or just below it.
+    // The bracket is 0, or just below it, at the beginning of the curve.
     for (const double sigma_3 : abscissas(begin + 1e-12 * std::abs(begin), end))
       if (const double value = sigma_1(sigma_3); std::isfinite(value))
         looks.points.push_back({sigma_3 / mega, value / mega});
@@ -138,7 +138,7 @@ struct EnvelopePlot
       add_curve([&](const double x) { return line->sigma_1(x); }, 0.0, end, looks);
   }
 
-  /// As far as its points go, beyond which nothing is known of it.
+  /// Adds a fit as far as its points go; beyond them nothing is known of it.
   template <typename Fit>
   void add_fit(const Fit& fit, ChartSeries looks)
   {
@@ -218,7 +218,7 @@ struct DrawnFit
   bool is_intact;
 };
 
-/// Those with more points than parameters.
+/// Fits with more points than parameters.
 std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
 {
   std::vector<DrawnFit> fits;
@@ -242,7 +242,7 @@ std::vector<DrawnFit> drawn_fits(const StrengthEnvelopes& envelopes)
   return fits;
 }
 
-/// In the colour of their series.
+/// Adds the fits in the colour of their series.
 void add_fits(EnvelopePlot& plotted, const StrengthEnvelopes& envelopes, const std::string& of_colour)
 {
   for (const auto& [fit, label, width, its_dashes, is_intact] : drawn_fits(envelopes))
@@ -315,7 +315,7 @@ Pictures envelope_pictures(const SeriesAmong& of)
     "Strength against confinement: mean and standard deviation of the model's tests, the Hoek–Brown "
     "forms, Mohr–Coulomb, and the reference. The figures are in the tables below.",
     plotted.chart())};
-  // Near the uniaxial test, where the forms differ.
+  // A picture near the uniaxial test, where the forms differ.
   if (envelopes.data.uniaxial_compressive_strength && plotted.highest_3() > 0.0)
     pictures.push_back(
       envelope_picture("envelope_near_uniaxial" + ending, "The same near the uniaxial and the tension test",

@@ -2,6 +2,7 @@
 
 #include "base/quoted.h"
 #include "base/whole_file.h"
+#include "laboratory/named_entries.h"
 #include "report/chart/gnuplot_writer.h"
 #include "report/chart/page_writer.h"
 
@@ -123,15 +124,15 @@ void take_date_out(const std::filesystem::path& pdf)
   file.write(of_no_day.data(), std::streamsize(of_no_day.size()));
 }
 
-/// Whether each of the programs that draw has hung.
+/// Flag of each of the two programs that draw: it did not end in time.
 using Hung = std::array<std::atomic<bool>, 2>;
 
 std::string draw_one(const Picture& picture, const std::filesystem::path& folder,
                      const std::chrono::milliseconds longest, const std::function<bool()>& is_over, Hung& hung)
 {
   const auto called_off = [&] {
-    return fmt::format("{} was not drawn: the run was asked to end before; feldspar report with its folder draws all",
-                       picture.name);
+    return fmt::format("{} was not drawn: the run was asked to end before; {} with its folder draws all", picture.name,
+                       input_entries::report);
   };
   if (!is_plain_name(picture.name))
     throw std::logic_error("a picture is named " + in_quotes(picture.name));

@@ -30,14 +30,14 @@ struct Picture
   /// The file that is shown.
   std::string shown_file() const { return name + (raster ? ".png" : ".svg"); }
 
-  /// Data and what draws it.
+  /// Script with the data and the commands that draw them.
   std::string script() const;
 
-  /// What the page's script shows in its place, JSON; empty: only the picture.
+  /// Returns the JSON that the page's script shows in place of the picture; empty: only the picture.
   std::string live() const;
 };
 
-/// Who waits for pictures.
+/// Observer that waits for pictures.
 struct DrawingWatch
 {
   /// Asked again and again: whether no more are to be drawn.

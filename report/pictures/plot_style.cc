@@ -8,7 +8,7 @@ namespace feldspar::plot
 {
 namespace
 {
-/// None of them that of a kind of cracks.
+/// Colours of series, none of them that of a kind of cracks.
 constexpr std::array colours{green, purple, orange, sky, brown, lime};
 } // namespace
 

@@ -28,7 +28,7 @@ inline constexpr const char* tension_colour = vermillion;
 inline constexpr const char* shear_colour = blue;
 inline constexpr const char* single_grain_colour = "#f0e0b8";
 
-// Of energies: the muted scheme of Tol, none of which is a series or a kind of crack.
+// Colours of energies: the muted scheme of Tol, none of which is a series or a kind of crack.
 inline constexpr const char* indigo = "#332288";
 inline constexpr const char* teal = "#44AA99";
 inline constexpr const char* olive = "#999933";

@@ -10,13 +10,13 @@
 /// The representative volumes of a sample of finite elements in words, and in space.
 namespace feldspar
 {
-/// By which an RVE is named in pictures and tables: A, B, …
+/// Letter by which an RVE is named in pictures and tables: A, B, …
 std::string letter_of_rve(std::size_t k);
 
 /// Share of broken segments.
 double broken_share(const PointRve& rve);
 
-/// Where an RVE stands, in words: (12.3, 45.6) mm.
+/// Position of an RVE in words: (12.3, 45.6) mm.
 std::string standing_of(const PointRve& rve, const SampleFields& fields);
 
 /// RVEs in space, each under its heading: the grains behind the mid-plane, with the cracks as discs. Without name and texts.

@@ -30,7 +30,7 @@ public:
 
   std::vector<SamplePiece> pieces() const;
 
-  /// Where an RVE is drawn: displaced with its cell.
+  /// Place at which an RVE is drawn: displaced with its cell.
   PlanePoint place(const PointRve& rve) const;
 
 private:

@@ -49,7 +49,7 @@ struct Box
         }
   }
 
-  /// With room for what bulges, not for what flew away.
+  /// Returns whether a point is shown: with room for grains that bulge, not for those that flew away.
   bool shows(const std::array<double, 3>& point) const
   {
     for (std::size_t c = 0; c < 3; ++c)
@@ -110,7 +110,7 @@ Json crack_panel(const TestRecord& record, const Box& box, const std::string& ti
           {"legend", discs.legend}};
 }
 
-/// Of each fragment.
+/// Number of grains of each fragment.
 std::map<std::uint32_t, std::size_t> numbers_of_grains(const std::vector<GrainPicture>& grains)
 {
   std::map<std::uint32_t, std::size_t> n_grains;

@@ -140,7 +140,7 @@ Pictures p_q_picture(const AllSeries& of)
         marks.points.push_back({-*data.tensile_strength / 3.0 / mega, *data.tensile_strength / mega});
       if (const HoekBrownFit* const fit = of.envelopes[n].representative())
         {
-          // Of confined compression; between it and tension no path of states is unique.
+          // Line of confined compression; between compression and tension no path of states is unique.
           ChartSeries line{.label = series.label + ": " + label_of(*fit),
                            .colour = colour(series, n),
                            .width = 2.0,

@@ -25,7 +25,7 @@ namespace
 {
 using namespace plot;
 
-/// A result over which a study is looked at.
+/// A result over which a study is shown.
 struct Property
 {
   std::string_view name; ///< of files
@@ -45,7 +45,7 @@ struct VariedEntry
   std::set<double> values;
 };
 
-/// Those with two numbers or more; of other values, or of several units, none.
+/// Entries that take two numbers or more; an entry with other values, or with several units, is left out.
 std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
 {
   std::map<std::string, std::optional<VariedEntry>> found;
@@ -68,8 +68,8 @@ std::vector<VariedEntry> varied_entries(const std::vector<Series>& all)
   return result;
 }
 
-/// Whether another entry has one value for each number of this one, and the more the more, or the less: a picture over this
-/// one is then over both. A name that comes with a number goes along, too.
+/// Returns whether another entry has one value for each number of this one and rises or falls with it: a picture over
+/// this entry is then over both. A name that comes with a number goes along, too.
 bool goes_along(const std::vector<Series>& all, const VariedEntry& entry, const std::string& other)
 {
   std::map<double, std::string> companion;
@@ -101,7 +101,7 @@ struct Abscissa
   std::set<std::string> along;
 };
 
-/// Of entries that go along with each other the first.
+/// Abscissas of the pictures of a study; of entries that go along with each other, the first.
 std::vector<Abscissa> abscissas(const std::vector<Series>& all)
 {
   const std::vector<VariedEntry> varied = varied_entries(all);
@@ -168,7 +168,7 @@ std::vector<Line> lines_of(const std::vector<Series>& all, const Abscissa& over,
   return lines;
 }
 
-/// What a picture shows of a result.
+/// Selection of lines that a picture of a result shows.
 struct Selection
 {
   std::vector<Line> lines;
@@ -177,7 +177,7 @@ struct Selection
   bool joined = true;      ///< the means, by lines
 };
 
-/// So many of them, the first and the last among them.
+/// Returns so many of the lines, the first and the last among them.
 std::vector<Line> spread(const std::vector<Line>& lines, const std::size_t n)
 {
   std::vector<Line> result;

@@ -32,7 +32,8 @@ std::string heading(const std::string& title, const ShownUnit& unit)
   return unit.name.empty() ? title : fmt::format("{} [{}]", title, unit.name);
 }
 
-/// Whether specimens have the answer's parameters. Only then are there medians, even where every test of them failed.
+/// Returns whether specimens with the answer's parameters were tested. Only then are there medians, even where every
+/// test of them failed.
 bool was_tested(const CalibrationRecord& record)
 {
   return std::any_of(record.parameters.begin(), record.parameters.end(), [](const auto& row) { return row.median; });
@@ -96,7 +97,7 @@ Table prediction_table(const CalibrationRecord& record)
   return table;
 }
 
-/// What tables call a figure or a parameter; its name in files in words where none has it.
+/// Title of a figure or a parameter in tables; none if no row has this name.
 template <typename Row>
 std::optional<std::string> title_in(const std::vector<Row>& rows, const std::string& name)
 {

@@ -1,6 +1,7 @@
 #include "report/sections/comparison.h"
 
 #include "base/text.h"
+#include "laboratory/named_entries.h"
 #include "results/fits/direct_shear.h"
 #include "results/fits/hoek_brown.h"
 #include "results/fits/mohr_coulomb.h"
@@ -52,7 +53,7 @@ std::map<std::uint64_t, std::vector<EnvelopePoint>> points_by_seed(const std::ve
   return points;
 }
 
-/// Of each seed with more points of compression than such a line has parameters.
+/// Mohr-Coulomb line of each seed with more points of compression than the line has parameters.
 std::map<std::uint64_t, MohrCoulombFit> lines_by_seed(const std::vector<FinishedTest>& tests)
 {
   std::map<std::uint64_t, MohrCoulombFit> lines;
@@ -75,7 +76,7 @@ BySeed rock_constants_by_seed(const std::vector<FinishedTest>& tests)
 
 std::string megapascals(const double stress) { return fmt::format("{:g}", std::round(stress) / 1e6); }
 
-/// What the highest stress of a test is called. A notched body has its own name of it.
+/// Name of the highest stress of a test. A notched body has its own name for it.
 std::string strength_name(const TestKind& kind, const bool flawed)
 {
   return !flawed || kind.has_notch || kind.follows_stages ? std::string(kind.strength)
@@ -100,7 +101,7 @@ std::string strength_key(const TestGroup& group)
   return fmt::format("{}_strength_MPa", group.name());
 }
 
-/// Which figure of a key the reference has; empty of other keys.
+/// Returns which figure of a key the reference has; empty for other keys.
 std::string chosen(const ElasticFigures& elastic, const std::string_view key)
 {
   return key == "youngs_modulus_GPa" ? elastic.youngs_modulus : key == "poissons_ratio" ? elastic.poissons_ratio : "";
@@ -134,7 +135,7 @@ std::vector<TestKind> notched_kinds(const std::vector<FinishedTest>& tests)
   return kinds;
 }
 
-/// Of each seed with shear tests that have one.
+/// Shear line of each seed with shear tests that have one.
 std::map<std::uint64_t, ShearLine> shear_lines(const std::vector<FinishedTest>& tests)
 {
   std::map<std::uint64_t, std::vector<const FinishedTest*>> of_seed;
@@ -281,7 +282,7 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
       add_property(rock_property("direct_shear_cohesion_MPa"),
                    each(lines, [](const auto& line) { return line.cohesion; }));
     }
-  // Which body it is: two with different gaps are different rocks.
+  // Rows that identify the body: two bodies with different gaps are different rocks.
   for (double SpecimenReport::*const member :
        {&SpecimenReport::installation_gap_ratio, &SpecimenReport::coordination_number_core, &SpecimenReport::porosity})
     add(std::string(quantity_of(member).title), quantity_of(member).shown, of_bodies(tests, member), "", 1.0);
@@ -311,7 +312,7 @@ namespace
 {
 constexpr std::size_t page = 80; // characters of a line
 
-/// Whether it is given to a model instead of asked of it.
+/// Returns whether a property is given to a model instead of expected from it.
 bool is_given(const std::string_view key)
 {
   return std::any_of(std::begin(rock_properties), std::end(rock_properties),
@@ -347,8 +348,8 @@ std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& 
           sentences.push_back(sentence);
       }
   if (const auto keys = properties_without_a_test(rows, reference); !keys.empty())
-    sentences.push_back(fmt::format(
-      "Not tested here: the experiment's {}; Tests/List and Tests/Confinements add tests.", fmt::join(keys, ", ")));
+    sentences.push_back(fmt::format("Not tested here: the experiment's {}; {} and {} add tests.", fmt::join(keys, ", "),
+                                    input_entries::test_list.text(), input_entries::confinements.text()));
   return sentences;
 }
 

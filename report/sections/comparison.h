@@ -25,9 +25,9 @@ struct ComparisonRow
 
   /// The deviation of our mean from that of the experiment, over the latter; none without either.
   std::optional<double> deviation() const;
-  /// Whether our mean lies in the range of the experiment; none without either.
+  /// Returns whether our mean lies in the range of the experiment; none without either.
   std::optional<bool> in_range() const;
-  /// Whether all of the 95 % interval of our mean lies in that range; none without either.
+  /// Returns whether all of the 95 % interval of our mean lies in that range; none without either.
   std::optional<bool> surely_in_range() const;
 };
 
@@ -41,16 +41,17 @@ std::vector<ComparisonRow> compare(const std::vector<FinishedTest>& tests, const
 /// of tests.
 std::string as_text(const ComparisonRow& row, const std::optional<ReferenceValue>& value, const std::string& unit = "");
 
-/// What the experiment gives that no test of these rows was made for, by its names in the reference file; not the density,
-/// which is given to a model.
+/// Properties that the experiment gives and no test of these rows was made for, by their names in the reference file.
+/// The density is not among them, because it is given to a model.
 std::vector<std::string> properties_without_a_test(const std::vector<ComparisonRow>& rows,
                                                    const std::optional<Reference>& reference);
 
-/// What the experiment gives and these rows do not: why tests gave no figure, and which properties were not tested.
+/// Sentences on properties that the experiment gives and these rows do not: why tests gave no figure, and which
+/// properties were not tested.
 std::vector<std::string> sentences_on_missing(const std::vector<ComparisonRow>& rows,
                                               const std::optional<Reference>& reference);
 
-/// For a terminal, with these sentences.
+/// The comparison for a terminal, with these sentences.
 std::string as_text(const std::vector<ComparisonRow>& rows, const std::optional<Reference>& reference);
 
 /// These sentences for a terminal; empty where there are none.

@@ -92,7 +92,7 @@ std::vector<std::string> row_of(const Beginning& source, const std::string& prop
   return row;
 }
 
-/// What the reference has of any property that the series are compared in.
+/// Adds the reference's values of all properties in which the series are compared.
 void add_reference(DataFrame& frame, const Findings& findings, const Beginning& source,
                    std::optional<ReferenceValue> ComparisonRow::*value)
 {

@@ -19,7 +19,7 @@ struct Cost
   Statistics time; ///< sum of the times of a specimen's tests, each on one core [s]
 };
 
-/// None of a series without grains.
+/// Cost of a series; none without grains.
 std::optional<Cost> cost_of(const Series& series);
 
 /// The comparison for a data frame, a row for each property of each source: the series, the experiment and the other model

@@ -53,7 +53,7 @@ std::vector<std::string> arranged(const std::string& heading, const std::vector<
   return line;
 }
 
-/// Of these series, by their names, in the order in which they come.
+/// Properties of these series by their names, in the order in which they come.
 std::vector<std::string> properties_of(const Findings& findings, const std::vector<std::size_t>& compared)
 {
   std::vector<std::string> properties;
@@ -162,7 +162,7 @@ Table comparison_table(const Findings& findings)
     {"property"},
     {},
     comparison_frame(findings)};
-  // Of one series the model stands beside the rock; of several each is held against the rock, which comes first.
+  // With one series the model stands beside the rock; with several, each is compared with the rock, which comes first.
   std::vector<std::string> rock;
   if (findings.reference)
     rock = {findings.reference->experiment.label + ", mean (range)", findings.reference->model.label};

@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "report/sections/sections.h"
 
 #include "base/append.h"
@@ -34,17 +35,18 @@ std::string with_symbols(std::string text)
 /// The likely cause of points that rise most steeply up to the first confinement, where platens let the ends widen.
 std::string remark_on_platens(const Series& series, const StrengthData& data)
 {
-  std::string friction = series.made_by.value_of("Tests", "Platen friction");
+  std::string friction = series.made_by.value_of(input_entries::platen_friction);
   if (!series.tests.empty())
     for (const VariantSetting& setting : series.tests.front().settings)
-      if (setting.entry == "Tests/Platen friction")
+      if (setting.entry == input_entries::platen_friction.text())
         friction = setting.value;
   if (series.kind != SeriesKind::specimens || friction.empty() || std::strtod(friction.c_str(), nullptr) != 0.0 ||
       !rises_more_steeply_under_confinement(data))
     return "";
-  return "The strengths rise most steeply up to the first confinement. Smooth platens are a likely cause: between them a specimen splits "
-         "early without confinement. The friction of a laboratory's platens raises the uniaxial strength most (Tests/Platen "
-         "friction).";
+  return fmt::format(
+    "The strengths rise most steeply up to the first confinement. Smooth platens are a likely cause: between them a specimen splits "
+    "early without confinement. The friction of a laboratory's platens raises the uniaxial strength most ({}).",
+    input_entries::platen_friction.text());
 }
 
 std::string text_of(const MohrCoulombFit& fit)
@@ -53,13 +55,14 @@ std::string text_of(const MohrCoulombFit& fit)
                      estimate(fit.friction_angle, std::numbers::pi / 180.0, 1), estimate(fit.cohesion, mega, 1));
 }
 
-/// Whether its interval reaches 0, so that the points do not determine it.
+/// Returns whether the interval of a parameter reaches 0, so that the points do not determine it.
 bool is_undetermined(const Estimate& parameter)
 {
   return parameter.half_width.value && *parameter.half_width.value >= std::abs(parameter.value);
 }
 
-/// Without freedom there is nothing to be judged, and parameters that the points leave open are not admissible.
+/// Verdict on a fit. Without freedom there is nothing to be judged, and parameters that the points leave open are not
+/// admissible.
 std::string verdict_on(const FitQuality& quality, const std::vector<Estimate>& parameters, const std::string& otherwise)
 {
   if (quality.degrees_of_freedom == 0)
@@ -146,7 +149,7 @@ Table residual_table(const StrengthEnvelopes& envelopes, const std::string& name
   return table;
 }
 
-/// Whether an envelope that another source prints meets its own uniaxial tests; empty if there is none.
+/// Remark whether an envelope that another source prints meets its own uniaxial tests; empty if there is none.
 std::string remark_on_printed(const ReferenceSource& source)
 {
   const auto measured = source.find("uniaxial_compressive_strength_MPa");
@@ -161,7 +164,8 @@ std::string remark_on_printed(const ReferenceSource& source)
   return text + ".";
 }
 
-/// Whether the strengths lie at two places of the axis of σ₃ or more, tension being one of them: less is no envelope.
+/// Returns whether the strengths lie at two or more places of the axis of σ₃, tension being one of them: fewer are no
+/// envelope.
 bool make_an_envelope(const StrengthData& data)
 {
   return !data.points.empty() &&
@@ -170,7 +174,7 @@ bool make_an_envelope(const StrengthData& data)
           }));
 }
 
-/// Of a series that the page has no room for.
+/// Block of a series that the page has no room for: its pictures are files.
 PageBlock as_files(const Findings& findings, const std::size_t n, PictureBook& book)
 {
   const StrengthEnvelopes& envelopes = findings.envelopes[n];

@@ -12,11 +12,11 @@
 
 namespace feldspar
 {
-/// Of more series than these a page shows each as a row of its tables, and pictures of these alone. So many of a small rock
-/// take some 5 MB of the 10 MB of a page.
+/// Largest number of series that a page shows in full. With more series, each is a row of its tables, and only so many
+/// have pictures. So many of a small rock take some 5 MB of the 10 MB of a page.
 inline constexpr std::size_t most_series_in_full = 12;
 
-/// Everything that sections are made of, computed once. What it refers to outlives it.
+/// Everything that sections are made of, computed once. The series and references that it refers to must outlive it.
 struct Findings
 {
   const std::vector<Series>& all;
@@ -32,7 +32,7 @@ struct Findings
   bool has_several() const { return all.size() > 1; }
   bool has_many() const { return all.size() > most_series_in_full; }
 
-  /// Whether the n-th has blocks and pictures of its own: one of the first, or measured on rock.
+  /// Returns whether the n-th series has blocks and pictures of its own: one of the first, or measured on rock.
   bool is_in_full(std::size_t n) const
   {
     return n < most_series_in_full || all[n].kind == SeriesKind::laboratory_curve;
@@ -44,7 +44,7 @@ struct Findings
   /// A block that says which series pictures show, and `others`, a sentence; empty where all are there.
   std::vector<PageBlock> remark_on_pictures(const std::string& others) const;
 
-  /// Nothing of a single series, else something that tells the files of the n-th apart.
+  /// Text that tells the files of the n-th series apart; empty for a single series.
   std::string ending_of_files(std::size_t n) const;
 
   /// The heading of what belongs to the n-th of several series; an empty block of a single one.

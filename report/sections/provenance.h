@@ -10,8 +10,8 @@ namespace feldspar
 /// Program, input and machine in a sentence.
 std::string sentence_of(const Provenance& made_by);
 
-/// The input as it was understood, under a name for its file. Of a series beside another one, `first` under `label`, only
-/// the entries in which the two differ.
+/// The input as it was understood, under a name for its file. For a series beside another one, `first` under `label`,
+/// only the entries in which the two differ.
 Table input_table(const Provenance& made_by, const std::string& name);
 Table input_table(const Provenance& made_by, const std::string& name, const Provenance& first,
                   const std::string& label);

@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "report/sections/sections.h"
 
 #include "base/append.h"
@@ -17,17 +18,16 @@ namespace
 {
 using namespace text;
 
-/// Where the representative volumes (RVEs) that are drawn stand, with what broke in them.
+/// Positions of the representative volumes (RVEs) that are drawn, with what broke in them.
 std::vector<Table> rve_tables(const FinishedTest& test, const std::string& title, const std::string& ending)
 {
   if (test.appearance.rves.empty())
     return {};
   Table table{
     "rves_" + test.name + ending,
-    fmt::format(
-      "{}, seed {}: the representative volumes (RVEs) that are drawn; feldspar multiscale FOLDER --extract CELL:POINT "
-      "writes these or any other for ParaView and for feldspar rve",
-      title, test.record.seed),
+    fmt::format("{}, seed {}: the representative volumes (RVEs) that are drawn; {} FOLDER --extract CELL:POINT "
+                "writes these or any other for ParaView and for {}",
+                title, test.record.seed, input_entries::multiscale, input_entries::rve),
     {"RVE", "where", "cell:point", "broken segments", "of all [%]", "in shear"},
     {}};
   for (std::size_t k = 0; k < test.appearance.rves.size(); ++k)

@@ -7,7 +7,7 @@
 /// The sections of the page, a file each; those with pictures keep them in the book, which draws them all at the end.
 namespace feldspar
 {
-/// Whether the model is the rock, each series beside the reference, and every warning.
+/// Verdict on whether the model agrees with the rock, each series beside the reference, and every warning.
 PageSection verdict_section(const Findings& findings);
 
 /// Results over the entries that take several numbers; nothing where there are none.
@@ -25,7 +25,7 @@ PageSection curve_section(const Findings& findings, PictureBook& book);
 /// Samples of finite elements at the end of their tests; nothing of specimens and of samples without grains.
 PageSection sample_section(const Findings& findings, PictureBook& book);
 
-/// Where cracks are, their directions, and the fragments.
+/// Positions and directions of cracks, and the fragments.
 PageSection crack_section(const Findings& findings, PictureBook& book);
 
 /// Checks of the method, specimens, provenance and input, and every test.

@@ -51,7 +51,7 @@ std::vector<StudyColumn> columns(const std::vector<std::vector<ComparisonRow>>& 
   return all;
 }
 
-/// What a variant is called in a line: the values of its entries, which stand above the table.
+/// Name of a variant in a line: the values of its entries, which stand above the table.
 std::string values_of(const FinishedTest& test)
 {
   if (test.settings.empty())

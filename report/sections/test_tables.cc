@@ -21,7 +21,7 @@ using namespace text;
 
 namespace
 {
-/// Whether a quantity has a column where it is shown at all.
+/// Returns whether a quantity that is shown at all has a column.
 bool has_column(const TestQuantity& quantity, const Findings& findings)
 {
   if (quantity.column != PageColumn::where_given)

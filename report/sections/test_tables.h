@@ -8,12 +8,12 @@ namespace feldspar
 /// Mean strengths of every kind of test.
 Table strength_table(const Findings& findings);
 
-/// How the specimens came out, one a line; of seeds of which a test was made.
+/// Figures of the specimens, one a line, for seeds with which a test was made.
 Table specimen_table(const Series& series);
 
 /// The stages of tests that follow a loading table, a row each; no rows where there are no such tests.
 Table stage_table(const std::vector<FinishedTest>& tests);
 
-/// Figures of every test in SI: the page shows those that are looked at most, the file has all.
+/// Figures of every test in SI: the page shows those that are read most, the file has all.
 Table test_table(const Findings& findings);
 } // namespace feldspar

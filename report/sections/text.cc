@@ -58,7 +58,7 @@ std::string mean_and_deviation(const Statistics& over_seeds, const double unit, 
 
 std::string interval(const Statistics& over_seeds, const double unit, const int decimals)
 {
-  // From two it is thirteen standard deviations wide.
+  // An interval from two values is thirteen standard deviations wide.
   constexpr std::size_t fewest = 3;
   if (over_seeds.n < fewest || !over_seeds.confidence_95 || *over_seeds.confidence_95 >= std::abs(over_seeds.mean))
     return none;

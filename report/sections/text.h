@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/prefixes.h"
+#include "laboratory/record.h"
 #include "results/fits/fit.h"
-#include "results/record.h"
 #include "results/statistics.h"
 
 #include <string>
@@ -13,7 +13,7 @@ namespace feldspar::text
 inline constexpr const char* none = "–";
 
 std::string number(double value, int decimals); ///< zero without a sign
-/// To so many figures, without an exponent and without decimals beyond them: 0.150, 15.3, 119.
+/// Number to so many figures, without an exponent and without decimals beyond them: 0.150, 15.3, 119.
 std::string significant(double value, int figures);
 std::string sentence(std::string words);                                ///< with a capital letter and a full stop
 std::string number(const Figure& figure, double unit, int decimals);    ///< or none

@@ -11,7 +11,7 @@ namespace feldspar
 {
 namespace
 {
-/// How sure it is on which side of the range our mean lies, from the second clause on; empty where it is.
+/// Caveat on which side of the range our mean lies, from the second clause on; empty where the side is sure.
 std::string caveat(const ComparisonRow& row)
 {
   if (!row.in_range())

@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// Whether the model is the rock, in words.
+/// Verdict in words on whether the model agrees with the rock.
 struct Verdict
 {
   std::string headline;

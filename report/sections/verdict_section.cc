@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "report/sections/sections.h"
 
 #include "report/pictures/plot_style.h"
@@ -20,7 +21,7 @@ namespace
 /// The material of the points, as the input names it.
 std::string material_at_points(const Provenance& made_by)
 {
-  const std::string material = made_by.value_of("Sample", "Material");
+  const std::string material = made_by.value_of(input_entries::material);
   if (material.empty())
     return "";
   return material == "grains" ? " with a representative volume of grains at every point"
@@ -99,7 +100,8 @@ PageSection verdict_section(const Findings& findings)
                       {}};
   if (findings.has_many())
     section.blocks.push_back(verdict_of_many(findings));
-  // What keeps all models from being compared is said once: of one model in its headline, of several below them.
+  // A problem that keeps all models from being compared is said once: for one model in its headline, for several below
+  // them.
   const auto n_models = std::count_if(findings.all.begin(), findings.all.end(),
                                       [](const Series& series) { return series.kind != SeriesKind::laboratory_curve; });
   const bool is_problem_below = !findings.reference_problem.empty() && n_models != 1;

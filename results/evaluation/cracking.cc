@@ -10,7 +10,7 @@ std::uint64_t n_cracks(const CurveSample& row) { return row.n_tension_cracks + r
 
 constexpr const char* no_crack = "no crack before the peak";
 
-/// Where the volume is smallest, if it grows again before the peak.
+/// Row at which the volume is smallest, if it grows again before the peak.
 std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
 {
   const auto row =
@@ -22,7 +22,7 @@ std::optional<std::size_t> most_contracted_row(const RisingBranch& branch)
   return std::size_t(row - branch.rows.begin());
 }
 
-/// In a grain-based model, cracks on grain boundaries.
+/// Number of cracks on grain boundaries, in a grain-based model.
 double n_smooth_cracks(const RisingBranch& branch, const CrackKind kind)
 {
   const auto& cracks = branch.record.cracks;
@@ -85,7 +85,7 @@ Figure crack_initiation_stress_lateral(const RisingBranch& branch)
   return known(branch.stress(branch.rows[at]));
 }
 
-/// Where volumetric strain, contracting at first, turns round.
+/// Stress at which the volumetric strain, contracting at first, turns round.
 Figure crack_damage_stress(const RisingBranch& branch)
 {
   if (const auto row = most_contracted_row(branch))
@@ -128,9 +128,10 @@ Figure smooth_tension_share_at_peak(const RisingBranch& branch)
   return share_of_cracks(branch, n_smooth_cracks(branch, CrackKind::tension));
 }
 
-/// Where a disc that is to be split breaks first. Hondros' tension across the loaded diameter, of a disc loaded over 20° at
-/// either end, is at least half of that in the middle up to 0.68 of the radius (docs/theory.md §4.4). Single grains at a pad
-/// may crack before the disc does, so that the first third of the cracks up to the peak counts.
+/// Share of the first cracks of a disc near its pads, which tells where a disc that is to be split breaks first.
+/// Hondros' tension across the loaded diameter, of a disc loaded over 20° at either end, is at least half of that in
+/// the middle up to 0.68 of the radius (docs/theory.md §4.4). Single grains at a pad may crack before the disc does, so
+/// that the first third of the cracks up to the peak counts.
 Figure first_cracks_at_pads_share(const RisingBranch& branch)
 {
   constexpr double middle_part = 0.68;

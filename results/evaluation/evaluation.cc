@@ -1,7 +1,7 @@
 #include "results/evaluation.h"
 
+#include "laboratory/peak.h"
 #include "results/evaluation/rising_branch.h"
-#include "results/peak.h"
 
 namespace feldspar
 {
@@ -32,7 +32,7 @@ TestResults evaluate(const TestRecord& record)
       results.energy_imbalance = last.energies.imbalance();
       results.energy_imbalance_over_work = last.energies.imbalance_over_work();
     }
-  // What looks like a peak before the stop rule was met may not be one.
+  // A maximum before the stop rule was met may not be a peak.
   const PeakVerdict verdict =
     record.interrupted
       ? PeakVerdict{std::nullopt, record.failure.empty() ? "interrupted before its end" : record.failure}

@@ -1,6 +1,7 @@
+#include "laboratory/named_entries.h"
 #include "results/evaluation/rising_branch.h"
 
-/// How near the test was to being quasi-static, and how well the confinement was held.
+/// Measures of how near the test was to being quasi-static, and how well the confinement was held.
 namespace feldspar::evaluation
 {
 namespace
@@ -32,7 +33,7 @@ Figure kinetic_to_strain_energy(const RisingBranch& branch)
 Figure unbalanced_force_ratio(const RisingBranch& branch)
 {
   if (branch.record.body != TestBody::grains)
-    return unknown("Newton's method holds it at Sample/Newton tolerance");
+    return unknown("Newton's method holds it at " + input_entries::newton_tolerance.text());
   double sum = 0.0;
   double n_rows = 0.0;
   branch.loaded_rows([&](const CurveSample& row) {
@@ -62,7 +63,7 @@ Figure p_wave_transits_to_peak(const RisingBranch& branch)
     return unknown("the wave speed needs the initial modulus and Poisson's ratio");
   const double nu = *of_ratio.value;
   const double modulus = *of_modulus.value;
-  // Of a thin plate in the plane, of the bulk in space.
+  // Stiffness of a thin plate in the plane, of the bulk in space.
   const double stiffness =
     record.dimension() == 2 ? modulus / (1.0 - nu * nu) : modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
   const double wave_speed = std::sqrt(stiffness / record.bulk_density);

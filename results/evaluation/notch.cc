@@ -1,3 +1,4 @@
+#include "laboratory/named_entries.h"
 #include "results/evaluation/rising_branch.h"
 
 /// Figures of bodies with a notch (docs/theory.md §4.8).
@@ -8,8 +9,9 @@ Figure fracture_toughness(const RisingBranch& branch)
   const NotchGeometry& notch = *branch.record.notch;
   return notch.is_valid
            ? known(notch.intensity_over_stress * branch.stress(branch.at_peak()))
-           : unknown("the body lies outside of the range of the formula: a half disc has a toughness with Tests/Notch "
-                     "ratio from 0.4 to 0.6, a plate that is 1.2 times as long between its grips as it is wide");
+           : unknown("the body lies outside of the range of the formula: a half disc has a toughness with " +
+                     input_entries::notch_ratio.text() +
+                     " from 0.4 to 0.6, a plate that is 1.2 times as long between its grips as it is wide");
 }
 
 /// The fracture energy from the work that the load did until it had fallen, over the ligament (RILEM 50-FMC 1985, the weight
@@ -27,6 +29,7 @@ Figure fracture_energy(const RisingBranch& branch)
       if (k >= branch.rows.size() && branch.stress(curve[k]) < small_rest * branch.stress(branch.at_peak()))
         return known(work / notch.ligament_area);
     }
-  return unknown("the load did not fall to a tenth of its peak; Tests/Stop stress over peak = 0.05 lets it");
+  return unknown("the load did not fall to a tenth of its peak; " + input_entries::stop_stress.text() +
+                 " = 0.05 lets it");
 }
 } // namespace feldspar::evaluation

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/paired_moments.h"
+#include "laboratory/paired_moments.h"
 #include "results/quantities.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "laboratory/peak.h"
 #include "results/evaluation/rising_branch.h"
-#include "results/peak.h"
 
 namespace feldspar::evaluation
 {

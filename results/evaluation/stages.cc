@@ -1,5 +1,5 @@
+#include "laboratory/paired_moments.h"
 #include "results/evaluation.h"
-#include "results/paired_moments.h"
 
 #include <algorithm>
 

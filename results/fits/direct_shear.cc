@@ -1,6 +1,6 @@
 #include "results/fits/direct_shear.h"
 
-#include "results/paired_moments.h"
+#include "laboratory/paired_moments.h"
 
 #include <cmath>
 

@@ -49,7 +49,7 @@ struct PointResidual
   double residual; ///< sigma_1 of the point less that of the envelope [Pa]
 };
 
-/// How near the envelope comes to its points, in sigma_1.
+/// Quality of a fit: how near the envelope comes to its points, in sigma_1.
 struct FitQuality
 {
   int degrees_of_freedom;  ///< points less parameters; 0: any such envelope meets its points, which proves nothing

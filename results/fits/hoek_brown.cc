@@ -154,7 +154,7 @@ struct Descent
   double cost;
 };
 
-/// To the next minimum from x; infinite cost if there is none.
+/// Descends to the next minimum from x; infinite cost if there is none.
 template <int n>
 Descent<n> descend(const Task& task, const std::vector<EnvelopePoint>& points, std::array<double, n> x,
                    const std::vector<int>& held)

@@ -6,7 +6,7 @@
 
 namespace feldspar
 {
-/// Which parameters of the Hoek-Brown envelope are free.
+/// Free parameters of the Hoek-Brown envelope.
 enum class HoekBrownForm
 {
   as_paper, ///< m, s, a; sigma_ci is the measured uniaxial compressive strength

@@ -105,7 +105,7 @@ std::string table(const std::vector<Row>& rows)
   return result;
 }
 
-/// With the tension point, and more points than parameters; null if there is none.
+/// Fit with the tension point and more points than parameters; null if there is none.
 const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const HoekBrownForm form)
 {
   for (const auto& pair : envelopes.hoek_brown)
@@ -114,7 +114,7 @@ const HoekBrownFit* fit_with_freedom(const StrengthEnvelopes& envelopes, const H
   return nullptr;
 }
 
-/// Where the intact form is no envelope of these strengths; begins with a space, empty where it is.
+/// Remark that the intact form is no envelope of these strengths; begins with a space, empty where it is one.
 std::string remark_on_intact_form(const StrengthEnvelopes& envelopes)
 {
   const auto miss = miss_of_intact_form(envelopes);

@@ -29,15 +29,15 @@ struct StrengthEnvelopes
   const HoekBrownFit* representative() const;
 };
 
-/// By how much the intact form with the tension point misses its points: the root mean square over the measured uniaxial
-/// strength. None where it has no freedom left, or the uniaxial strength is not measured.
+/// Misfit of the intact form with the tension point: the root mean square over the measured uniaxial strength. None
+/// where the form has no freedom left, or the uniaxial strength is not measured.
 std::optional<double> miss_of_intact_form(const StrengthEnvelopes& envelopes);
 
-/// From this share of the uniaxial strength on an envelope is said to miss its points.
+/// Share of the uniaxial strength from which on an envelope is said to miss its points.
 inline constexpr double largest_miss = 0.1;
 
-/// Whether the points rise more steeply from the uniaxial test to the first confinement than from tension to the uniaxial test,
-/// which no envelope with a <= 1 can follow.
+/// Returns whether the points rise more steeply from the uniaxial test to the first confinement than from tension to
+/// the uniaxial test, which no envelope with a <= 1 can follow.
 bool rises_more_steeply_under_confinement(const StrengthData& data);
 
 StrengthEnvelopes fit_strength_envelopes(const StrengthData& data);
@@ -65,6 +65,7 @@ std::vector<FitRecord> records(const StrengthEnvelopes& envelopes);
 /// For a terminal: parameters, R², RMS, fitted against measured strengths, and the remark.
 std::string as_text(const StrengthEnvelopes& envelopes);
 
-/// In words: what is admissible, and why the paper's form says more than the measured uniaxial strength, if it does.
+/// Remark in words: what is admissible, and why the paper's form says more than the measured uniaxial strength, if it
+/// does.
 std::string remark(const StrengthEnvelopes& envelopes);
 } // namespace feldspar

@@ -6,6 +6,7 @@
 #include "base/quoted.h"
 #include "base/readable_file.h"
 #include "base/text.h"
+#include "laboratory/named_entries.h"
 #include "results/folder/provenance_json.h"
 
 #include <fmt/format.h>
@@ -32,11 +33,10 @@ std::optional<double> number_if_any(const Json& json, const char* key)
 ElasticFigures elastic_figures(const Provenance& made_by)
 {
   ElasticFigures figures;
-  for (const InputEntry& one : made_by.input)
-    if (one.section == "Calibration" && one.entry == "Youngs modulus")
-      figures.youngs_modulus = one.value;
-    else if (one.section == "Calibration" && one.entry == "Poissons ratio")
-      figures.poissons_ratio = one.value;
+  if (const std::string given = made_by.value_of(input_entries::elastic_modulus); !given.empty())
+    figures.youngs_modulus = given;
+  if (const std::string given = made_by.value_of(input_entries::lateral_ratio); !given.empty())
+    figures.poissons_ratio = given;
   return figures;
 }
 
@@ -136,7 +136,7 @@ std::optional<CalibrationRecord> read_calibration(const std::filesystem::path& f
     }
   catch (const Json::exception&)
     {
-      throw InputError(fmt::format("{}: not as feldspar calibrate writes it", file.string()));
+      throw InputError(fmt::format("{}: not as {} writes it", file.string(), input_entries::calibrate));
     }
   if (std::any_of(record.parameters.begin(), record.parameters.end(),
                   [](const auto& parameter) { return parameter.median.has_value(); }))

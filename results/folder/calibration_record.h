@@ -9,8 +9,8 @@
 
 namespace feldspar
 {
-/// Which figures of the uniaxial test the Young's modulus and the Poisson's ratio of a laboratory are, in the words of
-/// section Calibration of the input.
+/// Figures of the uniaxial test that a laboratory takes as Young's modulus and Poisson's ratio, in the words of section
+/// Calibration of the input.
 struct ElasticFigures
 {
   std::string youngs_modulus = "tangent"; ///< or initial, or secant

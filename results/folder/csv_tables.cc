@@ -75,7 +75,7 @@ void append_row(std::string& text, const Columns& columns, const Row& row, const
   text += '\n';
 }
 
-/// Where the columns stand in this table.
+/// Positions of the columns in this table.
 template <typename Columns>
 std::vector<std::optional<std::size_t>> places_of(const CsvReader& table, const Columns& columns)
 {

@@ -35,7 +35,7 @@ void write_cracks(const std::vector<Crack>& cracks, const std::string& name, con
                   const std::filesystem::path& file);
 TableRows<Crack> read_cracks(const std::filesystem::path& file, const std::string& name, const TestKind& kind);
 
-/// What the groups of a test's grains are called in files.
+/// Name of the groups of a test's grains in files.
 std::string group_name(const TestRecord& test);
 
 /// The grains of a test, where they were and where they came to. `group`: the column of the numbers of the groups they are

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "results/appearance.h"
+#include "laboratory/appearance.h"
 
 #include <filesystem>
 #include <string>

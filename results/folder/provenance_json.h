@@ -16,7 +16,7 @@ inline constexpr int summary_schema_version = 2;
 /// The oldest layout that is read in full.
 inline constexpr int oldest_summary_schema_version = 1;
 
-/// How every summary.json begins: layout, program, input and machine.
+/// Beginning of every summary.json: layout, program, input and machine.
 nlohmann::ordered_json as_json(const Provenance& provenance);
 
 /// Whole numbers are written as such.
@@ -32,7 +32,7 @@ nlohmann::ordered_json as_json(const std::vector<VariantSetting>& settings);
 /// The same read back; what is not so described is left out.
 std::vector<VariantSetting> read_settings(const nlohmann::ordered_json& json);
 
-/// As far as it is there.
+/// Reads the provenance as far as it is there.
 Provenance read_provenance(const nlohmann::ordered_json& summary);
 
 /// A text by its key; empty if there is none.

@@ -39,7 +39,10 @@ constexpr Property confined_strength{"strength_at_P_MPa", 0.1, 20000.0};
 constexpr Property other_strength{"KIND_strength_MPa", 1e-3, 20000.0};
 constexpr Property confinement{"confining_pressure_MPa", 0.0, 5000.0};
 
-/// Of `strength_at_5_MPa` and the like, the pressure [MPa]; none of another name.
+/// Largest number of single tests, and of figures, of a source: the fits of its envelopes take seconds with a thousand points.
+constexpr std::size_t most_strengths = 1000;
+
+/// Pressure [MPa] in `strength_at_5_MPa` and the like; none in another name.
 std::optional<double> pressure_in(const std::string_view name, const std::string_view beginning,
                                   const std::string_view ending)
 {
@@ -61,7 +64,7 @@ bool is_true_triaxial(const std::string_view name)
          pressure_in(name.substr(middle + 4), "_intermediate_", "_MPa_strength_MPa");
 }
 
-/// Of a test that gives no point of the envelope: direct_shear_5_MPa_strength_MPa.
+/// Returns whether this is the strength of a test that gives no point of the envelope: direct_shear_5_MPa_strength_MPa.
 bool is_strength_of(const TestKind& kind, const std::string_view name)
 {
   if (kind.envelope_role != EnvelopeRole::none)
@@ -83,7 +86,7 @@ std::optional<Property> property_of(const std::string_view name, const std::vect
   return std::nullopt;
 }
 
-/// In the list of what a reference may give.
+/// Keys of other tests in the list of what a reference may give.
 std::string keys_of_others(const std::vector<TestKind>& kinds)
 {
   std::string keys;
@@ -214,6 +217,8 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
 {
   if (!json.is_array() || json.empty())
     place.refuse(R"(must be a list of tests, [{"confining_pressure_MPa": 5, "strength_MPa": 240}, ...])");
+  if (json.size() > most_strengths)
+    place.refuse(fmt::format("has {} tests; there must be at most {}", json.size(), most_strengths));
   std::vector<EnvelopePoint> points;
   for (std::size_t k = 0; k < json.size(); ++k)
     {
@@ -232,7 +237,7 @@ std::vector<EnvelopePoint> triaxial_of(const Json& json, const Place& place)
   return points;
 }
 
-/// From two, the range in which 95 % of further tests would lie holds nearly every rock.
+/// Fewest tests for a range. From two, the range in which 95 % of further tests would lie holds nearly every rock.
 constexpr std::size_t fewest_for_a_range = 3;
 
 /// Means of the single tests under the names of mean strengths, where those are not given themselves.
@@ -278,6 +283,8 @@ ReferenceSource source_of(const Json& json, const std::string& label, const std:
   source.label = label;
   if (!json.is_object())
     place.refuse("must be an object of properties");
+  if (json.size() > most_strengths)
+    place.refuse(fmt::format("has {} names; there must be at most {}", json.size(), most_strengths));
   for (const auto& [name, entry] : json.items())
     {
       const Place at = place / name;

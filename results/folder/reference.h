@@ -1,7 +1,7 @@
 #pragma once
 
+#include "laboratory/kinds.h"
 #include "results/fits/strength_envelopes.h"
-#include "results/kinds.h"
 
 #include <filesystem>
 #include <map>
@@ -56,12 +56,12 @@ struct ReferenceSource
   std::vector<EnvelopePoint> triaxial; ///< single tests, also unconfined ones
   StrengthEnvelopes fitted;            ///< to its strengths
 
-  /// In units of `scale`; none if it is not there.
+  /// Value of a key in units of `scale`; none if it is not there.
   std::optional<ReferenceValue> find(const std::string& key, double scale = 1.0) const;
-  /// Its strengths under confinement by rising pressure: the single tests, and `strength_at_5_MPa` and so on where there
-  /// are none [Pa].
+  /// Strengths of the source under confinement by rising pressure: the single tests, and `strength_at_5_MPa` and so on
+  /// where there are none [Pa].
   std::vector<EnvelopePoint> strengths() const;
-  /// By its friction angle and cohesion; none without both.
+  /// Line by the friction angle and cohesion of the source; none without both.
   std::optional<PrintedLine> line() const;
 };
 

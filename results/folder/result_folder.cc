@@ -9,6 +9,7 @@
 #include "results/folder/summary.h"
 #include "results/folder/tests_table.h"
 #include "results/runs/quantity_values.h"
+#include "results/sample_fields.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,7 +47,7 @@ Json read_summary(const std::filesystem::path& folder)
   return json;
 }
 
-/// Those that are described as this program does it; they are for pictures alone.
+/// Flaws that are described as this program does it; they are for pictures alone.
 std::vector<FlawPicture> flaws_of(const Json& json)
 {
   std::vector<FlawPicture> flaws;
@@ -66,7 +67,7 @@ std::vector<FlawPicture> flaws_of(const Json& json)
   return flaws;
 }
 
-/// Of a test that follows a loading table; none where a member is missing.
+/// Stages of a test that follows a loading table; none where a member is missing.
 std::vector<StageRecord> stages_of(const Json& json)
 {
   std::vector<StageRecord> stages;
@@ -85,7 +86,8 @@ std::vector<StageRecord> stages_of(const Json& json)
   return stages;
 }
 
-/// Of a test of a notched body; none where a member is missing. Layouts from before lengths were written have none of them.
+/// Notch of the body of a test; none where a member is missing. Layouts from before lengths were written have none of
+/// them.
 std::optional<NotchGeometry> notch_of(const Json& json)
 {
   const auto notch = json.find("notch");
@@ -106,7 +108,8 @@ std::optional<NotchGeometry> notch_of(const Json& json)
     }
 }
 
-/// Of layouts from before they were written, or where a member is missing, those by default.
+/// Demands on the peak of a test; the defaults in layouts from before demands were written, or where a member is
+/// missing.
 PeakDemands peak_demands_of(const Json& json)
 {
   const auto demands = json.find("peak_demands");
@@ -179,7 +182,7 @@ std::string name_of(const PointRve& rve, const std::string& test)
   return fmt::format("{}_cell_{}_point_{}", test, rve.cell, rve.point);
 }
 
-/// By the tables that tests have.
+/// Writes an RVE by the tables that tests have.
 void write_rve(const PointRve& rve, const FinishedTest& of, const std::filesystem::path& folder)
 {
   const std::string name = name_of(rve, of.name);
@@ -324,7 +327,7 @@ std::vector<Series> read_result_folder(const std::filesystem::path& folder, cons
           }))
         {
           test.record.stages.clear();
-          if (!test.record.curve.empty()) // a table that is missing has been told
+          if (!test.record.curve.empty()) // a table that is missing has been reported
             of_stages.push_back(fmt::format("{}: the stages of {} are not those of its curve", summary, test.name));
         }
       if (test.record.body == TestBody::grains)

@@ -24,7 +24,7 @@ struct Component
   std::size_t place;
 };
 
-/// None of a field that is no component of a tensor in the axes of the mesh.
+/// Component that a field is; none if it is no component of a tensor in the axes of the mesh.
 std::optional<Component> component(const std::string& field, const bool is_axisymmetric)
 {
   if (is_axisymmetric && field.starts_with("crack_orientation"))

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "results/curve.h"
-#include "results/kinds.h"
+#include "laboratory/curve.h"
+#include "laboratory/kinds.h"
 
 #include <filesystem>
 #include <string>

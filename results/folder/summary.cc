@@ -172,7 +172,7 @@ Json ensemble(const std::vector<FinishedTest>& tests)
   return json;
 }
 
-/// How far the tests of each rock can be trusted.
+/// Verdict on how far the tests of each rock can be trusted.
 Json verdict(const std::vector<FinishedTest>& tests)
 {
   Json json = Json::array();

@@ -8,8 +8,8 @@
 
 namespace feldspar
 {
-/// Writes summary.json: provenance, every test's figures in SI units, means over seeds, and the envelopes of a run without
-/// variants. What could not be had is null, with the reason in a field of the same name and `_reason`.
+/// Writes summary.json: provenance, every test's figures in SI units, means over seeds, and the envelopes of a run
+/// without variants. A figure that could not be had is null, with the reason in a field of the same name and `_reason`.
 void write_summary(const Provenance& provenance, const std::vector<FinishedTest>& tests, const RunEnvelopes& envelopes,
                    const std::filesystem::path& file);
 } // namespace feldspar

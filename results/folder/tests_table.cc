@@ -13,7 +13,7 @@ namespace feldspar
 {
 namespace
 {
-/// With quotes where a reader of CSV needs them.
+/// Text of a cell, with quotes where a reader of CSV needs them.
 std::string cell(const std::string& text)
 {
   if (text.find_first_of(",\"\n\r") == std::string::npos)

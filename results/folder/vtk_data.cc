@@ -108,7 +108,7 @@ void VtkData::write(const std::filesystem::path& file) const
                               : kind == Cells::points ? "Verts"
                               : kind == Cells::lines  ? "Lines"
                                                       : "Polys";
-  // What belongs to single points is known of these, so that glyphs find it.
+  // Data of cells that are single points are written as data of points, so that glyphs find them.
   const bool are_points = kind == Cells::points;
   write_whole_file(
     file, fmt::format("<?xml version=\"1.0\"?>\n"

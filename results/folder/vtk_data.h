@@ -39,7 +39,7 @@ public:
   /// A value of the whole.
   void of_all(const std::string& name, double value);
 
-  /// How its files are to end: vtu of hexahedra, else vtp.
+  /// Ending of its files: vtu for hexahedra, otherwise vtp.
   std::string ending() const;
 
   /// Throws OutputError.

@@ -1,5 +1,7 @@
 #include "results/runs/bodies.h"
 
+#include "laboratory/named_entries.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +12,9 @@ namespace feldspar
 {
 namespace
 {
-/// Of the larger gap. From 0.024 to 0.046 mean radii the compressive strength of the plane rock rises by a sixth
-/// (docs/multiscale-and-grains.md), so that a difference of this share moves it by a hundredth or two.
+/// Share of the larger gap within which two gaps are alike. From 0.024 to 0.046 mean radii the compressive strength of
+/// the plane rock rises by a sixth (docs/multiscale-and-grains.md), so that a difference of this share changes it by a
+/// hundredth or two.
 constexpr double alike_within = 0.05;
 
 std::string bulk(const BodyFigures& figures)
@@ -69,8 +72,9 @@ std::string gap_remark(const BodyFigures& one, const BodyFigures& other)
   return fmt::format(
     "{} and {} are different rocks: their grains are joined up to gaps of {:.4f} and {:.4f} mean radii "
     "(coordination number in the bulk {} and {}, porosity {:.3f} and {:.3f}); strength rises with the "
-    "gap, so give both the same Installation gap ratio",
-    one.label, other.label, gap_1, gap_2, bulk(one), bulk(other), one.porosity.mean, other.porosity.mean);
+    "gap, so give both the same {}",
+    one.label, other.label, gap_1, gap_2, bulk(one), bulk(other), one.porosity.mean, other.porosity.mean,
+    input_entries::installation_gap.entry);
 }
 
 std::vector<std::string> gap_remarks(const std::vector<Series>& all)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/specimen/specimen_report.h"
+#include "laboratory/specimen_report.h"
 #include "results/runs/series.h"
 #include "results/statistics.h"
 
@@ -15,7 +15,7 @@
 /// them apart, because walls take joints.
 namespace feldspar
 {
-/// Over the specimens, or the representative volumes, of a series.
+/// Means over the specimens, or the representative volumes, of a series.
 struct BodyFigures
 {
   std::string label;
@@ -27,7 +27,7 @@ struct BodyFigures
 /// The specimen of each seed, whole: a test on a part of it, such as a disc, has fewer grains.
 std::map<std::uint64_t, SpecimenReport> whole_bodies(const std::vector<FinishedTest>& tests);
 
-/// None of bodies without grains.
+/// Figures of bodies; none without grains.
 std::optional<BodyFigures> body_figures(const std::string& label, const std::vector<SpecimenReport>& bodies);
 /// One body a seed.
 std::optional<BodyFigures> body_figures(const Series& series);

@@ -51,7 +51,7 @@ std::map<std::string, StudiedVariant> variants_of(const std::vector<const Finish
   return variants;
 }
 
-/// Of each entry the values that it takes in these variants.
+/// Values that each entry takes in these variants.
 std::map<std::string, std::set<std::string>> values_in(const Alike& variants)
 {
   std::map<std::string, std::set<std::string>> values;

@@ -5,10 +5,11 @@
 
 namespace feldspar
 {
-std::string Provenance::value_of(const std::string& section, const std::string& entry) const
+std::string Provenance::value_of(const input_entries::EntryName& wanted) const
 {
-  const auto found = std::find_if(input.begin(), input.end(),
-                                  [&](const InputEntry& one) { return one.section == section && one.entry == entry; });
+  const auto found = std::find_if(input.begin(), input.end(), [&](const InputEntry& one) {
+    return one.section == wanted.section && one.entry == wanted.entry;
+  });
   return found == input.end() ? "" : found->value;
 }
 

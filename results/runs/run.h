@@ -1,7 +1,8 @@
 #pragma once
 
+#include "laboratory/named_entries.h"
+#include "laboratory/test_outcome.h"
 #include "results/evaluation.h"
-#include "results/test_outcome.h"
 #include "results/variant_setting.h"
 
 #include <string>
@@ -27,8 +28,8 @@ struct Provenance
   std::string processor;
   unsigned int n_threads = 1;
 
-  /// With its unit; empty where the input is not known or has no such entry.
-  std::string value_of(const std::string& section, const std::string& entry) const;
+  /// Value of an entry with its unit; empty where the input is not known or has no such entry.
+  std::string value_of(const input_entries::EntryName& wanted) const;
 };
 
 /// A finished test with its results.
@@ -43,18 +44,19 @@ struct FinishedTest
   TestAppearance appearance;
   RunBookkeeping bookkeeping;
 
-  /// Whether it ran to its end.
+  /// Returns whether the test ran to its end.
   bool was_made() const { return record.failure.empty() && !record.interrupted; }
-  /// Whether its figures may be averaged with those of others: it ran to its end and is a valid test of its kind.
+  /// Returns whether the figures of the test may be averaged with those of others: it ran to its end and is a valid
+  /// test of its kind.
   bool counts() const { return was_made() && results.is_valid(); }
-  /// Whether the body has holes, slots or joints: its highest stress is then nominal, load over the whole section, and
-  /// not a strength of the rock.
+  /// Returns whether the body has holes, slots or joints: its highest stress is then nominal, load over the whole
+  /// section, and not a strength of the rock.
   bool has_flaws() const { return !appearance.flaws.empty(); }
 };
 
 bool any_has_flaws(const std::vector<FinishedTest>& tests);
 
-/// With the figures read off its record.
+/// A finished test, with the figures read off its record.
 FinishedTest finished(TestOutcome outcome, std::string group, std::string name, std::string variant,
                       std::vector<VariantSetting> settings = {});
 } // namespace feldspar

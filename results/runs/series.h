@@ -11,9 +11,9 @@ namespace feldspar
 /// The bodies of the tests of a series.
 enum class SeriesKind
 {
-  specimens,       ///< of grains: `feldspar lab`
-  finite_elements, ///< with an RVE of grains or a law at every point: `feldspar multiscale`
-  laboratory_curve ///< measured on rock: `feldspar report --curve`
+  specimens,       ///< of grains
+  finite_elements, ///< with an RVE of grains or a law at every point
+  laboratory_curve ///< measured on rock
 };
 
 /// Tests on one rock that the report shows under one name and in one colour: a result folder, or a variant in it.

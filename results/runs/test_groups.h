@@ -43,7 +43,7 @@ const FinishedTest* typical(const TestGroup& group);
 std::vector<double> values(const TestGroup& group, Figure TestResults::*figure);
 
 /// The abscissa of a test: the axial strain, positive in the sense of the test, or the time [s]
-/// where a table leads the strain back and forth.
+/// where a table prescribes a strain back and forth.
 double abscissa(const TestKind& kind, const CurveSample& row);
 
 /// A quantity along the curves of a group: mean and standard deviation over the tests at the same abscissa, as far as all

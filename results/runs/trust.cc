@@ -1,6 +1,7 @@
 #include "results/runs/trust.h"
 
 #include "base/append.h"
+#include "laboratory/named_entries.h"
 #include "results/runs/quantity_values.h"
 #include "results/statistics.h"
 
@@ -59,7 +60,7 @@ Value porosity_change(const FinishedTest& test)
   return std::abs(grains - grains / std::pow(specimen.radius_multiplier, test.record.dimension()));
 }
 
-/// Of the body; quantities of tests have theirs in their table.
+/// Measure of the body; quantities of tests have theirs in their table.
 struct BodyMeasure
 {
   TrustMeasure measure;
@@ -79,7 +80,7 @@ constexpr BodyMeasure measures_of_bodies[] = {
   {{"porosity_change", "difference of the porosity from that of the input", display::plain(3), at_most(0.02)},
    porosity_change}};
 
-/// Of a test in which nothing was done there are no energies.
+/// Value of a quantity of a test. A test without a step has no energies, and therefore no balance of them.
 Value measured(const TestQuantity& quantity, const FinishedTest& test)
 {
   const bool is_balance = quantity.member == TestQuantity::Member(&TestResults::energy_imbalance_over_work);
@@ -125,8 +126,8 @@ SeriesKind kind_of(const TestRecord& record)
   return record.body == TestBody::grains ? SeriesKind::specimens : SeriesKind::finite_elements;
 }
 
-/// Whether a test ended so near to its peak that a higher one may lie beyond. A table of stages says itself where to end,
-/// and what slides along a plane bears the same from its peak on.
+/// Returns whether a test ended so near to its peak that a higher one may lie beyond. A table of stages defines its own
+/// end, and a body that slides along a plane carries the same stress from its peak on.
 bool ended_near_its_peak(const FinishedTest& test)
 {
   constexpr double least_fall = 0.05; // of the deviator
@@ -171,9 +172,9 @@ std::string shortcoming(const FinishedTest& test)
   if (ended_near_its_peak(test))
     return fmt::format(
       "{} ended at {:.2f} times the strain of its peak and still bore {:.0f} % of the strength: a higher peak may lie "
-      "beyond; a greater Tests/Stop strain shows it.",
+      "beyond; a greater {} shows it.",
       test.name, record.kind.strain(record.curve.back()) / *test.results.strain_at_peak.value,
-      100.0 * *test.results.residual_deviator_ratio.value);
+      100.0 * *test.results.residual_deviator_ratio.value, input_entries::stop_strain.text());
   if (record.kind.follows_stages && ends_rising(record))
     return fmt::format("{} was still being loaded when its table ended: its highest stress is no strength.", test.name);
   if (record.way_to_grains > 0.0)
@@ -420,7 +421,7 @@ std::string as_text(const std::vector<TrustCheck>& checks)
 
 std::string trust_as_text(const std::vector<FinishedTest>& tests)
 {
-  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is told
+  constexpr std::size_t most_in_full = 3; // of more rocks the worst of all is reported
   const auto rocks = by_rock(tests);
   std::string text;
   if (rocks.size() > most_in_full)

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// How far tests can be trusted: measures, each with a bound. The terminal, summary.json and the report take them from
-/// here. The reasons for the bounds are in docs/report.md.
+/// Trust in tests: measures, each with a bound. The terminal, summary.json and the report take them from here. The
+/// reasons for the bounds are in docs/report.md.
 namespace feldspar
 {
 struct TrustMeasure
@@ -51,9 +51,9 @@ std::vector<TrustCheck> trust_checks(const Series& series);
 /// Failed and missing tests, each in a sentence; nothing if all are there.
 std::vector<std::string> shortcomings(const TestsOfRock& tests, SeriesKind kind);
 
-/// The same, and what is out of its bounds.
+/// Shortcomings, and measures that are out of their bounds.
 std::vector<std::string> warnings(const TestsOfRock& tests, SeriesKind kind);
-/// And what could not be read.
+/// Warnings on the tests of a series, and on what could not be read.
 std::vector<std::string> warnings(const Series& series);
 
 /// Warnings that several models have in common, and those that each has for itself.
@@ -73,7 +73,7 @@ struct RockTests
   TestsOfRock tests;
 };
 
-/// In the order in which the rocks come.
+/// Tests of each rock, in the order in which the rocks come.
 std::vector<RockTests> by_rock(const std::vector<FinishedTest>& tests);
 
 /// The checks for a terminal: of each measure its worst value, the bound, and how many tests are out of it.

@@ -1,4 +1,4 @@
-"""Rows of the tables in benchmarks/README.md, which are found by how their headings begin."""
+"""Rows of the tables in benchmarks/README.md and benchmarks/notes.md, which are found by how their headings begin."""
 
 import re
 

@@ -34,7 +34,8 @@ def dissipated(rve):
 
 
 def rve_strengths(cells):
-    """By the laboratory, event by event and by explicit dynamics; the second table, of single cells, has no laboratory."""
+    """Strengths by the laboratory, event by event and by explicit dynamics; the second table, of single cells, has no
+    laboratory."""
     group, name = GROUPS[cells[0]], "rve-beishan/"
     if group == PULLED:
         columns = pulled(name + "tension"), pulled(name + "explicit-tension", "= 100000")
@@ -281,12 +282,12 @@ def sizes_confined(cells):
 
 
 def highest(test):
-    """Where a sample has no peak, the stress at the end [MPa]."""
+    """Highest stress of a test; the stress at its end where a sample has no peak [MPa]."""
     return test.get(PEAK, test.get("stress_at_end_Pa")) / 1e6
 
 
 def at(names, pressure):
-    """By seed, compressed under a pressure [MPa]."""
+    """Strengths by seed, compressed under a pressure [MPa]."""
     tests = of("+".join(MG + name for name in names), triaxial(pressure))
     return {test["seed"]: test for test in tests}
 

@@ -41,7 +41,7 @@ def student(degrees):
 
 
 def difference(one, other):
-    """Of the means, over the other, with its 95 % interval by Welch's t."""
+    """Difference of the means, over the other mean, with its 95 % interval by Welch's t."""
     of_one, of_other = error(one) ** 2, error(other) ** 2
     degrees = (of_one + of_other) ** 2 / (of_one**2 / (len(one) - 1) + of_other**2 / (len(other) - 1))
     scale = 100.0 / statistics.mean(other)

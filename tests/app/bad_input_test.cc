@@ -165,8 +165,8 @@ TEST(BadFile, IsToldInOneLine)
     expect_mistake(folder, command, "rock.json:2:1: is not valid JSON");
 }
 
-// What passes a check must not be refused at once: of each command an input that it refuses before any work, and the same
-// line by the check.
+// A check must not pass what its command refuses at once: for each command an input that it refuses before any work,
+// and the same line by the check.
 TEST(Check, RefusesWhatItsCommandRefusesAtOnce)
 {
   const TemporaryFolder folder;

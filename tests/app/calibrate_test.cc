@@ -181,7 +181,7 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   EXPECT_FALSE(fs::exists(folder.path() / "cut/calibration.json")) << "it had ended";
   const fs::path of_a_cell = folder.path() / "cut/calibration/elastic_gap_0_ratio_0.json";
   const auto time_of_the_cell = fs::last_write_time(of_a_cell);
-  // One digit of what is kept makes another answer: it is told, and nothing goes on.
+  // One digit of what is kept makes another answer: it is reported, and nothing goes on.
   for (const fs::path& kept : {folder.path() / "cut/calibration/design_1_seed_5.json", of_a_cell})
     {
       const std::string before = content(kept);
@@ -212,7 +212,7 @@ TEST(Calibrate, KilledAndResumedGivesTheSameBitsAsOneThread)
   const auto without_host = [&](const std::string& run) {
     auto json = nlohmann::json::parse(content(folder.path() / run / "calibration.json"));
     json.erase("host");
-    json["input"].erase("parameters"); // where a run was taken up, files of the input have their whole paths
+    json["input"].erase("parameters"); // where a run was resumed, files of the input have their whole paths
     return json;
   };
   EXPECT_EQ(without_host("whole"), without_host("cut"));

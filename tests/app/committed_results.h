@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 inline Json json_of(const std::string& path) { return Json::parse(content(FELDSPAR_SOURCE_DIR "/" + path)); }
 
-/// Of an example by the names of its folder and of the file.
+/// Results of an example by the names of its folder and of the file.
 inline Json results_of(const std::string& example, const std::string& study)
 {
   return json_of("examples/" + example + "/results/" + study + ".json");

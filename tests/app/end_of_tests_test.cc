@@ -60,10 +60,10 @@ protected:
 
 TEST_F(Packing, IsAsStrongUnderAGapAsWithout)
 {
-  // Of the specimen that was packed in its box. A platen that is brought lies on the grains on which the wall of the packing
-  // lay: until the first crack nothing differs but the strain gauge, which lies up to 1 % higher. Then the last digits of the
-  // positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001 and 1.001 /s the specimen
-  // that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
+  // Strength of the specimen that was packed in its box. A platen that is brought lies on the grains on which the wall
+  // of the packing lay: until the first crack nothing differs but the strain gauge, which lies up to 1 % higher. Then
+  // the last digits of the positions decide which bond breaks next: at compression rates of 1, 1.00001, 1.00003, 1.0001
+  // and 1.001 /s the specimen that was not moved has 66.7, 62.0, 68.1, 67.1 and 61.8 MPa.
   constexpr double strength = 66.67e6, tolerance = 0.12;
   ASSERT_EQ(run_feldspar(folder.path(), of_packing("15 mm", "30 mm")).exit_code, 0);
   const double modulus = first_test(folder.path())["youngs_modulus_initial_Pa"].get<double>();
@@ -100,7 +100,7 @@ TEST_F(Packing, ThatDoesNotFillItsBoxIsRefused)
 
 TEST(EndOfATest, IsNotAtAFirstMaximum)
 {
-  // Seed 8 of the specimen of the recipes has a first maximum of 71 MPa at 1.3e-3, and bears 138 MPa at 5.5e-3.
+  // Seed 8 of the specimen of the recipes has a first maximum of 71 MPa at 1.3e-3, and carries 138 MPa at 5.5e-3.
   const TemporaryFolder folder;
   folder.write("rock.prm", rock);
   const std::string seed_8 = "lab rock.prm --output out --force --quiet --set 'Seeds/Seeds = 8'";

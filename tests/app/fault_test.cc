@@ -170,7 +170,7 @@ TEST(Fault, AFileSystemThatIsReadOnlyIsSaidInOneLineByEachCommand)
   EXPECT_EQ(content(folder.path() / "whole/report.html"), page);
 }
 
-// It may come back: nothing is lost.
+// The folder may come back: nothing is lost.
 TEST(Fault, AFolderThatIsMovedDuringTheRunIsSaidInOneLineAndTakenUpWhereItIs)
 {
   const TemporaryFolder folder;
@@ -310,6 +310,17 @@ TEST(Load, TestsThatDoNotFitAreRefusedBeforeAnyWork)
   EXPECT_NE(outcome.error.find("Tests: 2000 test(s) of 1 specimen(s)"), std::string::npos)
     << outcome.error.substr(0, 1000);
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
+}
+
+// The rate of the test is 1e-24 of the usual one, which takes a hundred thousand steps.
+TEST(Load, TestsThatWouldNotEndAreRefused)
+{
+  const TemporaryFolder folder;
+  folder.write("rock.prm", quick_rock);
+  const auto outcome =
+    run_feldspar(folder.path(), "lab rock.prm --output out --quiet --set 'Tests/Tension strain rate = 1e-25 1/s'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("steps; a strain rate is far too low"), std::string::npos) << outcome.error;
 }
 
 TEST(Fault, NeedsNoHomeAndNoFolderForTemporaryFiles)

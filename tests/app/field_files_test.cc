@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 /// Half a unit in the last place of single precision.
 constexpr double single = 6e-8;
 
-/// What VTK reads at one time.
+/// Data that VTK reads at one time.
 struct Piece
 {
   double time;
@@ -47,7 +47,7 @@ struct Piece
   }
 };
 
-/// By Debian's Python, to which its VTK belongs.
+/// Reads by Debian's Python, to which its VTK belongs.
 std::vector<Piece> read_time_series(const fs::path& file)
 {
   const TemporaryFolder folder;
@@ -281,7 +281,7 @@ end
   EXPECT_GT(n_pairs, groups.size() / 2);
 }
 
-// As grains/ has them.
+// Numbers of mineral grains are those in grains/.
 TEST(FieldFiles, OfMineralGrainsHaveTheirNumbers)
 {
   const TemporaryFolder folder;

@@ -82,7 +82,7 @@ TEST(WriteOver, IsRefusedInTheFolderOfTheInput)
   for (const char* const command : {"lab", "multiscale", "rve", "calibrate"})
     expect_refused(folder, fmt::format("{} rock/input.prm --output rock --force", command),
                    command == std::string("lab") ? why : "feldspar: ");
-  // By another name of the same folder, and by a link to the input.
+  // Refusals by another name of the same folder, and by a link to the input.
   fs::create_symlink("rock", folder.path() / "same");
   expect_refused(folder, "lab rock/input.prm --output same --force", "input.prm is read by this run");
   folder.write("rock/input.prm", rock);
@@ -324,7 +324,7 @@ TEST(Resume, RefusesAnInputThatIsNotThatOfItsRun)
   for (const std::string& changed : {std::string(), input + "\n"})
     {
       folder.write("out/input.prm", changed);
-      expect_refused(folder, "lab --resume out", "--resume out: out/input.prm is not as it was when the run began");
+      expect_refused(folder, "lab --resume out", "out: out/input.prm is not as it was when the run began");
     }
   folder.write("out/input.prm", input);
   folder.write("reference.json", R"({"experiment": {"tensile_strength_MPa": 8}})");
@@ -363,7 +363,7 @@ TEST(Links, LeadNoWriterOutOfTheFolder)
        {"report.html", "figures/overview.png", "figures/direct_tension_stress.svg", "tables/strengths.csv"})
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(out / file))) << file;
 
-  // A run that is taken up writes tables, fields and its record.
+  // A resumed run writes tables, fields and its record.
   make_incomplete(out);
   for (const char* const file : {"summary.json", "log.txt", "tests.csv", "run.json.unfinished"})
     link("../victim.txt", file);

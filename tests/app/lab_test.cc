@@ -40,7 +40,7 @@ end
 
 nlohmann::json summary(const fs::path& folder) { return nlohmann::json::parse(content(folder / "summary.json")); }
 
-/// What depends on the machine and not on the physics.
+/// Removes all that depends on the machine and not on the physics.
 nlohmann::json without_times(nlohmann::json json)
 {
   json.erase("host");
@@ -305,7 +305,7 @@ TEST(Lab, AFullDiskIsSaidInOneLineAndTheRunCanGoOn)
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_EQ(resumed.error, "");
   EXPECT_EQ(without_times(summary(folder.path() / "whole")), without_times(summary(folder.path() / "full")));
-  // Where not even the beginning can be kept, nothing is left.
+  // Nothing is left where not even the beginning can be kept.
   const auto none = run_feldspar(folder.path(), "lab rock.prm --output none --quiet", "prlimit --fsize=10");
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_FALSE(fs::exists(folder.path() / "none"));
@@ -441,7 +441,7 @@ end
   EXPECT_TRUE(content(folder.path() / "out/tables/comparison.csv")
                 .starts_with("source,kind,Flat joint/Bond tensile strength [MPa],property,unit,mean,"));
 
-  // A folder of before values were in names is taken up by its own names.
+  // A folder of before values were in names is resumed by its own names.
   auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record.erase("variants_named");
   record["complete"] = false;
@@ -498,7 +498,7 @@ TEST(Lab, TestsCoresAndSaysWhatTheyAre)
 
 TEST(Lab, VariantsOfTheTestsShareTheirSpecimens)
 {
-  // What differs is the rate: each seed is packed once, and is the specimen of a run without variants.
+  // Variants differ in the rate: each seed is packed once, and is the specimen of a run without variants.
   const TemporaryFolder folder;
   const std::string rock = R"(subsection Specimen
   set Width = 12 mm
@@ -546,7 +546,7 @@ TEST(Lab, SaysWhenAConfinementCannotBeReached)
 
 TEST(Lab, ForceStartsAnew)
 {
-  // What an earlier run left, of another strength here, is not taken for this one's.
+  // Results that an earlier run left, of another strength here, are not taken for those of this one.
   const TemporaryFolder folder;
   const std::string rock = "subsection Specimen\n  set Width = 12 mm\n  set Height = 24 mm\nend\n"
                            "subsection Tests\n  set List = direct_tension\nend\n";
@@ -671,7 +671,7 @@ TEST(Lab, MeasuresADiscByItsOwnSize)
     EXPECT_TRUE(test["peak_stress_Pa"].is_number()) << test["name"];
   for (const auto& test : json["tests"])
     EXPECT_EQ(test["size_m"], nlohmann::json({0.02, 0.02, 0})) << test["name"];
-  // Its grains lie in a circle of 10 mm about the middle of this size.
+  // Grains of the disc lie in a circle of 10 mm about the middle of this size.
   std::istringstream grains(content(folder.path() / "out/grains/brazilian_seed_2.csv"));
   std::string row;
   for (std::getline(grains, row); std::getline(grains, row);)
@@ -693,7 +693,7 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   auto json = summary(folder.path() / "out");
   EXPECT_EQ(json["tests"].size(), 1u);
   EXPECT_EQ(json["input"]["parameters"]["Specimen"]["Width"], "8 mm");
-  // A run that is taken up has them still.
+  // A resumed run still has them.
   auto record = nlohmann::json::parse(content(folder.path() / "out/run.json"));
   record["complete"] = false;
   folder.write("out/run.json", record.dump());
@@ -706,9 +706,8 @@ TEST(Lab, TakesEntriesOfTheCommandLineAndKeepsThemForAResume)
   folder.write("out/run.json", record.dump());
   const auto changed = run_feldspar(folder.path(), "lab --resume out --quiet");
   EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_EQ(changed.error,
-            "feldspar: --resume out: run.json in it is not as the run wrote it; undo the change, or begin "
-            "another run\n");
+  EXPECT_EQ(changed.error, "feldspar: out: run.json in it is not as the run wrote it; undo the change, or begin "
+                           "another run\n");
   EXPECT_EQ(without_times(summary(folder.path() / "out")), without_times(json));
 
   const auto refused = [&](const std::string& setting, const std::string& words) {
@@ -816,7 +815,7 @@ TEST(Lab, RefusesAResumeOfWhatIsNoRun)
 TEST(Lab, EndsCleanlyOnInterruptDuringGenesis)
 {
   const TemporaryFolder folder;
-  // By motion a thousand grains take seconds to come to rest; the test is over at once.
+  // Packing by motion takes seconds for a thousand grains to come to rest; the test is over at once.
   folder.write(
     "rock.prm",
     "subsection Specimen\n  set Width = 35 mm\n  set Height = 70 mm\n  set Packing relaxation = dynamics\nend\nsubsection Tests\n  set List = direct_tension\n  set Stop strain = 1e-5\nend\n");

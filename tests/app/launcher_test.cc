@@ -21,7 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/// What the kernel says that this processor has.
+/// Returns whether the kernel says that this processor has these flags.
 bool processor_has(const std::string& flags)
 {
   std::ifstream info("/proc/cpuinfo");
@@ -38,7 +38,7 @@ bool processor_has(const std::string& flags)
 
 TEST(Programs, LoadFiniteElementsAndStatisticsWhereTheyAreUsedOnly)
 {
-  // What the loader of the system would load.
+  // Libraries that the loader of the system would load.
   const TemporaryFolder folder;
   const auto libraries = [&](const std::string& program) {
     const fs::path place = fs::path(FELDSPAR_COMMAND).replace_filename(program);
@@ -89,7 +89,7 @@ TEST(Programs, LookForLibrariesInNoFolderThatDependsOnTheCurrentOne)
 {
   for (const char* const program : {"feldspar", "feldspar-calibrate", "feldspar-multiscale", "feldspar-launcher"})
     expect_whole_library_folders(fs::path(FELDSPAR_COMMAND).replace_filename(program));
-  // As it was: CMake ended the path with an empty element.
+  // Path from before: CMake ended it with an empty element.
   EXPECT_EQ(library_folders(" 0x000000000000001d (RUNPATH)            Library runpath: [/usr/lib:]\n"),
             (std::vector<std::string>{"/usr/lib", ""}));
   EXPECT_EQ(library_folders(" 0x000000000000000f (RPATH)              Library rpath: [:lib]\n"),
@@ -111,7 +111,7 @@ TEST(Programs, GoOnAsAnotherOfTheSameVersionOrSayWhatIsMissing)
       EXPECT_NE(alone.error.find(fmt::format("{}: cannot be run", program)), std::string::npos) << alone.error;
     }
 
-  // As an installed package has them: the launcher, and the programs of a level.
+  // Files as an installed package has them: the launcher, and the programs of a level.
   const fs::path level = folder.path() / "libexec/feldspar/x86-64-v3";
   fs::create_directories(level);
   fs::create_directory(folder.path() / "bin");
@@ -190,7 +190,7 @@ TEST(Launcher, TakesALowerLevelWhereTheHigherOneIsNotInstalled)
     }
 }
 
-// What ./bootstrap.sh install does with a build, and what of it a user meets first.
+// Installation of a build by ./bootstrap.sh install, and the parts of it that a user meets first.
 TEST(Installation, HasProgramManualCompletionAndExamples)
 {
   const TemporaryFolder folder;

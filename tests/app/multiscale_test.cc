@@ -66,7 +66,7 @@ TEST(Multiscale, PullsASampleApartToTheSameBitsForAnyNumberOfThreads)
   EXPECT_LT(test.at("peak_stress_Pa").get<double>(), 15e6);
   EXPECT_GT(test.at("n_tension_cracks").get<int>(), 10);
   EXPECT_LT(test.at("energy_imbalance").get<double>(), 0.01);
-  // What such a test does not have is missing with its reason, not zero.
+  // A figure that such a test does not have is missing with its reason, not zero.
   EXPECT_EQ(test.at("body"), "finite_elements");
   for (const char* const figure : {"strain_rate_per_s", "kinetic_to_strain_energy", "p_wave_transits_to_peak",
                                    "n_fragments", "servo_error", "time_step_s"})
@@ -163,8 +163,9 @@ TEST(Multiscale, FollowsTheWidthOfASamplePastItsPeak)
   EXPECT_FALSE(nlohmann::json::parse(contents(folder.path() / "run/summary.json"))["tests"][0].contains("ended_early"));
 }
 
-// Up, down, further up and down, then towards more than the sample bears. Cracks open above the highest strain there was
-// (Kaiser's effect); what has cracked is softer, so that the way down is flatter each time, and some strain is left.
+// Up, down, further up and down, then towards more than the sample carries. Cracks open above the highest strain there
+// was (Kaiser's effect); what has cracked is softer, so that the way down is flatter each time, and some strain is
+// left.
 TEST(Multiscale, FollowsALoadingTable)
 {
   TemporaryFolder folder;
@@ -515,7 +516,7 @@ TEST(Multiscale, ComparesWithLinearElasticityAndMohrCoulomb)
 }
 
 // Without grains, so that the closed form is at hand: a cylinder under pressure, as half of its section and as a whole,
-// answers with Young's modulus and Poisson's ratio; plane strain with E/(1 - ν²) and ν/(1 - ν).
+// responds with Young's modulus and Poisson's ratio; plane strain with E/(1 - ν²) and ν/(1 - ν).
 TEST(Multiscale, TakesCylindersAndPlaneStrain)
 {
   TemporaryFolder folder;
@@ -555,9 +556,9 @@ std::string input_in_space(const std::string& sample, const std::string& tests)
   return text;
 }
 
-// A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole, by half of its section, and by
-// its RVE alone, whose sides are free: also where segments break, up to nine tenths of the strength. What is left is
-// that a ring and a radius have one strain on the axis and an RVE of seventy spheres has not.
+// A cylinder of one realisation in the axes r, θ, z of each point is the same as a whole, by half of its section, and
+// by its RVE alone, whose sides are free: also where segments break, up to nine tenths of the strength. The remaining
+// difference: a ring and a radius have one strain on the axis, and an RVE of seventy spheres has not.
 TEST(Multiscale, ACylinderIsTheSameAsAWholeByItsSectionAndByItsRve)
 {
   TemporaryFolder folder;
@@ -734,8 +735,8 @@ TEST(Multiscale, SaysInOneLineWhatItCannotDo)
 
 TEST(Multiscale, TakesAFlawedRve)
 {
-  // One element between smooth platens is strained alike throughout: it bears what its RVE does alone, pulled with its
-  // sides free.
+  // One element between smooth platens is strained alike throughout: it carries what its RVE does alone, pulled with
+  // its sides free.
   const TemporaryFolder folder;
   const std::string flaw = "subsection Flaws\n  set Shapes = closed flaw from 4, 7 mm to 10, 7 mm\nend\n";
   std::string sample = input("  set Platens = smooth\n  set Order = 1\n  set Orientation = fixed\n"

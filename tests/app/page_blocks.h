@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a page of the documentation has between its fences, and how a test runs it.
+/// Blocks that a page of the documentation has between its fences, and the way a test runs them.
 namespace feldspar::tests
 {
 struct Block

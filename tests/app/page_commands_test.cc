@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 const fs::path tree = FELDSPAR_SOURCE_DIR;
 
-/// What a page presumes, and how its runs are made.
+/// Circumstances of a page: what it presumes, and how its runs are made.
 struct Circumstances
 {
   std::string before; ///< commands that leave what the reader of the page has
@@ -43,7 +43,7 @@ struct Circumstances
 const std::vector<std::string> settings_of_a_small_rock{"Tests/List = direct_tension", "Specimen/Width = 12 mm",
                                                         "Specimen/Height = 24 mm"};
 
-/// Of pages that are not named here runs are begun. Those of mpirun go to their end.
+/// Circumstances by page. Runs of pages that are not named here are begun; those of mpirun go to their end.
 const std::map<std::string, Circumstances> circumstances{
   {"docs/calibration.md", {R"(sed 's|= \.\./|= examples/|' examples/calibrate-beishan/calibrate.prm > rock.prm)", {}}},
   {"docs/cluster.md",
@@ -76,6 +76,7 @@ END
    {R"(feldspar lab examples/first-run/granite.prm --output granite
 cp -r granite slate
 cp examples/beishan-granite/reference.json rock.json
+sed -n '/^```text core.csv/,/^```$/p' docs/laboratory-data.md | grep -v '^```' > core.csv
 )",
     settings_of_a_small_rock}},
   {"examples/contact-models/README.md",
@@ -145,7 +146,7 @@ std::vector<std::string> commands_of(const Page& page)
   return commands;
 }
 
-/// Of Feldspar and nothing behind it, or a script of the tree.
+/// Returns whether a command is one of Feldspar with nothing behind it, or a script of the tree.
 bool is_run(const std::string& command)
 {
   static const std::regex quoted("'[^']*'|\"[^\"]*\"");

@@ -52,7 +52,7 @@ std::string words_of(const fs::path& page)
   return text;
 }
 
-/// One run, some ninety grains a specimen, that the tests of this file look at and copy.
+/// One run, some ninety grains a specimen, that the tests of this file read and copy.
 class Report : public testing::Test
 {
 protected:
@@ -79,7 +79,7 @@ protected:
     fs::copy(run->path() / "out", folder.path() / "out", fs::copy_options::recursive);
   }
 
-  /// Makes the report anew and returns its words; pictures, which take the most time, only where they are looked at.
+  /// Makes the report anew and returns its words; pictures, which take the most time, only where a test needs them.
   std::string remade(const std::string& arguments = "report out", const bool with_pictures = false)
   {
     const auto answer =
@@ -120,7 +120,7 @@ TEST_F(Report, IsOneFileThatNeedsNoOther)
   EXPECT_EQ(count(words, "<div class=\"picture\" style=\"--drawn: "), std::size_t(n_images)); // moved on a phone
   EXPECT_EQ(count(words, "class=\"absent\""), 0u);
   EXPECT_EQ(count(words, "{{"), 0u);
-  // What a slider shows has a caption of its own beside that of the printed map.
+  // Maps that a slider shows have a caption of their own beside that of the printed map.
   const std::size_t n_sliders = count(words, R"({"what":"cracks",)");
   EXPECT_GE(n_sliders, 4u);
   EXPECT_EQ(count(words, "<span class=\"of-live\">"), n_sliders);
@@ -159,7 +159,7 @@ TEST_F(Report, OfManySeriesHasARowForEach)
   const std::string cracks = words.substr(words.find("<section id=\"cracks\">"));
   EXPECT_EQ(count(cracks.substr(0, cracks.find("</section>")), "<h3>"), 12u);
   EXPECT_EQ(count(content(folder.path() / "out/tables/verdicts.csv"), "\n"), 53u);
-  // What has no block on the page has its tables beside it.
+  // A series that has no block on the page has its tables beside it.
   for (const char* name : {"trust", "specimens", "envelopes"})
     EXPECT_TRUE(fs::exists(folder.path() / fmt::format("out/tables/{}_52_copy_25_of_seed_2.csv", name))) << name;
 }
@@ -397,7 +397,7 @@ std::string for_shell(const std::string& text)
   return result + "'";
 }
 
-/// Whether a file of that name lies anywhere below a folder.
+/// Returns whether a file of that name lies anywhere below a folder.
 bool has_anywhere(const fs::path& folder, const std::string& name)
 {
   return std::any_of(fs::recursive_directory_iterator(folder), {},
@@ -764,7 +764,7 @@ std::string with_script(std::string page, const std::string& script)
   return page.replace(policy, page.find('>', policy) + 1 - policy, "<script>" + script + "</script>");
 }
 
-/// Of a page as the browser left it; what a script has to say stands there.
+/// Title of a page as the browser left it; a script's message stands there.
 std::string title_of(const Outcome& shown)
 {
   const std::size_t begin = shown.output.rfind("<title>") + std::string("<title>").size();
@@ -776,7 +776,7 @@ void expect_shown_in_a_browser(const fs::path& page)
 {
   ASSERT_EQ(std::system("command -v chromium >/dev/null"), 0) << "the package chromium is missing";
   const TemporaryFolder folder;
-  // Its own policy forbids it to load anything; what breaks that, or a script that fails, stands in the console.
+  // The policy of the page forbids it to load anything; a breach of it, or a script that fails, stands in the console.
   for (const int width : {1280, 390})
     for (const char* mode : {"", "--force-dark-mode --blink-settings=preferredColorScheme=0"})
       {
@@ -790,7 +790,7 @@ void expect_shown_in_a_browser(const fs::path& page)
         fs::remove(shot);
       }
 
-  // The figures on the first screen answer to the pointer: the policy lets the page's own script run.
+  // The figures on the first screen respond to the pointer: the policy lets the page's own script run.
   const std::string alive = Browser::show(page, "--window-size=1280,2500 --virtual-time-budget=5000 --dump-dom").output;
   EXPECT_NE(alive.find("<figure class=\"live\"><div class=\"stage\">"), std::string::npos);
   EXPECT_NE(alive.find("<canvas"), std::string::npos);
@@ -862,7 +862,7 @@ TEST_F(Report, PrintsEachPicture)
   const std::string printed = content(paper);
   EXPECT_TRUE(printed.starts_with("%PDF"));
   EXPECT_GT(count(printed, "/Type /Page\n"), 3u);
-  // Those of grains and cracks are images; drawings are drawn there, too.
+  // Pictures of grains and cracks are images; drawings are drawn there, too.
   const std::string text = content(page);
   EXPECT_EQ(count(printed, "/Subtype /Image"), count(text, "<img src=\"data:image/png"));
 }
@@ -939,7 +939,7 @@ TEST(ReportOfASample, ShowsWhereItIsDamagedAndTheGrainsOfItsRves)
   EXPECT_GE(n_rows, 2u);
   expect_shown_in_a_browser(page);
 
-  // What is missing is said in its place.
+  // A picture that is missing is reported in its place.
   fs::remove_all(folder.path() / "out/points");
   ASSERT_EQ(run_feldspar(folder.path(), "report out").exit_code, 0);
   EXPECT_NE(words_of(page).find("_grains.csv: cannot be read: No such file"), std::string::npos);

@@ -22,7 +22,7 @@ struct Outcome
 /// Runs a command by the shell in `folder`.
 inline Outcome run_command(const std::filesystem::path& folder, const std::string& words)
 {
-  // Beside the folder, not in it: tests look at what a run leaves there.
+  // Beside the folder, not in it: tests inspect what a run leaves there.
   const std::string error_file = folder.string() + ".stderr";
   const std::string command = "cd '" + folder.string() + "' && " + words + " 2>'" + error_file + "'";
   FILE* pipe = popen(command.c_str(), "r");

@@ -120,7 +120,7 @@ TEST(Rve, GoesAlongMixedPaths)
             int(table["n_tension_cracks"].back() + table["n_shear_cracks"].back()));
 }
 
-// Turned by a quarter the cell stands with its x axis along y: pulled along y it answers as it does along x unturned.
+// Turned by a quarter the cell stands with its x axis along y: pulled along y it responds as it does along x unturned.
 // Turned by a half it is the cell again. By 30 degrees it is another body.
 TEST(Rve, ATurnedCellIsPulledInTheAxesOfThePath)
 {
@@ -243,8 +243,8 @@ TEST(Rve, TakesSpheres)
 
 TEST(Rve, TakesFlaws)
 {
-  // The sides of a closed flaw have no bond: pulled apart they bear what a saw cut of no width bears, nothing. Pressed
-  // together they bear as before, but for what they slip along the grains.
+  // The sides of a closed flaw have no bond: pulled apart they carry what a saw cut of no width carries, nothing.
+  // Pressed together they carry as before, but for what they slip along the grains.
   const TemporaryFolder folder;
   const std::string cell =
     "subsection Specimen\n  set Shape = periodic\n  set Width = 20 mm\n  set Height = 20 mm\nend\n"

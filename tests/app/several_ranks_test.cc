@@ -272,7 +272,7 @@ TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
   EXPECT_TRUE(text_of(folder.path() / "one/cracks.csv") == text_of(folder.path() / "two/cracks.csv"));
   EXPECT_FALSE(fs::exists(folder.path() / "two/checkpoints"));
 
-  // Asked to end, all end; one process takes up what they left.
+  // Asked to end, all end; one process resumes what they left.
   folder.write("ask", "\"$@\" &\nuntil ls out/checkpoints/*.h5 >/dev/null 2>&1; do sleep 0.02; done\n"
                       "kill -USR1 $!\nwait $!\n");
   const auto asked = run_feldspar(folder.path(), "lab rock.prm --output out --quiet --threads 1", "sh ./ask " + ranks);
@@ -282,7 +282,7 @@ TEST(SeveralRanks, OfTheLaboratoryHaveTheBitsOfOne)
   expect_success(run_feldspar(folder.path(), "lab --resume out --quiet", alone));
   expect_same_files(folder.path() / "one", folder.path() / "out", "curves", 3);
 
-  // What is wrong is said once, and leaves nothing.
+  // An error is said once, and leaves nothing.
   const auto wrong =
     run_feldspar(folder.path(), "lab rock.prm --output bad --set 'Specimen/Width = 0.1 mm'", mpirun(2));
   EXPECT_EQ(wrong.exit_code, 2) << wrong.error;

@@ -59,7 +59,7 @@ std::string with_entry(std::string input, const std::string& section, const std:
                        std::regex_search(inside, found) ? std::regex_replace(inside, found, line) : inside + line);
 }
 
-/// How much of a study's path its piece goes.
+/// Part of a study's path that its piece goes.
 enum class Extent
 {
   whole, ///< to its end: all figures of the rock are there again
@@ -527,13 +527,13 @@ const std::set<std::string> of_the_path =
         "dilation_angle_rad residual_deviator_ratio n_tension_cracks n_shear_cracks steps highest_stress "
         "lowest_stress at_end ");
 
-/// Where records of one run lie, and what tells one from the others whatever else was run.
+/// Records of one run. identity() tells one from the others, whatever else was run.
 const nlohmann::json& records(const nlohmann::json& summary)
 {
   return summary[summary.contains("tests") ? "tests" : "rves"];
 }
 
-/// Of feldspar.
+/// Command of feldspar that made the results of a piece.
 std::string command_of(const Piece& piece)
 {
   const auto summary = nlohmann::json::parse(text_of(root / "examples" / piece.files().front()));
@@ -706,8 +706,8 @@ TEST(HiddenRocks, StandInTheReadmeWithTheCommittedFigures)
   expect_rows_in_readme("study.py", 19);
 }
 
-// What a calibration calls reached lies within the tolerance on eleven packings that it has never seen, in nine rocks of ten
-// at least.
+// Targets that a calibration calls reached lie within the tolerance on eleven packings that it has never seen, in nine
+// rocks of ten at least.
 TEST(HiddenRocks, KeepTheirVerdictsOnFreshPackings)
 {
   // Three verdicts, one count, ten rocks, three headings.
@@ -873,7 +873,7 @@ int exit_code_of_git(const std::string& arguments)
   return std::system(("git -C '" + root.string() + "' " + arguments + " >/dev/null 2>&1").c_str());
 }
 
-// How the names of results begin that are without a piece that could be run here, and why.
+// Beginnings of the names of results that are without a piece that could be run here, each with its reason.
 const std::map<std::string, std::string> without_piece{
   {"radius-as-diameter", "a test of its 7 700 grains takes more than a minute"},
   {"beishan-cylinder", "its packing takes more than a minute"},

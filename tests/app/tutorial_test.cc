@@ -64,7 +64,7 @@ void expect_to_run_as_printed(const fs::path& page, const TemporaryFolder& folde
 {
   const TemporaryFolder path;
   fs::create_symlink(FELDSPAR_COMMAND, path.path() / "feldspar");
-  // As root too, and on cores that are fewer than ranks.
+  // The mpirun of the tests also works as root, and on cores that are fewer than ranks.
   fs::create_symlink(fs::path(FELDSPAR_SOURCE_DIR) / "tests/app/in_pieces/mpirun", path.path() / "mpirun");
   const std::string environment = "FELDSPAR_PROGRAM='" FELDSPAR_COMMAND "'";
   std::size_t n_commands = 0;
@@ -105,7 +105,7 @@ const std::map<std::string, std::vector<StatedFigure>> figures_of_pages{
   {"multiscale.md",
    {{"has the {} segments", "further/summary.json", {"/rves/0/highest_stress/xx/n_tension_cracks"}, 1.0, 0}}},
   {"representative-volume.md",
-   {{"bears {} MPa at most", "cell/summary.json", {"/rves/0/highest_stress/yy/stress_Pa"}, 1e6, 1}}},
+   {{"strength of the cell is {} MPa", "cell/summary.json", {"/rves/0/highest_stress/yy/stress_Pa"}, 1e6, 1}}},
   {"your-own-rock.md",
    {{"0° (above) | {} ± {} |",
      "marble/summary.json",

@@ -6,11 +6,11 @@
 #include "app/input/maps/traces.h"
 #include "app/input/strain_path.h"
 #include "app/programme/reference_body.h"
+#include "base/checksum/seal.h"
 #include "base/csv.h"
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
 #include "base/quoted.h"
-#include "base/seal.h"
+#include "base/system/hdf5_archive.h"
 #include "calibration/responses.h"
 #include "calibration/unknowns.h"
 #include "dem/flaws/apply.h"
@@ -65,7 +65,7 @@ void read_any_input(const fs::path& file)
   variants(input);
 }
 
-/// By both dimensions; what one refuses may be right for the other.
+/// Reads in both dimensions; what one refuses may be right for the other.
 template <typename Read>
 void read_in_plane_or_space(const Read& read_as)
 {
@@ -79,7 +79,7 @@ void read_in_plane_or_space(const Read& read_as)
     }
 }
 
-/// Several files as one text: each begins after a line `@@ NAME`. What is not in it is not in the folder.
+/// Several files as one text: each begins after a line `@@ NAME`. A file that is not in the text is not in the folder.
 void write_files(const std::string& content, const std::vector<std::string>& names, const fs::path& folder)
 {
   for (const std::string& name : names)
@@ -120,7 +120,7 @@ void read_reference_results(const std::string& content, const fs::path& folder)
     throw std::logic_error("the words of a reference body are not one printable line: " + words);
 }
 
-/// What `feldspar calibrate` leaves.
+/// Reads the files that `feldspar calibrate` leaves.
 void read_calibration_folder(const std::string& content, const fs::path& folder)
 {
   write_files(content, {"calibration.json", "posterior.csv"}, folder);
@@ -143,8 +143,8 @@ void read_calibrated_rock(const std::string& content, const fs::path& folder)
   calibration::unknowns(input.calibration);
 }
 
-/// Rows of grains that touch, in a box of some 10 x 12 mm, each with a face to its neighbours: a genesis, or more grains, would
-/// take most of the time under a sanitizer.
+/// Rows of grains in contact, in a box of some 10 x 12 mm, each with a face to its neighbours: a genesis, or more
+/// grains, would take most of the time under a sanitizer.
 template <int dim>
 Specimen<dim> lattice()
 {
@@ -378,7 +378,7 @@ const std::vector<FuzzedReader>& fuzzed_readers()
        SpecimenParameters wanted;
        wanted.packing_file = write(folder / "packing.txt", content).string();
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
-       wanted.shape = "periodic";
+       wanted.shape = BodyShape::periodic;
        read_in_plane_or_space([&](const auto dim) { read_packing<dim()>(wanted); });
      }},
     {"mesh",

@@ -18,12 +18,12 @@ struct FuzzedReader
 
 const std::vector<FuzzedReader>& fuzzed_readers();
 
-/// How a reader took a content.
+/// Outcome of reading a content.
 struct Reading
 {
   bool accepted;
   std::string words; ///< of the refusal
-  /// Which rule for words the refusal breaks (one line, printable, not longer than a message); empty if it keeps them.
+  /// Rule for words that the refusal breaks (one line, printable, not longer than a message); empty if it keeps all.
   std::string objection;
 };
 

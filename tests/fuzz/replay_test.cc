@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-/// What libFuzzer found and what it began with, read again: each is accepted, or refused in one printable line.
+/// Contents that libFuzzer found, and those it began with, are read again: each is accepted, or refused in one
+/// printable line.
 namespace feldspar::tests
 {
 namespace

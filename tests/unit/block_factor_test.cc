@@ -64,10 +64,10 @@ std::vector<Link<dim>> links_of_a_lattice(const std::uint32_t n_grains)
   return links;
 }
 
-/// Of a network all links of which bear but each seventh.
+/// Returns whether a link has a stiffness: all have one but each seventh.
 bool bears(const std::uint32_t link) { return link % 7 != 3; }
 
-/// Against the same matrix, added up in full and factorised by Eigen.
+/// Compares with the same matrix, added up in full and factorised by Eigen.
 template <int dim>
 void expect_to_solve_as_a_full_matrix_does(const std::vector<Link<dim>>& links, const std::uint32_t n_grains)
 {
@@ -137,7 +137,7 @@ TYPED_TEST(BlockFactors, SolveAsAFullMatrixDoes)
 
 TEST(StiffnessPattern, JoinsColumnsOfTheSameRowsIntoSupernodes)
 {
-  // Where each grain is linked with each, all columns have the rows of the one before.
+  // All columns have the rows of the one before if each grain is linked with each.
   constexpr std::uint32_t n_grains = 20;
   std::vector<Link<2>> links;
   for (std::uint32_t i = 0; i < n_grains; ++i)
@@ -153,7 +153,7 @@ TEST(StiffnessPattern, JoinsColumnsOfTheSameRowsIntoSupernodes)
   EXPECT_EQ(dense.first_column(1), StiffnessPattern::most_columns);
   EXPECT_EQ(dense.first_column(2), 2 * StiffnessPattern::most_columns);
   EXPECT_EQ(dense.first_column(3), n_grains);
-  // Where nothing bears, each stands alone.
+  // Each grain stands alone if no link has a stiffness.
   const StiffnessPattern empty(links, n_grains, [](std::uint32_t) { return false; });
   EXPECT_EQ(empty.n_blocks(), 0u);
   EXPECT_EQ(empty.n_supernodes(), n_grains);

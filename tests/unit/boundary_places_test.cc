@@ -27,7 +27,7 @@ SampleMesh<2> plane() { return plane_sample(MPI_COMM_WORLD, width, height, {4, 8
 SampleMesh<2> in_r_z() { return axisymmetric_sample(MPI_COMM_WORLD, 0.5 * width, height, {2, 8}, 0); }
 SampleMesh<3> cylinder() { return cylinder_sample(MPI_COMM_WORLD, 0.5 * width, height, {4, 4}, 0); }
 
-/// What is said of a mesh; empty where it is taken.
+/// Message on a mesh; empty where the mesh is accepted.
 template <int dim>
 std::string complaint(const SampleMesh<dim>& mesh, const bool is_in_r_z = false)
 {

@@ -180,7 +180,7 @@ TYPED_TEST(Boundaries, StiffnessIsThatOfADirectSolution)
     }
 }
 
-// What a grain and its image bear is their share of one traction, and the stress is that of these tractions.
+// A grain and its image carry their share of one traction, and the stress is that of these tractions.
 TYPED_TEST(Boundaries, BearTheirStressByUniformTractions)
 {
   constexpr int dim = TypeParam::value;
@@ -302,7 +302,7 @@ TYPED_TEST(Boundaries, KeepHillAndMandelAndTheEnergyThroughTheFall)
     }
 }
 
-// A grain at a side that has lost its joints bears nothing, and the others of its piece bear its share.
+// A grain at a side that has lost its joints carries nothing, and the others of its piece carry its share.
 TYPED_TEST(Boundaries, LetGoOfGrainsThatNothingHolds)
 {
   constexpr int dim = TypeParam::value;
@@ -328,7 +328,7 @@ TYPED_TEST(Boundaries, LetGoOfGrainsThatNothingHolds)
   for (std::size_t p = 1; p < pieces.size(); ++p)
     EXPECT_EQ(left.pieces()[p].size(), pieces[p].size());
 
-  // A body in two halves bears nothing from side to side: no pair has both of its grains in one of them.
+  // A body in two halves carries nothing from side to side: no pair has both of its grains in one of them.
   const auto nothing_holds = [](std::uint32_t) { return false; };
   EXPECT_TRUE(
     network.conditions()->that_bear(network.links(), network.n_joints(), network.n_grains(), nothing_holds).are_none());

@@ -42,8 +42,8 @@ TEST(SobolPoints, FillTheCubeEvenlyAndFollowTheirSeed)
 
 TEST(SobolIndicesOfAFunction, AreThoseOfItsClosedForm)
 {
-  // Variances of x_0 + 2 x_1: 1/12 and 4/12. Of (x_0 - 1/2)(x_1 - 1/2): all of it is interaction. The estimator of 2048
-  // points has standard errors of some 0.02.
+  // Variances of x_0 + 2 x_1: 1/12 and 4/12. The variance of (x_0 - 1/2)(x_1 - 1/2) is all interaction. The estimator
+  // of 2048 points has standard errors of some 0.02.
   const auto sum = sobol_indices([](const UnitPoint& x) { return x[0] + 2.0 * x[1]; }, 3, 2048, 1);
   EXPECT_NEAR(sum.first_order[0], 0.2, 0.06);
   EXPECT_NEAR(sum.first_order[1], 0.8, 0.06);
@@ -148,7 +148,7 @@ struct KnownRock
     return std::size_t(found - all.begin());
   }
 
-  /// Of each response, without scatter [SI].
+  /// Values of the responses without scatter [SI].
   std::vector<std::optional<double>> truth(const MicroParameters& p) const
   {
     std::vector<std::optional<double>> values(all.size());
@@ -237,7 +237,7 @@ TEST(BestFit, ReachesItsTargetsAndLeavesTheRestInTheMiddle)
   for (const double deviation : fit.deviations)
     EXPECT_NEAR(deviation, 0.0, 0.01);
   EXPECT_NEAR(fit.place.point[2], 0.5, 0.1) << "friction has no part in these tests";
-  // What cannot be: a tenfold tension at the same compression. Nothing is reached then, and the fit says so.
+  // Contradiction: a tenfold tension at the same compression. Nothing is reached then, and the fit says so.
   auto contradiction = targets;
   contradiction[2].value *= 10.0;
   const Fit none = best_fit(model, contradiction, 0.03, {true, true, {0.5, 0.5, 0.5}, 0.5}, start);
@@ -324,8 +324,9 @@ TEST(TargetOutcomes, AreNearlyMetWithinHalfOfTheTolerance)
   EXPECT_TRUE(is_nearly_met(of_values({101.3, 101.5}), 0.03));
 }
 
-// By the design of the known rock: 5 % of a packing and 4 % of a test are 6.4 % of a strength, by two packings. What the
-// first have in common has one degree of freedom, so that a scatter between 4 and 11 % is all that can be asked.
+// Scatter by the design of the known rock: 5 % of a packing and 4 % of a test are 6.4 % of a strength, by two packings.
+// The part that the tests of a packing have in common has one degree of freedom, so that a scatter between 4 and 11 %
+// is all that can be asked.
 TEST(ResponseModel, TellsTheScatterOfASpecimenByItsDesign)
 {
   const KnownRock rock;
@@ -347,7 +348,8 @@ FinishedTest crushed(const TestKind& kind, const double confining_pressure, cons
 
 TEST(Responses, GiveTheRockConstantOfHoekAndBrown)
 {
-  // Of a specimen with a uniaxial strength of 160 MPa and m_i = 25: 20 + sqrt(25 * 160 * 20 + 160^2) at 20 MPa.
+  // Strength of a specimen with a uniaxial strength of 160 MPa and m_i = 25: 20 + sqrt(25 * 160 * 20 + 160^2) at 20
+  // MPa.
   const KnownRock rock;
   const Response& response = rock.all[rock.number("m_i")];
   const double at_20 = 20e6 + std::sqrt(25.0 * 160e6 * 20e6 + 160e6 * 160e6);
@@ -358,7 +360,7 @@ TEST(Responses, GiveTheRockConstantOfHoekAndBrown)
   EXPECT_FALSE(response.value({of_specimen[1]})) << "no uniaxial test";
   EXPECT_FALSE(response.value({of_specimen[0], crushed(triaxial_compression.kind, 20e6, 178e6)}))
     << "the deviator falls with the pressure: no m_i";
-  // It goes with no scale: a rock of twice the bond strength has twice the strengths and the same m_i under twice the
+  // m_i goes with no scale: a rock of twice the bond strength has twice the strengths and the same m_i under twice the
   // pressure.
   EXPECT_EQ(response.scale, ResponseScale::ratio);
   EXPECT_NEAR(response.in_model(*response.value(of_specimen)), std::log(25.0), 1e-5);

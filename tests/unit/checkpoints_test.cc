@@ -80,7 +80,7 @@ TEST(Checkpoints, AreRefusedWhereTheyCannotBeTrusted)
   const auto part = checkpoint / "part-00000.h5";
   EXPECT_EQ(refusal(checkpoint, "another"), part.string() +
                                               ": of another test, input or version of this program; a checkpoint of "
-                                              "`feldspar multiscale` is expected");
+                                              "Feldspar is expected");
   // Torn at any of some places.
   const auto size = std::filesystem::file_size(part);
   for (const auto left : {size - 1, size / 2, size / 10, std::uintmax_t(0)})

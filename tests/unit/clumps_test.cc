@@ -85,7 +85,7 @@ TEST(RigidGroups, FreeSpinAndFallAsOneBody)
   EXPECT_NEAR(grains.spin[0][0], spin, 1e-12 * spin);
   EXPECT_NEAR(grains.spin[0][1], spin, 1e-12 * spin);
   const Energies energies = dynamics.energies();
-  // What is left open is what theory.md §2.3 leaves open at the start, where the first kick is half a step: ¼ M g V Δt.
+  // Energy left open is that of theory.md §2.3 at the start, where the first kick is half a step: ¼ M g V Δt.
   const double half_kick = 0.25 * m * 9.81 * velocity * dynamics.time_step();
   EXPECT_NEAR(energies.unaccounted(), -half_kick, 1e-3 * half_kick);
   EXPECT_NEAR(energies.boundary_work, m * 9.81 * (0.5 - centre[1]), 1e-12 * m);
@@ -201,7 +201,7 @@ TEST(Clumps, ThatCannotBeAreRefused)
   Specimen<2> specimen = packing();
   EXPECT_THROW(put_in_clumps(specimen, {0.002}), InputError);
   Specimen<2> periodic = specimen;
-  periodic.periodic = true;
+  periodic.shape = BodyShape::periodic;
   EXPECT_THROW(put_in_clumps(periodic, {0.005}), InputError);
   Specimen<3> cylinder = small_cylinder();
   EXPECT_THROW(put_in_clumps(cylinder, {0.005}), InputError);
@@ -241,8 +241,8 @@ TEST(Clumps, MeanStressIsThatOfThePlatens)
     dynamics.step();
   const double platen_stress = -0.5 * (dynamics.wall_force(0) + dynamics.wall_force(1)) / 0.020;
   ASSERT_LT(platen_stress, -1e6);
-  // Platens are smooth, and groups that balance have the stress that the platens put in: -(1/V) Σ f ⊗ x at the platens is
-  // the force times the distance of the points where it acts, 0.1 % less than the height. What is left is the unbalanced
+  // Platens are smooth, and groups that balance have the stress that the platens put in: -(1/V) Σ f ⊗ x at the platens
+  // is the force times the distance of the points where it acts, 0.1 % less than the height. The rest is the unbalanced
   // force, some 0.5 %.
   EXPECT_NEAR(dynamics.mean_stress()(1, 1), platen_stress, 0.01 * std::abs(platen_stress));
   EXPECT_NEAR(dynamics.mean_stress()(0, 0), 0.0, 0.01 * std::abs(platen_stress));

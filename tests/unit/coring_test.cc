@@ -3,10 +3,10 @@
 #include "dem/genesis/coring.h"
 
 #include "base/random.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
+#include "laboratory/compression.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_rve.h"
 
@@ -76,8 +76,8 @@ TYPED_TEST(Cores, NoJointCrossesAFaceAndNoOtherIsCut)
 {
   constexpr int dim = TypeParam::value;
   const Specimen<dim> cell = periodic_specimen<dim>(1);
-  const Specimen<dim> core = cored(cell, false);
-  EXPECT_FALSE(core.periodic);
+  const Specimen<dim> core = cored(cell, BodyShape::box);
+  EXPECT_FALSE(core.is_periodic());
   for (std::size_t j = 0; j < core.joints.size(); ++j)
     {
       const Vector<dim> branch = core.joints.rest_distance[j] * at<dim>(core.joints.normal, j);
@@ -107,7 +107,7 @@ TEST(Core, WhatLosesItsLastJointToTheBodyIsRemoved)
 {
   Specimen<2> cell = periodic_specimen<2>(1, 0.016);
   // Cut all joints inside but those of two grains at a side with each other and over the side.
-  const Specimen<2> before = cored(cell, false);
+  const Specimen<2> before = cored(cell, BodyShape::box);
   std::uint32_t one = 0, two = 0;
   for (std::size_t j = 0; j < cell.joints.size(); ++j)
     if (cell.second_of(j).boxes == std::array<int, 2>{} && cell.grains.position[0][cell.joints.grain_1[j]] < 1.2e-3 &&
@@ -127,7 +127,7 @@ TEST(Core, WhatLosesItsLastJointToTheBodyIsRemoved)
         kept.push_back(j);
     }
   cell.joints.keep(kept);
-  const Specimen<2> after = cored(cell, false);
+  const Specimen<2> after = cored(cell, BodyShape::box);
   EXPECT_EQ(after.report.n_removed_grains, before.report.n_removed_grains + 2);
   EXPECT_EQ(after.grains.size() + after.report.n_removed_grains, cell.grains.size());
   const auto n_of_cell = joints_of_grains(cell);
@@ -139,14 +139,14 @@ SpecimenParameters cylinder(const double porosity)
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;
-  wanted.shape = "cylinder";
+  wanted.shape = BodyShape::cylinder;
   wanted.width = 0.010;
   wanted.height = 0.010;
   wanted.porosity = porosity;
   return wanted;
 }
 
-/// By the gauge in the middle, of a uniaxial compression that breaks nothing.
+/// Initial modulus by the gauge in the middle, of a uniaxial compression that breaks nothing.
 double initial_modulus(const Specimen<3>& specimen)
 {
   TestParameters wanted;
@@ -169,13 +169,14 @@ TEST(Core, HasTheRockUpToItsSides)
   // Walls leave voids beside them; so that the grains keep the radii of the input.
   const auto walled = make_specimen<3>(cylinder(0.39), joint, {}, 1);
   SpecimenParameters box = cylinder(0.36);
-  box.shape = "periodic";
+  box.shape = BodyShape::periodic;
   const auto cell = make_specimen<3>(box, joint, {}, 1);
-  const auto core = cored(cell, true);
-  EXPECT_TRUE(core.round);
+  const auto core = cored(cell, BodyShape::cylinder);
+  EXPECT_TRUE(core.is_round());
   for (std::size_t i = 0; i < core.grains.size(); ++i)
     ASSERT_LT(core.distance_from_axis(at<3>(core.grains.position, i)), 0.005);
-  // As many grains as lie in the cylinder by their centres: its share of the box, within the scatter of the few there.
+  // Grains of the core are those whose centres lie in the cylinder: its share of the box, within the scatter of the few
+  // there.
   EXPECT_NEAR(core.report.porosity, cell.report.porosity, 0.03);
 
   const auto beside_the_side = [](const Specimen<3>& specimen) {
@@ -233,11 +234,11 @@ TYPED_TEST(Cores, CutAtTheSidesOnlyHasTheEndsOfAWalledSpecimen)
       };
       const Specimen<dim> walled = made(Coring::none);
       const Specimen<dim> core = made(Coring::sides_only);
-      EXPECT_FALSE(core.periodic);
+      EXPECT_FALSE(core.is_periodic());
       EXPECT_EQ(core.cell(), walled.cell());
       EXPECT_GT(core.report.n_cut_joints, 0u);
       const double flush = 0.01 * core.report.mean_radius;
-      // How many grains a face touches, and how far the farthest stands out of it.
+      // Number of grains that touch a face, and the distance by which the farthest stands out of it.
       const auto at_faces = [&](const Specimen<dim>& specimen, const int axis) {
         std::size_t n = 0;
         double farthest = 0.0;
@@ -279,7 +280,7 @@ TEST(Core, SameSeedSameBitsAndTheCellOfTheRepresentativeVolume)
   EXPECT_EQ(one.joints.tensile_strength, again.joints.tensile_strength);
   // Each half has the grains of the representative volume of that seed.
   const auto cell = periodic_specimen<2>(3);
-  const auto whole = cored(repeated<2>(cell, {2, 1}), false);
+  const auto whole = cored(repeated<2>(cell, {2, 1}), BodyShape::box);
   EXPECT_EQ(one.grains.position, whole.grains.position);
   EXPECT_EQ(one.joints.cohesion, whole.joints.cohesion);
 

@@ -1,7 +1,7 @@
-#include "base/hdf5_archive.h"
-#include "base/seal.h"
-#include "base/system/write_at.h"
+#include "base/checksum/seal.h"
+#include "base/system/hdf5_archive.h"
 #include "base/whole_file.h"
+#include "base/write_at.h"
 #include "coupling/rve/path_run.h"
 #include "coupling/rve/rve_file.h"
 #include "dem/lab/laboratory_run.h"
@@ -44,7 +44,7 @@ std::string content_of(const std::filesystem::path& file)
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// What `read` says in an InputError; empty if it says nothing. Whatever else it throws fails the test.
+/// Message of the InputError that `read` throws; empty if it throws none. Any other exception fails the test.
 std::string refusal(const std::function<void()>& read)
 {
   try
@@ -58,7 +58,7 @@ std::string refusal(const std::function<void()>& read)
   return "";
 }
 
-/// Every one of so many mutations of a file is told by `read`, in one line.
+/// Every one of so many mutations of a file is reported by `read` in one line.
 void expect_all_refused(const std::filesystem::path& file, const std::function<void()>& read)
 {
   constexpr std::uint64_t n_mutations = 300;
@@ -155,7 +155,7 @@ TEST(DamagedFiles, CheckpointsOfTheLaboratoryAreRefused)
   expect_all_refused(file, [&] { resumed.read_checkpoint(file, "this one"); });
 }
 
-/// As a version from before seals wrote it: without a seal, and without the attribute that announces one.
+/// Makes a file as a version from before seals wrote it: without a seal, and without the attribute that announces one.
 void unseal(const std::filesystem::path& file)
 {
   std::string content = content_of(file);

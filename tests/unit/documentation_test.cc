@@ -27,9 +27,9 @@ using feldspar::tests::documentation_pages;
 const fs::path root = FELDSPAR_SOURCE_DIR;
 
 /// Folders of the tree that paths in the documentation begin with.
-const std::vector<std::string> top_folders = {"app",     "base",    "benchmarks", "calibration", "coupling",
-                                              "dem",     "docs",    "examples",   "fem",         "report",
-                                              "results", "scripts", "tests",      "third_party"};
+const std::vector<std::string> top_folders = {"app",  "base",     "benchmarks", "calibration", "coupling", "dem",
+                                              "docs", "examples", "fem",        "laboratory",  "report",   "results",
+                                              "runs", "scripts",  "tests",      "third_party"};
 
 /// The anchor that a renderer of Markdown gives a heading: lower case, spaces as hyphens, ASCII punctuation left out.
 std::string anchor(const std::string_view heading)
@@ -60,7 +60,7 @@ std::set<std::string> anchors(const fs::path& page)
   return found;
 }
 
-/// What stands in the first group of every match.
+/// First group of every match.
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern)
 {
   std::vector<std::string> found;
@@ -133,7 +133,7 @@ TEST(Documentation, FilesNamedInPagesExist)
 TEST(Documentation, EveryRoomStandsOnTheCodeMap)
 {
   const std::string map = content(root / "docs/code-map.md");
-  for (const char* top : {"app", "base", "calibration", "coupling", "dem", "fem", "report", "results"})
+  for (const char* top : {"app", "base", "calibration", "coupling", "dem", "fem", "laboratory", "report", "results"})
     for (const auto& entry : fs::recursive_directory_iterator(root / top))
       if (entry.path().extension() == ".h")
         {

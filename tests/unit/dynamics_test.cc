@@ -25,7 +25,7 @@ TEST(Dynamics, FreeFallIsExactAtWholeSteps)
     dynamics.step();
   const double fallen = 0.5 * 9.81 * dynamics.time() * dynamics.time();
   EXPECT_NEAR(dynamics.specimen().grains.position[1][0], 0.5 - fallen, 1e-12 * fallen + 1e-15);
-  // Its energy: kinetic ½ m v² with v = g t, equal to the work of gravity.
+  // Energy of the grain: kinetic ½ m v² with v = g t, equal to the work of gravity.
   const auto energies = dynamics.energies();
   const double mass = dynamics.specimen().grains.mass[0];
   // The way is the difference of two positions near 0.5 m, each good to 1e-16 m.
@@ -240,7 +240,7 @@ TEST(Dynamics, AWallThatComesFromFarDoesNotPassThroughAGrain)
 
 TEST(Dynamics, TornFacesGoAndTheGrainsMayTouchAgain)
 {
-  // Pulled apart by more than the face's length and pushed back: the second touch is the linear law's, at R1 + R2.
+  // Pulled apart by more than the face's length and pushed back: the second contact is the linear law's, at R1 + R2.
   const double radius = 1e-3;
   auto specimen = placed_specimen({radius, radius}, {{{0.5, 0.5 + 2.0 * radius}, {0.5, 0.5}}});
   FlatJointParameters wanted;

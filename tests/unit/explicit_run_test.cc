@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-/// Paths by explicit dynamics: against the stiffness of the intact network, with stresses given, and taken up.
+/// Paths by explicit dynamics: against the stiffness of the intact network, with stresses given, and resumed.
 namespace feldspar
 {
 namespace

@@ -257,7 +257,7 @@ TEST(Friction, SlidesAtTheLimitAndSticksOnReversal)
   update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {-0.5 * limit / face.shear_stiffness}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], -0.5 * limit, 1e-9 * limit);
   EXPECT_EQ(segments.updates[0].slip_energy, 0.0);
-  // And past the limit on the other side.
+  // Slip past the limit on the other side.
   update_face<2>(face, elements, {closing, closing, {0.0}, {0.0}, {-3.0 * limit / face.shear_stiffness}}, segments);
   EXPECT_NEAR(segments.states[0].shear_stress[0], limit, 1e-9 * limit);
   // Opened, nothing is left.
@@ -278,7 +278,7 @@ TEST(Friction, GathersShearOnlyWhileClosed)
 
 TEST(Friction, ShearUnderAnEdgeWhileTheMiddleIsOpenIsSlip)
 {
-  // Under half of a shear stress that friction could bear; tilted, so that the middle is open and an edge presses.
+  // Under half of a shear stress that friction could carry; tilted, so that the middle is open and an edge presses.
   const double limit = face.friction * 50e6;
   const double slip = 0.5 * limit / face.shear_stiffness;
   const double gap = 1e-9;

@@ -133,7 +133,7 @@ TEST(Flaws, AnEllipseTurnsWithItsAngle)
 
 TEST(Flaws, APolygonTakesOutWhatTheSameDiscWould)
 {
-  // Of 200 corners: the area of such a polygon is that of the disc within 2e-4.
+  // Polygon of 200 corners: its area is that of the disc within 2e-4.
   PolygonHole polygon;
   for (int k = 0; k < 200; ++k)
     polygon.corners.emplace_back(0.006 + 0.003 * std::cos(std::numbers::pi * k / 100.0),
@@ -200,7 +200,7 @@ TEST(Flaws, AreRefusedByNumberKindAndReason)
 {
   const EllipseHole fits{{0.006, 0.010}, {0.0025, 0.0025}};
   EXPECT_EQ(refusal({fits, EllipseHole{{0.011, 0.010}, {0.0025, 0.0025}}}).substr(0, 70),
-            "Flaws: shape 2, hole: (13.5, 10) mm lies outside of the specimen, whic");
+            "FlawParameters: shape 2, hole: (13.5, 10) mm lies outside of the speci");
   EXPECT_NE(refusal({line(0.0, 0.0, 0.0, 0.03)}).find("shape 1, closed flaw: (0, 30) mm lies outside"),
             std::string::npos);
   EXPECT_NE(refusal({EllipseHole{{0.006, 0.010}, {1e-6, 1e-6}}}).find("hole: takes out no grain"), std::string::npos);
@@ -219,7 +219,7 @@ TEST(Flaws, ThatLeaveAFreePieceAreRefused)
   const Slot across{{0.0, 0.010}, {0.0065, 0.010}, 0.0};
   EXPECT_EQ(refusal({down}), "");
   EXPECT_EQ(refusal({across}), "");
-  EXPECT_NE(refusal({down, across}).find("Flaws: shape 2, slot: leaves a free piece of "), std::string::npos);
+  EXPECT_NE(refusal({down, across}).find("FlawParameters: shape 2, slot: leaves a free piece of "), std::string::npos);
 }
 
 TEST(JointSets, HaveTheSpacingThePersistenceAndTheSeedOfTheirEntry)
@@ -272,7 +272,7 @@ TEST(Flaws, ComeBackFromASpecimenFile)
 TEST(Flaws, InSpaceRunThroughTheDepth)
 {
   // A borehole along y through a cube of 8 × 8 × 12 mm.
-  Specimen<3> specimen = small_cylinder(1, 1.0, "box");
+  Specimen<3> specimen = small_cylinder(1, 1.0, BodyShape::box);
   const std::size_t before = specimen.grains.size();
   put_in_flaws(specimen, {EllipseHole{{0.004, 0.006}, {0.0015, 0.0015}}});
   EXPECT_LT(specimen.grains.size(), before);
@@ -280,7 +280,7 @@ TEST(Flaws, InSpaceRunThroughTheDepth)
     EXPECT_GE(std::hypot(specimen.grains.position[0][i] - 0.004, specimen.grains.position[2][i] - 0.006), 0.0015);
 
   // A level disc: what crosses its plane beyond its rim stays bonded.
-  specimen = small_cylinder(1, 1.0, "box");
+  specimen = small_cylinder(1, 1.0, BodyShape::box);
   put_in_flaws(specimen, {DiscFlaw{{0.004, 0.004, 0.006}, 0.003, {0.0, 0.0, 1.0}}});
   std::size_t n = 0;
   for (std::size_t j = 0; j < specimen.joints.size(); ++j)
@@ -330,8 +330,8 @@ TEST(Plates, ThrowOutNoGrainThatComesFromBeside)
 
 TEST(Plates, OnABedBearEveryGrainAsItLies)
 {
-  // One grain touches the plate, one lies within the bed, one above it; all with the same stiffness. The plate sinks by
-  // more than contacts are looked for, comes back, and rises by less than the third grain's gap.
+  // One grain is in contact with the plate, one lies within the bed, one above it; all with the same stiffness. The
+  // plate sinks by more than contacts are looked for, comes back, and rises by less than the third grain's gap.
   Specimen<2> specimen = placed_specimen({0.1, 0.1, 0.1}, {{{0.2, 0.5, 0.8}, {0.1, 0.14, 0.17}}});
   Dynamics<2> dynamics(specimen, {}, ZeroForce::as_placed);
   const std::size_t wall = dynamics.add_wall({.axis = 1, .side = 1.0, .velocity = -10.0, .bed = 0.05});
@@ -432,7 +432,7 @@ void expect_forces_of_a_lever()
   Wall plate{.axis = axis, .side = -1.0, .position = 0.6, .velocity = -1e-3, .pivots = true, .bed = 0.03};
   plate.extent = {0.0, 1.0};
   const std::size_t wall = dynamics.add_wall(plate);
-  // Of positions of order 1.
+  // Round-off of positions of order 1.
   const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * Walls<dim>::stiffness(specimen, 0.1);
   dynamics.step(); // sees the plate where it was
   for (int k = 0; k < 40; ++k)
@@ -445,7 +445,7 @@ void expect_forces_of_a_lever()
       ASSERT_EQ(dynamics.specimen().grains.force[0][0], 0.0);
     }
   EXPECT_NE(dynamics.wall(wall).tilt, 0.0);
-  // What the plate did is what its contacts store and the grains' motion; the pivot does no work.
+  // Work of the plate is stored in its contacts and in the grains' motion; the pivot does no work.
   EXPECT_LT(dynamics.energies().imbalance_over_work(), 0.01);
 }
 
@@ -666,8 +666,8 @@ void expect_breaks_from_its_crack(const TestOutcome& outcome, const Vector<dim>&
   const TestResults results = evaluate(record);
   ASSERT_TRUE(results.fracture_toughness.value) << results.fracture_toughness.reason;
   ASSERT_TRUE(results.fracture_energy.value) << results.fracture_energy.reason;
-  // What the grips do is ∫ σ dε times the section times the length between them. The dynamics add force times way up step
-  // by step; the rows of the curve take a hundredth of the strain at the peak each.
+  // Work of the grips is ∫ σ dε times the section times the length between them. The dynamics add force times way up
+  // step by step; the rows of the curve take a hundredth of the strain at the peak each.
   double work = 0.0;
   for (std::size_t k = 1; k < record.curve.size(); ++k)
     work += 0.5 * (record.curve[k].axial_stress + record.curve[k - 1].axial_stress) *
@@ -693,7 +693,7 @@ TEST(NotchedBodies, OfACentreCrackBreakFromItsTips)
 TEST(NotchedBodies, OfACentreCrackBreakFromItsFrontsInSpace)
 {
   // The crack runs through the depth of a box of 8 × 8 × 12 mm.
-  const auto block = small_cylinder(1, 1.0, "box");
+  const auto block = small_cylinder(1, 1.0, BodyShape::box);
   expect_breaks_from_its_crack<3>(pull_cracked(block), block.size, block.report.mean_radius, 0.008 * 0.008);
 }
 

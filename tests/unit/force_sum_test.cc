@@ -28,7 +28,7 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
     for (std::size_t c = 0, rest = i; c < dim; ++c, rest /= n_across)
       positions[c].push_back((double(rest % n_across) + 0.5) * spacing + random.uniform(-0.03, 0.03) * radius);
   auto body = placed_specimen<dim>(std::vector<double>(n_own, radius), positions);
-  body.periodic = true;
+  body.shape = BodyShape::periodic;
   body.size.setConstant(double(n_across) * spacing);
 
   Images<dim> images(body);
@@ -71,7 +71,7 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
           couple[c][second] += touch.on_grains.couple_2[c];
         }
     }
-  // A few of them would be gone through touch by touch however large the body is.
+  // A few of them would be gone through contact by contact however large the body is.
   EXPECT_GT(8 * touches.touching().size(), n_own);
   EXPECT_GT(n_across_the_side, 10u);
   for (int c = 0; c < dim; ++c)
@@ -87,7 +87,8 @@ void expect_touches_by_their_numbers(const std::size_t n_across)
   EXPECT_GT(largest_couple, 0.0);
 }
 
-// Small bodies are gone through touch by touch, large ones grain by grain: each grain gets the same sum, to the last bit.
+// Small bodies are gone through contact by contact, large ones grain by grain: each grain gets the same sum, to the
+// last bit.
 TEST(ForceSum, OfTouchesGoesByTheirNumbersInSmallBodiesAndInLarge)
 {
   ASSERT_TRUE(stays_on_this_thread(400) && stays_on_this_thread(343));

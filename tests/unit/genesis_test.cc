@@ -146,8 +146,9 @@ TEST(Genesis, SaysWhichCoordinationNumbersCanBeHad)
     }
 }
 
-// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to end. Of
-// 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks between its parts.
+// The search for contacts among millions of grains takes seconds, in which nobody waits for a run that was asked to
+// end. For 30 000 grains it asks three times, and goes over their pairs once more in the dynamics, which also asks
+// between its parts.
 TEST(Genesis, CanBeEndedWithinAStep)
 {
   struct Ended
@@ -221,7 +222,7 @@ public:
   }
 
   template <int dim = 2>
-  std::string refusal(const std::string& shape = "box") const
+  std::string refusal(const BodyShape shape = BodyShape::box) const
   {
     FlatJointParameters flat_joint;
     flat_joint.installation_gap_ratio = 0.1;
@@ -267,12 +268,13 @@ TEST(PackingImport, RefusesWordsMissingNumbersStrayAndOverlappingGrains)
 TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
 {
   const std::string apart = "0.005 0.005 0.001\n";
-  const auto words = [](const PackingFile& file) { return file.refusal("periodic"); };
+  const auto words = [](const PackingFile& file) { return file.refusal(BodyShape::periodic); };
   const PackingFile half_a_radius(apart + "0.0008 0.005 0.001\n0.0093 0.005 0.001\n"); // 1.5 mm from centre to centre
-  EXPECT_NE(half_a_radius.refusal("box").find(":2: reaches through the left side by 0.0002 m; allowed are 5 % of the "
-                                              "radius, 5e-05 m"),
+  EXPECT_NE(half_a_radius.refusal(BodyShape::box)
+              .find(":2: reaches through the left side by 0.0002 m; allowed are 5 % of the "
+                    "radius, 5e-05 m"),
             std::string::npos)
-    << half_a_radius.refusal("box");
+    << half_a_radius.refusal(BodyShape::box);
   EXPECT_NE(words(half_a_radius)
               .find(".txt:3: overlaps the grain of line 2 by 0.0005 m across the sides of the periodic "
                     "box; allowed are 5 % of the smaller radius, 5e-05 m"),
@@ -286,7 +288,7 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleOfThoseInside)
   EXPECT_NE(
     words(PackingFile(apart + "0 0.002 0.001\n0.01 0.002 0.001\n")).find(":3: overlaps the grain of line 2 by 0.002"),
     std::string::npos);
-  // Its own image, 10 mm away.
+  // Overlap of a grain with its own image, 10 mm away.
   EXPECT_NE(
     words(PackingFile("0.005 0.005 0.0052\n0.005 0.005 0.001\n")).find(":1: overlaps its own image by 0.0004 m"),
     std::string::npos);
@@ -301,23 +303,24 @@ TEST(PackingImport, HoldsOverlapsAcrossPeriodicSidesToTheRuleInSpaceToo)
 {
   // Along the second axis, and across an edge.
   const PackingFile second("0.005 0.0008 0.005 0.001\n0.005 0.0093 0.005 0.001\n");
-  EXPECT_NE(second.refusal<3>("box").find(":1: reaches through the front side by 0.0002 m"), std::string::npos);
-  EXPECT_NE(second.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.0005 m across"),
+  EXPECT_NE(second.refusal<3>(BodyShape::box).find(":1: reaches through the front side by 0.0002 m"),
+            std::string::npos);
+  EXPECT_NE(second.refusal<3>(BodyShape::periodic).find(":2: overlaps the grain of line 1 by 0.0005 m across"),
             std::string::npos);
   const PackingFile edge("0.0004 0.005 0.0004 0.001\n0.0095 0.005 0.0095 0.001\n");
-  EXPECT_NE(edge.refusal<3>("periodic").find(":2: overlaps the grain of line 1 by 0.000727 m across"),
+  EXPECT_NE(edge.refusal<3>(BodyShape::periodic).find(":2: overlaps the grain of line 1 by 0.000727 m across"),
             std::string::npos);
-  EXPECT_EQ(PackingFile("0.001 0.005 0.005 0.001\n0.009 0.005 0.005 0.001\n").refusal<3>("periodic"), "");
+  EXPECT_EQ(PackingFile("0.001 0.005 0.005 0.001\n0.009 0.005 0.005 0.001\n").refusal<3>(BodyShape::periodic), "");
   // On the diagonal of a cylinder's section, 4.3 mm from its axis; 4 mm on an axis touch the side.
   const std::string inside = "0.005 0.005 0.005 0.001\n";
   EXPECT_NE(PackingFile(inside + "0.00804 0.00804 0.005 0.001\n")
-              .refusal<3>("cylinder")
+              .refusal<3>(BodyShape::cylinder)
               .find(":2: reaches through the round side by 0.000299 m"),
             std::string::npos);
-  EXPECT_EQ(PackingFile(inside + "0.009 0.005 0.005 0.001\n").refusal<3>("cylinder"), "");
+  EXPECT_EQ(PackingFile(inside + "0.009 0.005 0.005 0.001\n").refusal<3>(BodyShape::cylinder), "");
 }
 
-// As many pairs as grains squared, if they were listed before one is refused.
+// Pairs would be as many as grains squared, if they were listed before one is refused.
 TEST(PackingImport, OfGrainsAllAtOnePlaceIsRefusedAtOnce)
 {
   std::string lines;
@@ -340,7 +343,7 @@ TEST(Random, IsTheStreamItAlwaysWas)
 SpecimenParameters periodic_box(const double edge)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = edge;
   wanted.height = edge;
   return wanted;
@@ -377,10 +380,10 @@ TEST(Genesis, APeriodicPackingHasItsStressAndNoWalls)
 
 TEST(Genesis, ACellOfTwoGrainsMeetsSeveralImagesOfOnePair)
 {
-  // Two equal discs on a square lattice turned by 45°: each touches four images of the other.
+  // Two equal discs on a square lattice turned by 45°: each is in contact with four images of the other.
   Specimen<2> specimen;
   specimen.size = {2.0, 2.0};
-  specimen.periodic = true;
+  specimen.shape = BodyShape::periodic;
   const double radius = std::sqrt(0.5);
   specimen.grains.place({radius, radius}, {{{0.5, 1.5}, {0.5, 1.5}}});
   FlatJointParameters wanted;

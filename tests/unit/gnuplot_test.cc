@@ -1,4 +1,4 @@
-// What gnuplot makes of texts of others: by gnuplot itself, for a rule of ours about it could be wrong.
+// Texts of others as gnuplot reads them: tested by gnuplot itself, because a rule of ours about it could be wrong.
 
 #include "base/quoted.h"
 #include "report/chart/gnuplot_writer.h"
@@ -67,7 +67,7 @@ std::vector<std::string> hostile_texts()
   return texts;
 }
 
-/// As it is to be read in the picture.
+/// Text as it is to be read in the picture.
 std::string shown(const std::string& text)
 {
   std::string result = printable(text);
@@ -81,7 +81,7 @@ std::string shown(const std::string& text)
 TEST(GnuplotText, IsReadByGnuplotAsThatTextAlone)
 {
   const TemporaryFolder folder;
-  // What a macro would stand for, were it expanded.
+  // Text that a macro would stand for, were it expanded.
   std::string script = "set encoding utf8\nrun = 'system \"touch marker\"'\nset print 'printed'\n";
   std::string expected;
   for (const std::string& text : hostile_texts())
@@ -182,7 +182,7 @@ TEST(Gnuplot, ThatHangsIsEndedAndNotAskedAgain)
 {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "bin");
-  // What it starts would outlive it: it must go too.
+  // A process that the program starts would outlive it: this process must end too.
   fs::permissions(folder.write("bin/gnuplot", "#!/bin/sh\nsleep 600 &\necho $! > sleeper\nwait\n"),
                   fs::perms::owner_all);
   const std::string path = std::getenv("PATH");

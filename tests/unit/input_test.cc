@@ -5,8 +5,6 @@
 #include "app/input/parameter_table.h"
 #include "app/input/variant_names.h"
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/bending.h"
 #include "dem/lab/protocols/brazilian.h"
 #include "dem/lab/protocols/direct_shear.h"
@@ -14,6 +12,8 @@
 #include "dem/lab/protocols/notch.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -304,7 +304,7 @@ TEST(Input, EveryEntryReachesItsMember)
   EXPECT_EQ(input.calibration.most_packings, 7u);
   EXPECT_EQ(input.calibration.n_samples, 800u);
   EXPECT_EQ(input.specimen.dimension, 2u);
-  EXPECT_EQ(input.specimen.shape, "box");
+  EXPECT_EQ(input.specimen.shape, BodyShape::box);
   EXPECT_DOUBLE_EQ(input.specimen.width, 0.054);
   EXPECT_DOUBLE_EQ(input.specimen.height, 0.108);
   EXPECT_DOUBLE_EQ(input.specimen.minimum_radius, 3e-4);
@@ -455,7 +455,8 @@ TEST(Input, EveryEntryOfCoresReachesItsMember)
   EXPECT_EQ(input.specimen.cells_along, 4u);
 }
 
-// What has no sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the plane.
+// A body without sides cannot be cut free, a packing made elsewhere is no cell, and cells belong to a core in the
+// plane.
 TEST(Input, CoresAreRefusedWhereTheyCannotBe)
 {
   const auto refused = [](const std::string& entries) {
@@ -587,7 +588,7 @@ TEST(Input, EntriesOfAnotherJointLawAreRefusedByName)
 {
   EXPECT_EQ(error_of_entry("Parallel bond", "Cohesion = 3 MPa"),
             "a.prm:2: Parallel bond/Cohesion = 3 MPa: is of another joint law; Specimen/Joint law is flat joint");
-  // Its default too: what stands in a file is to have an effect.
+  // The default of another law is refused too: an entry in a file is to have an effect.
   EXPECT_EQ(error_of("a.prm", "subsection Flat joint\nset Segments = 4\nend\n"
                               "subsection Specimen\nset Joint law = parallel bond\nend"),
             "a.prm:2: Flat joint/Segments = 4: is of another joint law; Specimen/Joint law is parallel bond");
@@ -629,7 +630,7 @@ TEST(Input, AVariantThatSetsAnEntryOfAnotherJointLawIsRefusedByName)
     varied("flat joint; parallel bond || 2; 3", in_step),
     "a.prm:3: Variants/Values = flat joint; parallel bond || 2; 3: Flat joint/Segments = 3: is of another joint "
     "law; Specimen/Joint law is parallel bond; give it 4 in such a variant");
-  // What the input has without variants says nothing new of the parallel bond.
+  // The value that the input has without variants says nothing new of the parallel bond.
   EXPECT_EQ(varied("flat joint; flat joint; parallel bond || 2; 3; 4", in_step), "");
 
   const TemporaryFolder folder;
@@ -764,7 +765,7 @@ end
 )";
   const auto entries = scan_prm("joints.prm", std::string(joints));
   EXPECT_EQ(entries.size(), entry_names("Softening flat joint").size() + 1);
-  // Those of space have no use in the plane, where they must be left out.
+  // Entries of space have no use in the plane, where they must be left out.
   std::string in_plane(joints);
   for (const std::string line : {"  set Rings = 1\n", "  set Sectors = 6\n"})
     in_plane.erase(in_plane.find(line), line.size());
@@ -836,6 +837,10 @@ TEST(Input, RefusesWhatNoProgrammeCanBe)
   EXPECT_EQ(error_of_entry("Flat joint", "Modulus = 1e300 GPa"),
             "a.prm:2: Flat joint/Modulus = 1e300 GPa: 1e+300 GPa is beyond the range of numbers; write a stress, e.g. "
             "\"22 MPa\"");
+  for (const char* const entry :
+       {"Modulus = 5e-324 GPa", "Stiffness ratio = 5e-324", "Radius multiplier = 1e-300", "Modulus = 1e30 GPa"})
+    EXPECT_NE(error_of_entry("Flat joint", entry).find("must be 0 or lie in [1e-30, 1e+30]"), std::string::npos)
+      << entry;
   EXPECT_EQ(error_of_entry("Flat joint", "Installation gap ratio = 1.5"),
             "a.prm:2: Flat joint/Installation gap ratio = 1.5: must lie in [0, 1], or be none");
   EXPECT_EQ(error_of_entry("Tests", "Confinements = 5, -10 MPa"),
@@ -1043,7 +1048,7 @@ TEST(Input, TheInstallationGapFollowsFromOneEntry)
     read_input(folder.write("a.prm", "subsection Flat joint\nset Coordination number = 4.2\nend"));
   EXPECT_EQ(by_number.flat_joint.installation_gap_ratio, std::nullopt);
   EXPECT_EQ(by_number.flat_joint.coordination_number, 4.2);
-  // What files of before the gap was the default say, and `best.prm` of calibrations.
+  // Entries in files from before the gap was the default, and in `best.prm` of calibrations.
   EXPECT_EQ(error_of("a.prm", "subsection Flat joint\n"
                               "set Installation gap ratio = none\nset Coordination number = 4.2\nend"),
             "");

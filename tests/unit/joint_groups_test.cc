@@ -55,7 +55,7 @@ std::size_t n_packs_with_broken_bonds(const Joints<dim>& joints)
   return n;
 }
 
-/// All that a joint is, remembers and does, by its number.
+/// All that a joint is, stores and does, by its number.
 template <int dim>
 std::vector<std::vector<double>> told_by_number(Joints<dim>& joints)
 {
@@ -109,7 +109,7 @@ TEST(JointGroups, PutBrokenJointsTogetherAndChangeNone)
 
 TEST(JointGroups, ArePutAnewOnlyWhereItSparesEnough)
 {
-  // Of some 650 joints three that are broken take three of eighty packs the long way: one would do.
+  // Three broken joints of some 650 make a sweep compute three of eighty packs segment by segment: one would do.
   auto joints = granite_box(0.03, 0.03).joints;
   JointGroups<2> groups(joints);
   for (const std::size_t j : {std::size_t(0), std::size_t(100), std::size_t(400)})

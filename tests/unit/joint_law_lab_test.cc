@@ -1,12 +1,12 @@
-// Specimens of joint laws other than the flat joint: time step, energies, threads, files and a test taken up again.
+// Specimens of joint laws other than the flat joint: time step, energies, threads, files and a resumed test.
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/specimen_file.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/parallel_bonds.h"
@@ -65,7 +65,7 @@ Specimen<Case::dim> small_bonded_specimen()
   constexpr int dim = Case::dim;
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = dim == 2 ? "box" : "cylinder";
+  wanted.shape = dim == 2 ? BodyShape::box : BodyShape::cylinder;
   wanted.width = dim == 2 ? 0.012 : 0.008;
   wanted.height = dim == 2 ? 0.020 : 0.012;
   wanted.porosity = dim == 2 ? 0.16 : 0.40;

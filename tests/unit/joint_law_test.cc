@@ -21,8 +21,8 @@ struct ElasticBondParameters : FlatJointParameters
 {
 };
 
-/// A spring over the whole face that breaks as one, bears no moment and leaves nothing. It remembers the largest normal
-/// stress that it ever bore.
+/// A spring over the whole face that breaks as one, carries no moment and leaves nothing. It stores the largest normal
+/// stress that it ever carried.
 template <int dim>
 struct ElasticBond : CarriedPlane<dim>
 {
@@ -158,7 +158,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(JointLawBoundary, Dimensions);
 
-/// Grains in a row along x that just touch; more than two packs of joints and some over.
+/// Grains in a row along x that are just in contact; more than two packs of joints and some over.
 template <int dim>
 Specimen<dim> row_of_grains(const ElasticBondParameters& wanted)
 {
@@ -198,7 +198,7 @@ TYPED_TEST(JointLawBoundary, AForeignLawIsInstalledSweptAndForgottenByItsOwnRule
   ASSERT_EQ(joints.size(), n);
   ASSERT_EQ(joints.n_segments, 1u);
 
-  // Pair j opens by 0.13 (j + 1) of what its bond bears.
+  // Pair j opens by 0.13 (j + 1) of what its bond carries.
   const auto critical = [&](const std::size_t j) { return wanted.bond_tensile_strength / joints.normal_stiffness[j]; };
   const auto opening = [&](const std::size_t j) { return 0.13 * double(j + 1) * critical(j); };
   const auto breaks_at = [](const std::size_t j) { return 0.13 * double(j + 1) > 1.0; };

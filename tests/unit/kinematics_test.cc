@@ -135,7 +135,7 @@ TEST(TurnedLink, IsNotMovedByARigidRotationInThePlane)
   EXPECT_GT(link_motion(link, position).norm(), 0.04 * link.branch.norm()); // (1 - cos 0.3) of the branch
 }
 
-/// Where a rotation takes two grains in space, after a turn of the second by itself.
+/// Position of two grains in space after a rotation of both, before which the second has turned by itself.
 Unknowns rotated(const Network<3>& network, const Link<3>& link, const Vector<3>& turn, const Vector<3>& of_second)
 {
   const auto rotation = [](const Vector<3>& vector) { return Eigen::AngleAxisd(vector.norm(), vector.normalized()); };
@@ -156,8 +156,8 @@ TEST(TurnedLink, IsNotMovedInSpaceByARigidRotationToItsSecondOrder)
     return TurnedLink<3>(link, rotated(network, link, turn, 1e-9 * Vector<3>::UnitX())).motion();
   };
   const double length = link.branch.norm();
-  // By the series a sixth of products of three turns, which are some 1.3 times the angle together: half of its third power
-  // bounds them and what follows.
+  // The series leaves a sixth of products of three turns, which are some 1.3 times the angle together: half of the
+  // third power of the angle bounds them and what follows.
   for (const double angle : {0.02, 0.2})
     EXPECT_LT(false_motion(angle).head<3>().norm(), 0.5 * std::pow(angle, 3) * length) << angle;
   EXPECT_NEAR(false_motion(0.1).head<3>().norm() / false_motion(0.05).head<3>().norm(), 8.0, 0.5);
@@ -265,7 +265,7 @@ TYPED_TEST(TurnedLinks, LeaveAnIntactNetworkItsStress)
   EXPECT_GT(n_on_the_brink, 0u);
 }
 
-// Of grains ten thousand times as stiff all strains are ten thousand times as small, and so is what turning does.
+// Strains of grains ten thousand times as stiff are ten thousand times as small, and so is the effect of turning.
 TYPED_TEST(TurnedLinks, MakeNoDifferenceToStiffGrains)
 {
   constexpr int dim = TypeParam::value;

@@ -1,8 +1,8 @@
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/stop_rule.h"
+#include "laboratory/compression.h"
+#include "laboratory/stop_rule.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
@@ -196,7 +196,7 @@ TEST(LabResults, SayWhyWhenACurveNeverPeaks)
   EXPECT_EQ(results.peak_stress.reason,
             "the stress never peaked: it was still rising when the test ended; the highest was 44.77 MPa");
   EXPECT_EQ(results.youngs_modulus_initial.reason, results.peak_stress.reason);
-  // What came apart beyond its last row was strongest there.
+  // A specimen that came apart beyond its last row was strongest there.
   record.came_apart = true;
   EXPECT_EQ(evaluate(record).peak_stress.value, -record.curve.back().axial_stress);
   record.interrupted = true;
@@ -307,7 +307,7 @@ TEST(Curve, ARowThatIsBrokenOffIsGoneOnWithToTheSameBits)
     }
 }
 
-// A grain that touches nothing is no part of the body: the strain of the body is the same with it and without it. A gauge
+// A grain without a contact is no part of the body: the strain of the body is the same with it and without it. A gauge
 // that counted it would be off by its share of the moment of the positions times the difference of its motion, here 1.4 %
 // of the axial strain.
 TEST(StrainGauge, DoesNotSeeALooseGrain)
@@ -433,7 +433,7 @@ TEST(StopRules, AreKept)
   const auto fallen = run(at_stress);
   const auto usual = run({});
   EXPECT_LT(fallen.axial_strain, usual.axial_strain); // brittle: falls long before 1.6 times the strain at peak
-  // Of both, whichever comes first.
+  // Two rules, of which the first that is met ends the test.
   TestParameters either = at_stress;
   either.stop_strain = at_strain.stop_strain;
   EXPECT_EQ(run(either).axial_strain, run(at_strain).axial_strain);
@@ -447,7 +447,8 @@ TEST(StopRules, AreKept)
 
 TEST(StopRules, EndADiscThatBearsMoreAfterItsFirstFall)
 {
-  // The whole disc bears 10 MPa at a strain of 1e-3; its halves fall to 9 MPa and rise to 30, never below the share of 0.7.
+  // The whole disc carries 10 MPa at a strain of 1e-3; its halves fall to 9 MPa and rise to 30, never below the share
+  // of 0.7.
   TestParameters wanted;
   wanted.stop_stress_over_peak = 0.7;
   const auto end = [&](const LaboratoryProtocol& protocol) {

@@ -24,7 +24,7 @@ using tests::TemporaryFolder;
 
 std::string refusal(const std::function<void()>& read)
 {
-  // Of processor time; readers that take the square of these sizes need more.
+  // Limit of processor time; readers that take the square of these sizes need more.
   constexpr double most_seconds = 10.0;
   const std::clock_t begin = std::clock();
   std::string words;

@@ -63,7 +63,7 @@ TEST(Motion, OfAnImageWithItsCellIsSeen)
 {
   const double radius = 1e-3;
   auto body = placed_specimen<2>({radius}, {{{0.5 * radius}, {0.5 * radius}}});
-  body.periodic = true;
+  body.shape = BodyShape::periodic;
   body.size = {2.05 * radius, 10.0 * radius};
   Dynamics<2> dynamics(std::move(body), {0.0, 0.2}, ZeroForce::at_touch);
   Tensor<2> rate = Tensor<2>::Zero();

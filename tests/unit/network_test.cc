@@ -137,7 +137,7 @@ std::vector<Tensor<dim>> turns()
 TEST(Network, KeepsItsStiffnessAtEveryAngle)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.016;
   FlatJointParameters joint;
   joint.installation_gap_ratio = 0.0457;

@@ -2,8 +2,8 @@
 
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/loading_stages.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
@@ -124,7 +124,7 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
                 fmt::format("stage 2 of 3, axial stress 2000 MPa: the stress rose to {:.1f} MPa and no "
                             "further",
                             *results.peak_stress.value / 1e6));
-      // By the rule of other tests: at 1.6 times the strain at the peak, or before.
+      // The end follows from the rule of other tests: at 1.6 times the strain at the peak, or before.
       EXPECT_LT(-record.curve.back().axial_strain, 1.6 * *results.strain_at_peak.value + 2e-5);
       for (const Figure& figure :
            {results.youngs_modulus_initial, results.crack_initiation_stress, results.post_peak_drop})
@@ -134,8 +134,8 @@ TEST(OwnLoading, EndsInAStageThatTheSpecimenCannotBear)
 
 TEST(OwnLoading, KeepsTheRateOfTheLateralStrain)
 {
-  // Of a specimen that does not break: what is missed is what moves the platens, which close at the rate over Poisson's ratio;
-  // at 0.3 c/H = 8e4/s and 1/s to 2.5/s that is up to 3e-5. Waves of the start add to it.
+  // The specimen does not break. The platens are moved by the strain that is missed, and close at the rate over
+  // Poisson's ratio; at 0.3 c/H = 8e4/s and 1/s to 2.5/s that strain is up to 3e-5. Waves of the start add to it.
   const auto record =
     run_stages<2>(small_specimen(1, unbreakable), following({{.lateral_strain = -8e-4, .strain_rate = 0.25}}));
   EXPECT_TRUE(record.cracks.empty());

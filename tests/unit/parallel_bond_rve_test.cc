@@ -1,5 +1,5 @@
 // Representative volumes of parallel bonds: the response of one face, the tangent, balances through breakage, explicit
-// dynamics beside, and a path taken up again.
+// dynamics beside, and a resumed path.
 
 #include "coupling/network/link_response.h"
 #include "coupling/rve/equilibrium.h"
@@ -30,7 +30,7 @@ Specimen<dim> bonded_cell()
 {
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.012 : 0.006;
   wanted.porosity = dim == 2 ? 0.16 : 0.36;
   ParallelBondParameters bonds = test_bonds();
@@ -170,7 +170,7 @@ TEST(ParallelBondRve, IsThatOfSlowExplicitDynamics)
   const double fast = error(100);
   const double slow = error(10000);
   EXPECT_LT(slow, fast);
-  // What small strains leave out is of the order of the strain, the way of friction from step to step a little more.
+  // Small strains neglect terms of the order of the strain, and the way of friction from step to step a little more.
   EXPECT_LT(slow, 2e-3);
 }
 

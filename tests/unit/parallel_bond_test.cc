@@ -31,7 +31,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(ParallelBondPair, Dimensions);
 
-/// Pairs along x, far from each other, that just touch.
+/// Pairs along x, far from each other, that are just in contact.
 template <int dim>
 Specimen<dim> pairs(const ParallelBondParameters& wanted = test_bonds())
 {
@@ -80,7 +80,8 @@ struct Beam
   double contact_normal_stiffness, contact_shear_stiffness; ///< [N/m]
 };
 
-/// Of pair k, so that some bonds break and others hold: none sits at the limit itself.
+/// Share of the strength to which pair k is strained, so that some bonds break and others hold: none lies at the limit
+/// itself.
 double share(const std::size_t k) { return 0.13 * double(k + 1); }
 
 template <int dim>
@@ -409,7 +410,7 @@ TYPED_TEST(ParallelBondPair, WanderingAgreesWithAPlainProgramAndKeepsItsEnergy)
                                               [&](unsigned int) { return elements.update.state; });
       EXPECT_NEAR(stored, plain.stored(), 1e-8 * (plain.stored() + largest_stored));
       largest_stored = std::max(largest_stored, stored);
-      // Where the contact closes within a step the trapezoid is off by some parts in the steps of a period squared.
+      // The trapezoid is off by some parts in the steps of a period squared where the contact closes within a step.
       EXPECT_NEAR(work, stored + slip_energy + released, 1e-5 * (work + largest_stored)) << step;
     }
   EXPECT_GT(broke_at, 100);

@@ -30,7 +30,7 @@ TEST(Partition, OneExpensiveCellLeavesNoRankWithoutAny)
   // The share of a rank is 34 s; by weight alone the first cell would have taken those of two ranks.
   const std::vector<double> seconds{100.0, 1.0, 1.0, 1.0, 1.0};
   EXPECT_EQ(partition_cuts(partition_weights(seconds, 3), 3), (Cuts{0, 1, 3, 5}));
-  // As many ranks as cells.
+  // Number of ranks equal to the number of cells.
   EXPECT_EQ(partition_cuts(partition_weights(seconds, 5), 5), (Cuts{0, 1, 2, 3, 4, 5}));
 }
 } // namespace

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-/// Paths: interrupted and taken up, controlled in mixed ways, and led where there is no equilibrium.
+/// Paths: interrupted and resumed, controlled in mixed ways, and on a path without equilibrium.
 namespace feldspar
 {
 namespace
@@ -43,7 +43,7 @@ bool same(const PathSample<dim>& a, const PathSample<dim>& b)
          a.boundary_stress_error == b.boundary_stress_error && a.crack_density == b.crack_density;
 }
 
-/// Whether a path that is taken up from checkpoints goes on to the bits of the unbroken one.
+/// Expects that a path resumed from checkpoints goes on to the bits of the unbroken one.
 template <int dim>
 void expect_same_bits_when_taken_up(const Kinematics kinematics)
 {

@@ -1,9 +1,9 @@
 // The peak of a curve, and the end of a test by it.
 
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
-#include "dem/lab/stage_walk.h"
-#include "dem/lab/stop_rule.h"
+#include "laboratory/loading_stages.h"
+#include "laboratory/stage_walk.h"
+#include "laboratory/stop_rule.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Peak, IsAMaximumWhoseRestOnlyWavers)
 
 TEST(Peak, OfATestThatEndsInAFallIsBeforeIt)
 {
-  // By Stop stress over peak, or by a Stop strain: two rows before the end the curve still rose.
+  // End by Stop stress over peak, or by a Stop strain: two rows before the end the curve still rose.
   EXPECT_NEAR(peak_of(curve_through({{0.0, 0.0}, {8.30, 102.0}, {8.32, 70.0}})).second, 102.0, 1e-9);
   // Behind an earlier maximum, on its way up again.
   EXPECT_EQ(peak_of(curve_through({{0.0, 0.0}, {2.0, 71.0}, {2.1, 50.0}, {2.5, 65.0}})).second, 0.0);
@@ -136,7 +136,7 @@ TEST(Peak, OfABodyThatYieldsIsWhereItsLevelBegins)
 
 TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
 {
-  // Nothing holds the body at first: waves of 0.2 MPa come and go. Held from 1e-3 on, it bears 67 MPa.
+  // Nothing holds the body at first: waves of 0.2 MPa come and go. Held from 1e-3 on, it carries 67 MPa.
   const Corners gap{{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.1}, {0.03, 0.2}, {0.1, 0.0},
                     {1.0, 0.0}, {2.0, 67.0}, {2.2, 10.0}, {4.0, 8.0}};
   PeakDemands demands;
@@ -158,7 +158,7 @@ TEST(Peak, NeedsALeastStressAndTimeForItsWaves)
 
 TEST(Peak, OfADiscIsNoRipple)
 {
-  // The first fall by 5 % is one of waves; the disc splits at 5 MPa, and its halves bear 9.
+  // The first fall by 5 % is one of waves; the disc splits at 5 MPa, and its halves carry 9.
   TestRecord record =
     curve_through({{0.0, 0.0}, {0.01, 0.2}, {0.02, 0.0}, {0.5, 5.0}, {0.55, 4.0}, {1.0, 9.0}}, brazilian.kind);
   EXPECT_NEAR(peak_of(record).second, 0.2, 1e-9); // without demands

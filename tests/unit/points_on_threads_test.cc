@@ -19,7 +19,7 @@ namespace feldspar
 {
 namespace
 {
-/// What points of RVEs that soften have done along a path.
+/// Record of points of RVEs that soften along a path.
 template <int dim>
 struct Record
 {
@@ -42,7 +42,7 @@ Record<dim> strained_by_threads(const int n_threads)
   for (unsigned int k = 0; k < n_points; ++k)
     points.add(material.make_point({fmt::format("0_1:{}", k), k, 0, std::vector<double>(dim, 0.0), size / 3.0}));
 
-  // As many threads as wanted, on fewer cores too.
+  // Number of threads as wanted, on fewer cores too.
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, std::size_t(n_threads));
   oneapi::tbb::task_arena arena(n_threads);
   Record<dim> record;

@@ -105,6 +105,9 @@ TEST(Quantity, MustBeOneNumberOneSpaceOneUnit)
                            "-inf MPa",
                            "1e999 MPa",
                            "1e308 MPa",
+                           "1e25 MPa",
+                           "5e-324 MPa",
+                           "-1e-37 MPa",
                            "-1e300 GPa.m2.m-2",
                            "5, 10, 20 MPa"})
     EXPECT_NE(stress_error(text), "") << text;
@@ -115,6 +118,8 @@ TEST(Quantity, ErrorsShowTheRightForm)
   EXPECT_EQ(stress_error("22"), "a unit is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_EQ(stress_error("MPa"), "a number is missing; write a stress, e.g. \"22 MPa\"");
   EXPECT_NE(error_of([] { parse_quantity("22 m", angle); }).find("\"10 deg\""), std::string::npos);
+  EXPECT_EQ(stress_error("5e-324 MPa"), "the size of a number in SI units must be 0 or lie in [1e-30, 1e+30]");
+  EXPECT_EQ(stress_error("0 MPa"), "");
   EXPECT_EQ(stress_error("1e308 MPa"), "1e+308 MPa is beyond the range of numbers; write a stress, e.g. \"22 MPa\"");
 }
 

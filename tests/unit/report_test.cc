@@ -1,4 +1,4 @@
-// What the report says and reads: compression positive where the laboratory has it so.
+// Texts that the report writes and reads: compression positive where the laboratory has it so.
 
 #include "app/screen/print_result.h"
 #include "base/input_error.h"
@@ -42,6 +42,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -517,7 +518,7 @@ TEST(Bodies, OfDifferentGapsAreSaidToBeDifferentRocks)
   for (const char* const words : {"direct and multiscale are different rocks", "0.0457 and 0.0237 mean radii",
                                   "4.36 and 4.20", "0.160 and 0.160"})
     EXPECT_NE(remarks[0].find(words), std::string::npos) << remarks[0];
-  // What was measured on rock has no gap, nor has a sample without grains.
+  // A curve measured on rock has no gap, nor has a sample without grains.
   Series measured = body("curve", SeriesKind::laboratory_curve, 0.5, 9.0);
   Series without = body("continuum", SeriesKind::finite_elements, 0.5, 9.0);
   for (FinishedTest& test : without.tests)
@@ -612,7 +613,7 @@ TEST(Trust, SaysOnceWhatIsSoOfAllModels)
   ASSERT_EQ(shared.own[1].size(), 1u);
   EXPECT_NE(shared.own[1][0].find("kinetic over strain energy"), std::string::npos) << shared.own[1][0];
   EXPECT_TRUE(shared.own[2].empty());
-  // Of one model there is nothing to share.
+  // One model alone has nothing to share.
   EXPECT_EQ(shared_warnings({series[1]}).own[0].size(), 2u);
 }
 
@@ -829,7 +830,7 @@ TEST(PictureBook, NumbersPicturesOfOneName)
   EXPECT_EQ(places[2].picture.name, "curves_3");
 }
 
-/// Those of the strength alone.
+/// Pictures of the strength alone.
 std::vector<Picture> strength_pictures(const std::vector<Series>& all)
 {
   auto pictures = study_pictures(all);
@@ -1080,7 +1081,7 @@ TEST(Comparison, SaysWhyATestOfAPropertyHasNoFigureOfIt)
             0u)
     << sentences.front();
   EXPECT_NE(as_text(rows, reference).find("No figure of fracture toughness"), std::string::npos);
-  // Where nothing else can be compared either, the verdict says it too.
+  // The verdict says it too where nothing else can be compared.
   EXPECT_EQ(verdict(rows, reference, "").points.front(), sentences.front());
   // The same of a body that could not be set up.
   FinishedTest refused;
@@ -1147,7 +1148,7 @@ TEST(Comparison, TakesTheModulusAndTheRatioThatTheReferenceHas)
             (std::vector<std::string>{"Young's modulus, initial", "Poisson's ratio, initial"}));
   EXPECT_EQ(compared_in({"secant", "secant"}), (std::vector<std::string>{"Young's modulus, secant at 50 % of peak",
                                                                          "Poisson's ratio, secant at 50 % of peak"}));
-  // Those that are not compared are no property that was not tested.
+  // Properties that are not compared do not count as not tested.
   EXPECT_TRUE(
     properties_without_a_test(compare({compression(3)}, reference, {"initial", "initial"}), reference).empty());
 }
@@ -1170,7 +1171,7 @@ TEST(PageText, OfNumbersHasTheirFiguresAndNoSignOfZero)
   EXPECT_EQ(text::sentence("All were reached."), "All were reached.");
 }
 
-/// Of two targets, of which the second is Poisson's ratio; three samples of two parameters.
+/// Record of two targets, of which the second is Poisson's ratio; three samples of two parameters.
 CalibrationRecord calibration_record()
 {
   CalibrationRecord record;
@@ -1303,7 +1304,7 @@ TEST(CalibrationRecord, KnowsWhichFiguresItsReferenceHasAndNeedsNoPosterior)
   ASSERT_EQ(record->parameters.size(), 1u);
   EXPECT_EQ(record->parameters[0].best, 50e9);
   EXPECT_FALSE(record->parameters[0].median);
-  // What has a posterior has its samples.
+  // A calibration with a posterior has its samples.
   folder.write("calibration.json", R"({"statement": "s", "tolerance": 0.03, "targets": {}, "parameters": {"modulus":
     {"title": "modulus", "unit": "Pa", "best": 50e9, "median": 51e9, "lower_90": 40e9, "upper_90": 60e9,
     "verdict": "determined", "sentence": "s"}}, "predictions": {}, "sensitivities": {}})");
@@ -1349,7 +1350,7 @@ TEST(CalibrationRecord, JudgesAFileWithoutVerdictsByItsOwnMeans)
   read = record(R"("reached": 11e6, "standard_error": null, "deviation": 0.1, "n_packings": 0)");
   EXPECT_EQ(read.verdict, TargetVerdict::missed);
   EXPECT_EQ(read.statement, "All targets were reached within 3 % or within two standard errors.");
-  // What a file says itself holds.
+  // Verdicts in the file itself hold.
   read = record(R"("reached": 11e6, "standard_error": 0.2e6, "deviation": 0.1, "n_packings": 12, "verdict": "reached")",
                 R"("verdict": "reached", )");
   EXPECT_EQ(read.verdict, TargetVerdict::reached);
@@ -1431,7 +1432,17 @@ TEST(Chart, IsDataThatEndsNoScript)
   EXPECT_EQ(points[2][0], -1e-9);
 }
 
-// What the pointer shows is what the picture draws: the mean of two seeds, and each of them in a thin line.
+TEST(Chart, HasNumbersOfAllSizes)
+{
+  EXPECT_EQ(live::number(1.23456789e-310).get<double>(), 1.2346e-310); // less than the least normal number, 2.2e-308
+  EXPECT_EQ(live::number(5e-324).get<double>(), 5e-324);
+  EXPECT_EQ(live::number(-123456.0).get<double>(), -123460.0);
+  constexpr double largest = std::numeric_limits<double>::max();
+  EXPECT_EQ(live::number(largest).get<double>(), largest); // 1.7977e308 is beyond it
+  EXPECT_TRUE(live::number(std::nan("")).is_null());
+}
+
+// The pointer shows what the picture draws: the mean of two seeds, and each of them in a thin line.
 TEST(Chart, OfCurvesHasTheirPoints)
 {
   const std::vector<Series> all{{"rock", SeriesKind::specimens, {}, {compression(1), compression(2, 1.2)}, {}}};
@@ -1622,7 +1633,7 @@ TEST(GroupColours, OfGroupsThatTouchDiffer)
         EXPECT_EQ(colour(x, y) == colour(x + 1, y), group(x, y) == group(x + 1, y)) << x << ", " << y;
         EXPECT_EQ(colour(y, x) == colour(y, x + 1), group(y, x) == group(y, x + 1)) << y << ", " << x;
       }
-  // What has no place, as of a damaged table, is of no group.
+  // A grain without a place, as of a damaged table, belongs to no group.
   grains[0].start[0] = std::nan("");
   EXPECT_EQ(group_colours(grains).size(), grains.size());
 }
@@ -1844,6 +1855,17 @@ TEST(Reference, RefusesByFileAndKeyWhatItDoesNotUnderstand)
   expect(of_experiment(R"("hoek_brown": {"m": 20})"), "experiment/hoek_brown: sigma_ci_MPa is missing");
   expect(of_experiment(R"("triaxial": [{"confining_pressure_MPa": 300, "strength_MPa": 40}])"),
          "experiment/triaxial/1: strength_MPa is sigma_1, which lies above");
+
+  // Each point is fitted many times: 6 000 took 12 s, and 60 000 would take twenty minutes.
+  std::string tests, strengths;
+  for (int k = 1; k <= 1001; ++k)
+    {
+      tests += fmt::format(R"({}{{"confining_pressure_MPa": {}, "strength_MPa": 4000}})", k == 1 ? "" : ", ", k);
+      strengths += fmt::format(R"({}"strength_at_{}_MPa": 4000)", k == 1 ? "" : ", ", k);
+    }
+  expect(of_experiment(fmt::format(R"("triaxial": [{}])", tests)),
+         "experiment/triaxial: has 1001 tests; there must be at most 1000");
+  expect(of_experiment(strengths), "experiment: has 1001 names; there must be at most 1000");
 }
 
 TEST(Provenance, ASeriesBesideAnotherShowsOnlyWhereItsInputDiffers)

@@ -17,7 +17,7 @@ class Rves : public testing::Test
 };
 TYPED_TEST_SUITE(Rves, Dimensions);
 
-/// FNV-1a over all an RVE remembers.
+/// FNV-1a over all an RVE keeps.
 template <int dim>
 std::uint64_t hash(const NetworkState<dim>& state)
 {
@@ -90,8 +90,9 @@ TYPED_TEST(Rves, IntactResponseIsThatOfTheCascade)
   EXPECT_NEAR(relaxed.state.work.boundary, closed_form.state.work.boundary, 1e-9 * closed_form.state.work.boundary);
 }
 
-/// Of a slipping segment the tangent takes the shear stress as it is, of a sticking one that it sticks all the way. So do
-/// finite differences where friction is nothing, and where it is boundless and the faces have closed before.
+/// Friction with which finite differences give the tangent. For a slipping segment the tangent takes the shear stress
+/// as it is; for a sticking one it assumes that it sticks all the way. So do finite differences where friction is zero,
+/// and where it is boundless and the faces have closed before.
 struct Friction
 {
   std::uint64_t seed;

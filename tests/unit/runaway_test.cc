@@ -1,10 +1,10 @@
 #include "dem/dynamics/runaway.h"
 #include "dem/flaws/clumps.h"
 #include "dem/flaws/mineral_grains.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "tests/unit/small_specimen.h"
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ TEST(Runaway, IsToldByGrainStepAndReason)
       EXPECT_NE(words.find(" in step "), std::string::npos) << words;
       EXPECT_EQ(words.find('\n'), std::string::npos) << words;
     }
-  // What is in nobody's way shows who it is.
+  // A grain in nobody's way is named itself.
   const std::string thrown = end_after([](Grains<2>& grains) { grains.velocity[0][7] = 1e9; });
   EXPECT_NE(thrown.find("grain "), std::string::npos);
   // A grain in free flight does its own radius in a step at 2 km/s and more, and is not disturbed below.
@@ -108,8 +108,8 @@ TestOutcome run(LabTest<dim> test, const std::size_t most_rows)
   return test.finish(!test.has_ended());
 }
 
-// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the stiffest
-// grain, by which the step is chosen. What is allowed as safety, 1, is thus stable even without damping.
+// Central differences are stable while ωΔt < 2; ω is at most some 1.2 of the root of stiffness over mass of the
+// stiffest grain, by which the step is chosen. The largest safety allowed, 1, is thus stable even without damping.
 TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
 {
   const auto pressed_with = [](const double safety) {
@@ -125,8 +125,7 @@ TEST(Runaway, EndsATestWhoseTimeStepIsTooLongAndKeepsTheRowsBefore)
       EXPECT_TRUE(record.interrupted);
       EXPECT_NE(record.failure.find("grain"), std::string::npos) << record.failure;
       EXPECT_NE(record.failure.find(" in step "), std::string::npos) << record.failure;
-      EXPECT_NE(record.failure.find("a smaller Dynamics/Time step safety would help"), std::string::npos)
-        << record.failure;
+      EXPECT_NE(record.failure.find("a smaller time_step_safety would help"), std::string::npos) << record.failure;
       ASSERT_FALSE(record.curve.empty());
       EXPECT_LT(record.curve.back().energies.imbalance(), 1e-3);
       EXPECT_EQ(record.cracks.size(), record.curve.back().n_tension_cracks + record.curve.back().n_shear_cracks);

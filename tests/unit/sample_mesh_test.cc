@@ -15,7 +15,7 @@ namespace feldspar::fem
 {
 namespace
 {
-/// What a reader says of a file; empty if it takes it.
+/// Message of a reader on a file; empty if the reader accepts it.
 template <int dim>
 std::string complaint(const std::string& content)
 {

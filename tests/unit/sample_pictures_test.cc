@@ -1,10 +1,11 @@
 #include "report/pictures/figures.h"
 
-#include "base/hdf5_archive.h"
 #include "base/input_error.h"
+#include "base/system/hdf5_archive.h"
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/rves.h"
 #include "results/folder/result_folder.h"
+#include "results/sample_fields.h"
 #include "tests/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -151,7 +152,7 @@ TEST(SamplePicture, StrokesLieInTheMeanCrack)
         << k;
       EXPECT_NEAR(strokes[k].at(2) * directions[k][1] - strokes[k].at(3) * directions[k][0], 0.0, 1e-4) << k;
     }
-  // As many cracks in either direction have none.
+  // Cracks of equal number in either direction have no direction.
   for (const char* name : {"xx", "yy"})
     fields.of_each_cell[fmt::format("crack_orientation_{}_per_m", name)] = {0.0, 1.0, 1.0, 1.0};
   fields.of_each_cell["crack_orientation_xy_per_m"] = {0.0, 0.0, 0.0, 0.0};
@@ -216,7 +217,7 @@ TEST(SamplePicture, MarksTheRvesThatAreDrawn)
   EXPECT_EQ(standing_of(test.appearance.rves[0], test.appearance.fields), "(15.0, 12.0) mm");
 }
 
-/// As deal.II writes it, two times.
+/// Index as deal.II writes it, two times.
 std::string index_of(const std::string& attributes)
 {
   std::string grids;

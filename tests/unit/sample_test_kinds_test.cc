@@ -1,9 +1,8 @@
-#include "base/input_error.h"
 #include "coupling/sample/sample_run.h"
 
 #include <gtest/gtest.h>
 
-#include <string>
+#include <stdexcept>
 
 namespace feldspar
 {
@@ -12,16 +11,8 @@ namespace
 TEST(SampleTest, RefusesAKindThatDoesNotSayItRunsOnFiniteElements)
 {
   const TestKind torsion{.name = "torsion", .title = "Torsion", .sign = -1.0};
-  try
-    {
-      SampleTest({torsion}, {}, {}, ContinuumParameters{});
-      FAIL() << "a test of any kind was taken for compression";
-    }
-  catch (const InputError& error)
-    {
-      EXPECT_EQ(error.what(), std::string("Tests/List: torsion: the sample stands between platens; it makes "
-                                          "direct_tension, uniaxial_compression, triaxial_compression, own_loading"));
-    }
+  EXPECT_THROW(SampleTest({torsion}, {}, {}, ContinuumParameters{}), std::invalid_argument)
+    << "a test of any kind was taken for compression";
 }
 } // namespace
 } // namespace feldspar

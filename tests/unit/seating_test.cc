@@ -2,8 +2,8 @@
 
 #include "base/input_error.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/loading_stages.h"
 #include "results/evaluation.h"
 #include "results/runs/run.h"
 #include "results/runs/trust.h"
@@ -101,7 +101,10 @@ void expect_the_same_in_a_larger_box(const Specimen<dim>& specimen)
 }
 
 TEST(Seating, BringsWallsToTheGrainsInThePlane) { expect_the_same_in_a_larger_box(small_specimen()); }
-TEST(Seating, BringsWallsToTheGrainsInSpace) { expect_the_same_in_a_larger_box(small_cylinder(1, 1.0, "box")); }
+TEST(Seating, BringsWallsToTheGrainsInSpace)
+{
+  expect_the_same_in_a_larger_box(small_cylinder(1, 1.0, BodyShape::box));
+}
 
 TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
 {
@@ -124,7 +127,8 @@ TEST(Seating, RefusesABodyThatDoesNotFillItsBox)
 
 TEST(Seating, RefusesABodyInTwoPieces)
 {
-  // Its upper half stands off by a tenth of a millimetre, and by no joint: an open flaw from side to side.
+  // The upper half of the body is a tenth of a millimetre away, without a joint to the lower: an open flaw from side to
+  // side.
   auto specimen = small_specimen();
   const double middle = 0.5 * specimen.size[1];
   std::vector<std::size_t> kept;
@@ -161,8 +165,8 @@ TEST(Seating, IsToldInTheVerdict)
   EXPECT_NE(verdict(2e-4).find("walls were brought to the grains by up to 0.2 mm"), std::string::npos);
 }
 
-// The outermost grain of this disc has no bond: held as its pad it was driven through the disc, which bore nothing up to a strain
-// of 1 % and then "118 MPa". The disc has some 30 GPa from the start.
+// The outermost grain of this disc has no bond: held as its pad it was driven through the disc, which carried nothing
+// up to a strain of 1 % and then "118 MPa". The disc has some 30 GPa from the start.
 TEST(Seating, HoldsABrazilianDiscByGrainsThatAreBondedToIt)
 {
   FlatJointParameters joint;

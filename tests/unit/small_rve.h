@@ -24,7 +24,7 @@ template <int dim = 2>
 Specimen<dim> periodic_specimen(const std::uint64_t seed = 1, const double edge = dim == 2 ? 0.012 : 0.006)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = edge;
   wanted.height = edge;
   FlatJointParameters joint;

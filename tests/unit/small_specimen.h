@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
-#include "dem/lab/parameters.h"
+#include "laboratory/compression.h"
+#include "laboratory/parameters.h"
 
 #include <type_traits>
 
@@ -37,7 +37,7 @@ inline Specimen<2> granite_box(const double width, const double height)
 /// Table 1 in a cylinder (or box) of 8 × 12 mm: some 150 grains.
 template <typename Joint = FlatJointParameters>
 Specimen<3> small_cylinder(const std::uint64_t seed = 1, const double bond_strength_factor = 1.0,
-                           const std::string& shape = "cylinder", Joint flat_joint = Joint())
+                           const BodyShape shape = BodyShape::cylinder, Joint flat_joint = Joint())
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;

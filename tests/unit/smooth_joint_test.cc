@@ -1,4 +1,4 @@
-// Smooth joints: one against closed forms, pairs, planes through specimens, mineral grains; files and tests taken up again.
+// Smooth joints: one against closed forms, pairs, planes through specimens, mineral grains; files and resumed tests.
 
 #include "base/input_error.h"
 #include "dem/dynamics/dynamics.h"
@@ -6,13 +6,13 @@
 #include "dem/flaws/apply.h"
 #include "dem/flaws/mineral_grains.h"
 #include "dem/flaws/smooth_planes.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_file.h"
 #include "dem/specimen/specimen_part.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/same_bits.h"
@@ -89,7 +89,7 @@ TEST(SmoothJoint, PulledBearsItsTensileStrengthThenNothing)
   EXPECT_EQ(joint.n_tension, 1);
   EXPECT_EQ(smooth_joint::normal_stress(joint.face, joint.state), 0.0);
   EXPECT_NEAR(joint.released, 0.5 * wanted.tensile_strength * critical, 1e-4 * joint.released);
-  // Closed again it presses from where it lay, and bears no tension any more.
+  // Closed again it presses from where it lay, and carries no tension any more.
   joint.lead(-2.0 * critical, 0.0);
   EXPECT_NEAR(smooth_joint::normal_stress(joint.face, joint.state), -0.999 * wanted.tensile_strength, 1e-9 * 4e6);
   joint.lead(2.0 * critical, 0.0);
@@ -124,7 +124,7 @@ TEST(SmoothJoint, ShearedUnderPressureBearsCoulombsStrengthThenSlidesAndDilates)
   EXPECT_NEAR(-smooth_joint::normal_stress(joint.face, joint.state),
               pressure + wanted.normal_stiffness * std::tan(wanted.dilation_angle) * s, 1e-3 * pressure);
 
-  // What was put in is stored, released or slipped away.
+  // Work put in is stored, released or dissipated by slip.
   joint.lead(1e-5, 3e-6);
   EXPECT_EQ(smooth_joint::normal_stress(joint.face, joint.state), 0.0);
   EXPECT_EQ(joint.state.shear_stress[0], 0.0);
@@ -172,7 +172,7 @@ using Dimension = std::integral_constant<int, n>;
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(SmoothPair, Dimensions);
 
-/// Two unequal grains that touch, and a plane across them that does not lie square to their branch.
+/// Two unequal grains in contact, and a plane across them that does not lie square to their branch.
 template <int dim>
 Specimen<dim> pair_on_a_plane(const SmoothJointParameters& wanted, const bool bonded)
 {
@@ -248,7 +248,7 @@ TYPED_TEST(SmoothPair, ARigidTurnStressesNothing)
         }
       ASSERT_TRUE(sweep_smooth_joints(specimen, 1.0).empty());
     }
-  // By 11.5°; the third order of each step is left: 20000 × 1e-15 / 12 of 1.7 mm.
+  // The pair has turned by 11.5°; the third order of each step is left: 20000 × 1e-15 / 12 of 1.7 mm.
   EXPECT_LT(std::abs(smooth_joint::normal_stress(joint.face, joint.state)), 1e-3 * joint.face.bond.tensile_strength);
   EXPECT_LT(std::abs(joint.state.shear_stress[0]), 1e-3 * joint.face.bond.cohesion);
 }
@@ -293,7 +293,8 @@ TYPED_TEST(SmoothPair, ThatRollsOpenTouchesFromWhereItsGrainsStand)
   auto specimen = pair_on_a_plane<dim>(wanted, false);
   // Both spin so that the sides roll apart by some 0.6 × 1000 rad/s × 1.6 mm each second, while grain 2 comes nearer by
   // 0.1 m/s. The joint ends when the sides are a sum of radii apart, after some 2 ms; the grains overlap by 0.2 mm then.
-  // A touch that began at the sum of radii would store ½ k (0.2 mm)² at once, a million times the energy of the motion.
+  // A contact that began at the sum of radii would store ½ k (0.2 mm)² at once, a million times the energy of the
+  // motion.
   specimen.grains.spin.at(dim == 2 ? 0 : 1).assign(2, dim == 2 ? -1000.0 : 1000.0);
   Dynamics<dim> dynamics(specimen, {0.0, 0.05}, ZeroForce::as_placed);
   dynamics.push(1, -0.1 * Vector<dim>::Unit(0));
@@ -504,8 +505,8 @@ TEST(SmoothPlane, BetweenRigidHalvesBearsItsCohesionThenSlides)
       pressure = dynamics.grip_force(upper)[1] / 0.020;
       shear = -dynamics.grip_force(upper)[0] / 0.020;
     }
-  // Rigid halves stress all of the plane alike: it bears c + σ tan φ, whatever the grains along it, then μ σ. It goes in
-  // two hundred steps to its strength.
+  // Rigid halves stress all of the plane alike: it carries c + σ tan φ, whatever the grains along it, then μ σ. It goes
+  // in two hundred steps to its strength.
   EXPECT_EQ(n_broken, specimen.smooth_joints.size());
   EXPECT_NEAR(borne, strength, 0.01 * strength);
   EXPECT_NEAR(shear, 0.5 * pressure, 0.01 * shear);
@@ -557,7 +558,7 @@ TEST(SmoothPlane, CountsAndPiecesAndRefusals)
   EXPECT_TRUE(halves(loose, 0.020, 0.012, 0.0).smooth_joints.front().state.bonded);
 
   Specimen<2> cell = specimen;
-  cell.periodic = true;
+  cell.shape = BodyShape::periodic;
   EXPECT_THROW(put_in_flaws(cell, {ClosedFlaw{{{0.001, 0.003}, {0.019, 0.003}}, SmoothSides{}}}), InputError);
   SmoothSides steep;
   steep.friction = 0.1;
@@ -625,9 +626,7 @@ TEST(MineralGrains, ThatAreTooSmallTooLargeOrThereAlreadyAreRefused)
   catch (const InputError& error)
     {
       const std::string what = error.what();
-      EXPECT_NE(what.find("Mineral grains/Mean size = 50 mm: must be at most 14.2 mm in this specimen"),
-                std::string::npos)
-        << what;
+      EXPECT_NE(what.find("mean_size = 50 mm: must be at most 14.2 mm in this specimen"), std::string::npos) << what;
       EXPECT_NE(what.find("and at least "), std::string::npos) << what;
     }
   Specimen<2> of_two = specimen;
@@ -654,7 +653,7 @@ TEST(MineralGrains, CrackAtTheirBoundariesAndTheEnergiesBalance)
     n += crack.on_smooth_joint;
   EXPECT_GT(n, 10u);
   EXPECT_LT(n, outcome.record.cracks.size());
-  // A quarter of the joints are boundaries, one crack each where others have four segments. They bear a fifth of what
+  // A quarter of the joints are boundaries, one crack each where others have four segments. They carry a fifth of what
   // these do: before the specimen yields it is they that open.
   EXPECT_GT(*results.smooth_tension_share_at_peak.value, 0.15);
   EXPECT_TRUE(std::all_of(outcome.record.cracks.begin(), outcome.record.cracks.begin() + 5,

@@ -23,7 +23,7 @@ const Bond<double> bond{20e6, 60e6, std::tan(std::acos(-1.0) / 6.0)};
 constexpr double elastic_opening = 20e6 / 40e12;
 constexpr double softening_opening = 4e-6;
 
-/// One segment that is led by its gap and its shear, in steps that are small against both openings.
+/// One segment with prescribed gap and shear, in steps that are small against both openings.
 class LedSegment
 {
 public:
@@ -65,7 +65,7 @@ public:
            flat_joint::normal_energy(segment, gap, 0.0, false) +
            0.5 * tau() * tau() * segment.area() / segment.shear_stiffness;
   }
-  /// What the bond has dissipated, broken or not.
+  /// Energy that the bond has dissipated, broken or not.
   double of_bond() const { return released + (state.bonded ? state.more[2] : 0.0); }
 
   softening::State<2, double> state{{0.0}, true, {0.0, 0.0, 0.0}};
@@ -186,7 +186,7 @@ TEST(SofteningSegment, WithoutAnOpeningItBreaksInTensionAsTheFlatJointDoes)
       EXPECT_EQ(softening.normal.force, brittle.normal.force);
       EXPECT_EQ(softening.normal.moment, brittle.normal.moment);
       EXPECT_EQ(softening.state.shear_stress, brittle.state.shear_stress);
-      // Of shear the flat joint gives what it stored by its product of stresses, this one by the slip's trapezoid.
+      // Shear energy: the flat joint gives what it stored by its product of stresses, this one by the slip's trapezoid.
       const double shear = 0.5 * 2e6 * 3.2e6 * segment.area() / segment.shear_stiffness;
       EXPECT_NEAR(softening.released_energy, brittle.released_energy, shear);
     }

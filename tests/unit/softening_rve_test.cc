@@ -1,5 +1,5 @@
 // Representative volumes whose bonds soften from event to event: one face against the law of the sweep, the energy of one bond
-// in closed form, tangent, balances through breakage, explicit dynamics beside, and a path taken up again.
+// in closed form, tangent, balances through breakage, explicit dynamics beside, and a resumed path.
 
 #include "coupling/network/link_response.h"
 #include "coupling/rve/equilibrium.h"
@@ -33,7 +33,7 @@ Specimen<dim> softening_cell(const double over_opening = usual_opening)
 {
   SpecimenParameters wanted;
   wanted.dimension = dim;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = dim == 2 ? 0.012 : 0.006;
   SofteningFlatJointParameters joint;
   joint.softening_opening = over_opening;
@@ -75,7 +75,7 @@ double highest_stress(const PathRecord<dim>& record)
 TYPED_TEST(SofteningRves, ASoftenedFaceRespondsAsTheLawOfTheSweep)
 {
   // Open, closed and, in the plane, closed in part; the first segment has not softened. So that none softens further here
-  // the law of the sweep is given bonds that bear anything at their damage.
+  // the law of the sweep is given bonds that carry anything at their damage.
   constexpr int dim = TypeParam::value;
   const auto specimen = softening_cell<dim>();
   const Network<dim> network(specimen);
@@ -152,7 +152,7 @@ std::optional<BondEvent> lead_to(const Network<2>& network, ActiveLink<2>& activ
   return overloaded ? std::optional(loosen(network, active, 0, in_tension, least_step)) : std::nullopt;
 }
 
-/// One segment led by its opening, or by its shear under a constant opening, until its bond is gone.
+/// One segment with prescribed opening, or prescribed shear under a constant opening, until its bond is gone.
 struct Led
 {
   double given_up; ///< by the bond, over the energy below its line
@@ -165,7 +165,7 @@ Led lead(const unsigned int n_steps, const bool in_shear)
   const Network<2> network(softening_cell<2>(over_opening));
   const Link<2>& link = network.links()[0];
   const Bond<double>& bond = network.bond(link.first_segment);
-  // What holds: under pressure in shear, so that friction is beside.
+  // Strength of the segment: in shear under pressure, so that friction acts beside the bond.
   const double pressed = in_shear ? -20e6 / link.normal_stiffness : 0.0;
   const double strength = in_shear ? shear_strength(bond, link.normal_stiffness * pressed) : bond.tensile_strength;
   const double residual = in_shear ? -link.friction * link.normal_stiffness * pressed : 0.0;
@@ -185,7 +185,7 @@ Led lead(const unsigned int n_steps, const bool in_shear)
       const auto event = lead_to(network, active, motion, !in_shear, n_steps);
       if (!event)
         continue;
-      // What it would store there without the event.
+      // Energy that would be stored there without the event.
       const double before = response(network, unmoved, motion).stored_energy;
       ++led.n_events;
       EXPECT_EQ(event->broke && event->in_tension, event->broke && !in_shear);
@@ -241,7 +241,7 @@ std::array<double, 2> by_turns(const double s)
   return {6e-6 * (s + wave), 24e-6 * (s - wave)};
 }
 
-/// What a bond has given up at the end of a way, by the law of the sweep in small steps [J].
+/// Energy that a bond has given up at the end of a way, by the law of the sweep in small steps [J].
 double given_by_the_law(const Network<2>& network, const MixedWay way)
 {
   const Link<2>& link = network.links()[0];
@@ -340,7 +340,8 @@ TYPED_TEST(SofteningRves, WorkBalancesThroughSofteningAndBreakage)
 
 TEST(SofteningRve, IsThatOfExplicitDynamics)
 {
-  // The same cell pulled both ways. Softening grows with the bonds' energy: what the cell bears rises by the same share in both.
+  // The same cell pulled both ways. Softening grows with the bonds' energy: what the cell carries rises by the same
+  // share in both.
   const auto specimen = softening_cell<2>();
   auto by_events = pulled<2>(5e-4);
   while (!by_events.has_ended())

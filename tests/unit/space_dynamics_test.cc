@@ -20,13 +20,13 @@ namespace
 {
 TEST(SpaceGenesis, FillsBoxAndCylinderToTheStressAndStaysInside)
 {
-  for (const char* const shape : {"box", "cylinder"})
+  for (const BodyShape shape : {BodyShape::box, BodyShape::cylinder})
     {
       const auto specimen = small_cylinder(1, 1.0, shape);
       const auto& report = specimen.report;
       EXPECT_NEAR(report.packing_stress, 1e-4 * 80e9, 0.01 * 1e-4 * 80e9);
       EXPECT_GT(report.n_joints, 2 * report.n_grains);
-      const double volume = 8e-3 * 8e-3 * 12e-3 * (specimen.round ? 0.25 * std::numbers::pi : 1.0);
+      const double volume = 8e-3 * 8e-3 * 12e-3 * (specimen.is_round() ? 0.25 * std::numbers::pi : 1.0);
       EXPECT_NEAR(specimen.volume(), volume, 1e-12 * volume);
       double mass = 0.0;
       for (const double m : specimen.grains.mass)
@@ -37,7 +37,7 @@ TEST(SpaceGenesis, FillsBoxAndCylinderToTheStressAndStaysInside)
         {
           const Vector<3> x = at<3>(specimen.grains.position, i);
           const double r = 0.99 * specimen.grains.radius[i];
-          EXPECT_TRUE(!specimen.round || specimen.distance_from_axis(x) < 4e-3 - r);
+          EXPECT_TRUE(!specimen.is_round() || specimen.distance_from_axis(x) < 4e-3 - r);
           EXPECT_TRUE((x.array() > r).all() && (x.array() < specimen.size.array() - r).all());
         }
       for (std::size_t j = 0; j < report.n_joints; ++j)
@@ -51,7 +51,7 @@ TEST(SpaceGenesis, AFileKeepsTheSpecimen)
   const tests::TemporaryFolder folder;
   write_specimen(specimen, folder.path() / "specimen.h5");
   const auto read = read_specimen<3>(folder.path() / "specimen.h5");
-  EXPECT_TRUE(read.round);
+  EXPECT_TRUE(read.is_round());
   EXPECT_EQ(read.grains.position, specimen.grains.position);
   EXPECT_EQ(read.joints.tangent, specimen.joints.tangent);
   EXPECT_EQ(read.joints.elements.size(), 8u);

@@ -19,8 +19,8 @@ using std::numbers::pi;
 
 TEST(FaceElements, AreWholeInAreaAndLumpedInBendingAndTwist)
 {
-  // Of the continuum disk's ½π (twist) and ¼π (bending): Σ A_e r_e², which for four sectors or more is the same about
-  // every axis; 0.608, 0.781, 0.914, 0.960 are those of an independent program.
+  // Share of the continuum disk's ½π (twist) and ¼π (bending): Σ A_e r_e², which for four sectors or more is the same
+  // about every axis; 0.608, 0.781, 0.914, 0.960 are those of an independent program.
   struct Case
   {
     unsigned int n_rings, n_sectors;
@@ -58,7 +58,7 @@ TEST(FaceElements, OfTheLineFillItsSecondMoment)
     }
 }
 
-/// Two grains that touch, jointed, along a direction that is no axis.
+/// Two grains in contact, jointed, along a direction that is no axis.
 Specimen<3> pair_of_grains(const double radius_1, const double radius_2, const FlatJointParameters& wanted)
 {
   const Vector<3> direction = Vector<3>(2.0, -1.0, 2.0) / 3.0;

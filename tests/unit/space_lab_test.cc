@@ -1,7 +1,6 @@
 // Laboratory tests on cylinders.
 
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/protocols/bending.h"
@@ -9,6 +8,7 @@
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/small_specimen.h"
@@ -96,7 +96,7 @@ TEST(SpaceLab, BreaksACylinderInTensionAndCompression)
   EXPECT_EQ(pulled.n_shear_cracks, 0u);
   EXPECT_LT(crushed.energy_imbalance, 0.01);
   EXPECT_GT(*crushed.youngs_modulus_initial.value, 10e9);
-  // What the pictures need: of every grain, from the start to the end.
+  // Data that the pictures need: of every grain, from the start to the end.
   ASSERT_GT(snapshots.size(), 4u);
   EXPECT_EQ(snapshots.front().position[2], specimen.grains.position[2]);
   std::size_t n_broken = 0;
@@ -135,7 +135,7 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
   auto wanted = quick_in_space();
   wanted.of<ConfinementParameters>().intermediate_stress = 30e6;
   wanted.stop_strain = 1e-4;
-  const auto box = small_cylinder(1, 1e3, "box");
+  const auto box = small_cylinder(1, 1e3, BodyShape::box);
   auto set_up = triaxial_compression.set_up_3d.value()(box, 10e6, wanted, {});
   EXPECT_EQ(LabTest<3>({triaxial_compression, 10e6}, box, wanted, {}).finish(true).record.intermediate_stress, 30e6);
   EXPECT_FALSE(
@@ -149,7 +149,7 @@ TEST(SpaceLab, PressesABoxByThreeStresses)
 }
 
 /// Table 1 in a small body of this size [m].
-Specimen<3> granite_in_space(const std::string& shape, const double width, const double height)
+Specimen<3> granite_in_space(const BodyShape shape, const double width, const double height)
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;
@@ -164,7 +164,7 @@ Specimen<3> granite_in_space(const std::string& shape, const double width, const
 
 TEST(SpaceLab, SplitsADiscAlongTheLoad)
 {
-  const auto specimen = granite_in_space("cylinder", 0.010, 0.008);
+  const auto specimen = granite_in_space(BodyShape::cylinder, 0.010, 0.008);
   LabTest<3> test({brazilian}, specimen, quick_in_space(), {});
   const auto outcome = run(test);
   const auto& record = outcome.record;
@@ -240,7 +240,7 @@ TEST(BrazilianDisc, OfASquareSpecimenIsHeldByItsOutermostGrains)
         }
 }
 
-// What a test that cannot be made would have been made on stands in its record.
+// The record of a test that cannot be made has the body on which the test would have been made.
 TEST(BodySize, IsThatOfTheBodyThatIsCut)
 {
   const std::vector<std::string> all{"brazilian", "three_point_bending", "semicircular_bending"};
@@ -260,17 +260,17 @@ TEST(BodySize, InSpaceIsThatOfTheBodyThatIsCut)
   EXPECT_NEAR(half[0], 8e-3, 1e-15);
   EXPECT_NEAR(half[1], 8e-3 * wanted.of<BrazilianParameters>().length_ratio, 1e-15);
   EXPECT_NEAR(half[2], 4e-3, 1e-15);
-  const auto box = small_cylinder(1, 1.0, "box");
+  const auto box = small_cylinder(1, 1.0, BodyShape::box);
   const Vector<3> beam = (*three_point_bending.body_size<3>())(box, wanted);
   EXPECT_NEAR(beam[0], 12e-3, 1e-15); // its height lies down
   EXPECT_NEAR(beam[1], 8e-3, 1e-15);
   EXPECT_NEAR(beam[2], 12e-3 / 4.4, 1e-15);
 }
 
-// A roller that bore one sphere would let the half disc tilt about it; one that pivots bears on two at least.
+// A roller that rested on one sphere would let the half disc tilt about it; one that pivots rests on two at least.
 TEST(SpaceLab, BendsAHalfDiscOnLinesOfGrains)
 {
-  const auto specimen = granite_in_space("box", 0.012, 0.012);
+  const auto specimen = granite_in_space(BodyShape::box, 0.012, 0.012);
   auto test = (*semicircular_bending.set_up<3>())(specimen, 0.0, quick_in_space(), {});
   auto& dynamics = test.dynamics;
   ASSERT_EQ(dynamics.walls().size(), 3u);
@@ -322,7 +322,7 @@ TEST(SpaceLab, AHalfDiscOnBeddedRollersReadBackRunsOnToTheSameBits)
   TestParameters wanted = quick_in_space();
   wanted.of<BendingParameters>().strain_rate = 0.5;
   wanted.of<BendingParameters>().sampling_strain = 1e-5;
-  expect_reads_back_to_the_same_bits({semicircular_bending}, granite_in_space("box", 0.012, 0.012), wanted);
+  expect_reads_back_to_the_same_bits({semicircular_bending}, granite_in_space(BodyShape::box, 0.012, 0.012), wanted);
 }
 } // namespace
 } // namespace feldspar

@@ -1,6 +1,6 @@
 #include "app/screen/stage_length.h"
 
-#include "dem/lab/compression.h"
+#include "laboratory/compression.h"
 #include "tests/unit/staged_runs.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ CurveSample row(const double time, const double strain, const double stress)
   return result;
 }
 
-// Pressed to 0.002, let go to no stress, held for 10 µs, pressed to 0.004 at twice the rate of 1/s: beforehand by the modulus,
-// then by where the test stands.
+// Pressed to 0.002, unloaded to no stress, held for 10 µs, pressed to 0.004 at twice the rate of 1/s: beforehand by the
+// modulus, then by where the test stands.
 TEST(StageLength, IsThatOfWaysHoldsAndStressesFromWhereTheTestStands)
 {
   TestParameters parameters = tests::following(
@@ -49,7 +49,7 @@ TEST(StageLength, IsThatOfWaysHoldsAndStressesFromWhereTheTestStands)
   EXPECT_NEAR(length.gone(), 0.00541, rounding);
 }
 
-// From the confinement of the first stage on, and by the widening of one that the lateral strain leads.
+// From the confinement of the first stage on, and by the widening of one that prescribes the lateral strain.
 TEST(StageLength, BeginsAtTheConfinement)
 {
   TestParameters parameters =

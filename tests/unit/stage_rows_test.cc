@@ -1,10 +1,10 @@
-// A sample of finite elements led through the stages of a loading table. Linear elasticity between smooth platens is in a
-// uniform state, so that each stage ends where Hooke's law says.
+// A sample of finite elements that follows the stages of a loading table. Linear elasticity between smooth platens is
+// in a uniform state, so that each stage ends where Hooke's law says.
 
 #include "coupling/sample/checkpoints.h"
 #include "coupling/sample/sample_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/loading_stages.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -108,7 +108,7 @@ TEST_P(StagesOfASample, EndWhereHookesLawSays)
           EXPECT_NEAR(-end.gauge_lateral_strain, *wanted.lateral_strain, 2e-7) << k;
         }
     }
-  // Where they stand still nothing moves.
+  // Nothing moves where the platens stand still.
   const auto strain_at = [&](const std::uint64_t row) { return record.curve[row].axial_strain; };
   EXPECT_NEAR(strain_at(record.stages[2].first_row), strain_at(record.stages[2].last_row), 1e-12);
   EXPECT_NEAR(record.curve[record.stages[3].last_row].time - record.curve[record.stages[3].first_row].time, 3e-4, 1e-9);

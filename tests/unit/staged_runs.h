@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/loading_stages.h"
 
 #include <vector>
 

@@ -40,12 +40,12 @@ void expect_at_rest(Specimen<dim> packing, const double stress)
   packing.joints = {};
   packing.particle_contact.friction = 0.0;
   Dynamics<dim> dynamics(packing, DynamicsParameters{}, ZeroForce::at_touch);
-  for (int axis = packing.round ? dim - 1 : 0; axis < dim && !packing.periodic; ++axis)
+  for (int axis = packing.is_round() ? dim - 1 : 0; axis < dim && !packing.is_periodic(); ++axis)
     {
       dynamics.add_wall({axis, 1.0, 0.0, 0.0});
       dynamics.add_wall({axis, -1.0, packing.size[axis], 0.0});
     }
-  if (packing.round)
+  if (packing.is_round())
     dynamics.add_wall(round_wall(packing));
   dynamics.step();
   // The packing ends at 5e-3 and within 1e-3 of the stress. A step moves a grain by at most Δt² F/m < F/k, which changes
@@ -62,7 +62,7 @@ TEST(StaticPacking, IsAtRestUnderItsStressInTheDynamicsToo)
   expect_at_rest(box, stress);
 
   auto wanted = static_box(0.016, 0.016);
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   const auto cell = packed<2>(wanted);
   expect_at_rest(cell, stress);
   for (const auto& component : cell.grains.position) // what has left the cell is back in it
@@ -75,9 +75,9 @@ TEST(StaticPacking, IsAtRestUnderItsStressInTheDynamicsToo)
   wanted = static_box(0.008, 0.012);
   wanted.dimension = 3;
   wanted.porosity = 0.40;
-  wanted.shape = "cylinder";
+  wanted.shape = BodyShape::cylinder;
   expect_at_rest(packed<3>(wanted), stress);
-  wanted.shape = "box";
+  wanted.shape = BodyShape::box;
   expect_at_rest(packed<3>(wanted), stress);
 }
 

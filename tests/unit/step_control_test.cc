@@ -67,7 +67,7 @@ TEST(StepControl, LeavesNoSliverAtTheEnd)
 
 namespace
 {
-/// A point whose answer waits until another thread is answering too.
+/// A point whose response waits until another thread is responding too.
 class WaitingPoint : public MaterialPoint<2>
 {
 public:

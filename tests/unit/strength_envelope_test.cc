@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(EveryForm, SyntheticPoints,
                                          SyntheticCase{HoekBrownForm::general, true, {160 * MPa, 20.0, 1.0, 0.42}},
                                          SyntheticCase{HoekBrownForm::general, false, {160 * MPa, 20.0, 1.0, 0.42}}));
 
-/// What an independent program with the same law gives for this rock.
+/// Strengths that an independent program with the same law gives for this rock.
 StrengthData independent_program(const double tensile_strength)
 {
   StrengthData data;
@@ -390,7 +390,7 @@ TEST(MohrCoulomb, GivesFrictionAndCohesionBackFromExactPoints)
 
 TEST(MohrCoulomb, ConfidenceIntervalsHoldTheTruth)
 {
-  // As for Hoek and Brown: 90 to 98 % of 200 draws.
+  // Coverage as for Hoek and Brown: 90 to 98 % of 200 draws.
   const double phi = 40.0 * std::numbers::pi / 180.0;
   const double cohesion = 30 * MPa;
   const double slope = (1.0 + std::sin(phi)) / (1.0 - std::sin(phi));

@@ -6,7 +6,7 @@
 
 namespace feldspar::tests
 {
-/// The run that `begin` makes gone to its end, and the same taken up from a checkpoint after every fourth advance.
+/// The run that `begin` makes gone to its end, and the same resumed from a checkpoint after every fourth advance.
 template <typename Begin>
 auto whole_and_taken_up(const Begin& begin)
 {

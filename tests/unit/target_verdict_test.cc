@@ -31,7 +31,7 @@ TargetVerdict verdict_on_values(const std::vector<double>& values)
 
 TEST(TargetVerdict, FollowsTheWholeIntervalOfTheMean)
 {
-  // Student's factor of four values is 3.182. Of 101 ± d, two each, the standard error is d / √3.
+  // Student's factor of four values is 3.182. The standard error of 101 ± d, two each, is d / √3.
   const auto about_101 = [](const double half_width) {
     const double d = half_width * std::sqrt(3.0) / 3.182446;
     return std::vector<double>{101.0 - d, 101.0 - d, 101.0 + d, 101.0 + d};
@@ -119,8 +119,8 @@ TEST(TargetVerdict, CallsAtMostOneInTwentyFalselyReachedOnKnownScatter)
   EXPECT_GT(largest_rate, 0.02) << "stricter than it says";
 }
 
-// And it does decide: on target, with the packings it asks for, the half of the tolerance that is left is two standard
-// errors of a mean, which 19 of 20 keep.
+// The verdict does decide: on target, with the packings it asks for, the half of the tolerance that is left is two
+// standard errors of a mean, which 19 of 20 keep.
 TEST(TargetVerdict, DecidesByThePackingsItAsksFor)
 {
   constexpr double tolerance = 0.05;
@@ -141,7 +141,7 @@ TEST(PackingsNeeded, BringTheIntervalToHalfOfTheTolerance)
 {
   // 2.0003 · 5.9 / √61 = 1.511, 1.9996 · 5.9 / √62 = 1.498: the least for 1.5. The normal factor 1.96 would give 60.
   EXPECT_EQ(packings_for(0.015, 0.059), 62u);
-  // Of 100 - d and 100 + d the standard deviation is d √2.
+  // Standard deviation of 100 - d and 100 + d is d √2.
   const double d = 5.9 / std::sqrt(2.0);
   EXPECT_EQ(packings_needed({outcome_of_values({100.0 - d, 100.0 + d})}, 0.03, 1000), 62u);
   EXPECT_EQ(packings_needed({outcome_of_values({100.0 - d, 100.0 + d})}, 0.03, 48), 48u);

@@ -1,4 +1,4 @@
-// Grains that cannot have come to touch are not looked at; no touch is missed by it.
+// Grains that cannot have come into contact are not computed; no contact is missed by it.
 
 #include "dem/dynamics/touches.h"
 
@@ -16,7 +16,7 @@ namespace feldspar
 {
 namespace
 {
-/// A touch that is looked at in each step is the reference.
+/// A contact that is computed in each step is the reference.
 template <int dim>
 void expect_that_no_touch_is_missed(const std::size_t n_across)
 {
@@ -70,7 +70,7 @@ void expect_that_no_touch_is_missed(const std::size_t n_across)
         }
     }
   EXPECT_GT(n_came, 50u);    // they do come and go
-  EXPECT_GT(n_missed, 100u); // and the ways decide who is looked at
+  EXPECT_GT(n_missed, 100u); // and the ways decide which pairs are computed
 }
 
 TEST(Touches, AreNotMissedWhereGrainsAreNotLookedAt)

@@ -1,4 +1,5 @@
-// What results are called, which of them count, and what is said of a study: no figure stands for what was not measured.
+// Names of results, choice of those that count, and sentences on a study: no figure stands for one that was not
+// measured.
 
 #include "dem/lab/protocols/protocols.h"
 #include "report/pictures/figures.h"
@@ -128,7 +129,7 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
       EXPECT_EQ(*tests[1].results.first_cracks_at_pads_share.value, 0.75);
       EXPECT_TRUE(tests[0].counts());
       EXPECT_FALSE(tests[1].counts());
-      EXPECT_EQ(*tests[1].results.peak_stress.value, 5.3e6); // it is told none the less
+      EXPECT_EQ(*tests[1].results.peak_stress.value, 5.3e6); // it is reported none the less
       EXPECT_EQ(*strength_data(tests).tensile_strength, 10e6);
       const auto rows = compare(tests, std::nullopt);
       const ComparisonRow* const strength = row_of(rows, "Brazilian tensile strength");
@@ -155,14 +156,14 @@ TEST(SplittingTest, ThatBreaksAtItsPadsIsNotValidAndCountsNowhere)
     }
 }
 
-// The strength is the stress of row 10, at step 1000: of 110 cracks, one each 20 steps, 50 are there, and 16 are the first
-// third of them. Those that came later do not make a disc that was split one that was crushed.
+// The strength is the stress of row 10, at step 1000: of 110 cracks, one each 20 steps, 50 are there, and 16 are the
+// first third of them. Later cracks do not make a disc that was split one that was crushed.
 TEST(SplittingTest, IsJudgedByTheFirstThirdOfTheCracksUpToItsPeak)
 {
   std::vector<double> heights(15, 0.002);
   heights.insert(heights.end(), 95, 0.0145);
   EXPECT_EQ(*split(heights, 9e6, 1).results.first_cracks_at_pads_share.value, 1.0 / 16.0);
-  // Of a disc without a crack nothing is said, and of other tests neither.
+  // A disc without a crack gives no such figure, and other tests neither.
   EXPECT_EQ(split({}, 9e6, 1).results.first_cracks_at_pads_share.reason, "no crack");
   EXPECT_EQ(made(direct_tension.kind, 9e6).results.first_cracks_at_pads_share.reason, "the test splits no disc");
   EXPECT_TRUE(made(direct_tension.kind, 9e6).counts());
@@ -411,7 +412,7 @@ TEST(NumbersThatAreNone, InTablesAreNamedAndNeverReachThePage)
       EXPECT_TRUE(story["rows"][9][1].is_null());
       EXPECT_EQ(story["cracks"].size(), 1u);
     }
-  // What is no number at all, or beyond their range, makes the table unreadable; the line says where.
+  // A text that is no number, or a number beyond their range, makes the table unreadable; the line says where.
   for (const char* const none : {"", "1e999", "-1e999"})
     {
       const auto of_grains = read_with(grains, "0.0125", none);

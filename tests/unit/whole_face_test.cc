@@ -44,11 +44,11 @@ struct LawAndDimension
     if constexpr (dim == 2)
       return small_specimen(1, 6.0, parameters());
     else
-      return small_cylinder(1, 6.0, "cylinder", parameters());
+      return small_cylinder(1, 6.0, BodyShape::cylinder, parameters());
   }
 };
 
-/// Sets the grains where smooth paths lead that stretch, shear, bend and twist the specimen until much of it is broken.
+/// Sets the grains on smooth paths that stretch, shear, bend and twist the specimen until much of it is broken.
 template <int dim>
 void drive(Grains<dim>& grains, const Components<dim>& start, const int step, const double dt)
 {
@@ -133,7 +133,7 @@ TYPED_TEST(WholeFace, RespondsAndBreaksAsItsSegmentsDo)
 
 TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenJustAsItsSegmentsDo)
 {
-  // Beside it the same joints, which never remember that they bear nothing: all broken ones go segment by segment.
+  // Beside it the same joints, which never store that they carry nothing: all broken ones go segment by segment.
   constexpr int dim = TypeParam::dim;
   using Memory = SweepMemory<dim>;
   Specimen<dim> specimen = TypeParam::specimen();
@@ -174,7 +174,7 @@ TYPED_TEST(WholeFace, WithoutBondsBearsNothingWhileOpenJustAsItsSegmentsDo)
       ASSERT_EQ(*resting.response.at(row, j), *restless.response.at(row, j)) << "row " << row << ", joint " << j;
   EXPECT_GT(n_rests, 1000u);
   EXPECT_GT(n_closings, 20u);
-  // Whoever takes a run up knows from the joints what the sweep remembers.
+  // A resumed run knows from the joints what the sweep has stored.
   const Memory again(resting);
   for (std::size_t row = 0; row < Memory::n_weakest; ++row)
     for (std::size_t j = 0; j < resting.size(); ++j)

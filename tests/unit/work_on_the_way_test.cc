@@ -15,7 +15,8 @@ class WorkOnTheWay : public testing::Test
 };
 TYPED_TEST_SUITE(WorkOnTheWay, Dimensions);
 
-/// A network under pressure whose first joint has no bond left and bears as much shear along t (t_1) as friction lets it.
+/// A network under pressure whose first joint has no bond left and carries as much shear along t (t_1) as friction lets
+/// it.
 template <int dim>
 struct OneJointAtItsLimit
 {
@@ -38,7 +39,7 @@ struct OneJointAtItsLimit
   NetworkState<dim> pressed() const
   {
     NetworkState<dim> state;
-    state.strain.template head<dim>().setConstant(-1e-4); // so little that no pair without a face comes to touch
+    state.strain.template head<dim>().setConstant(-1e-4); // so little that no pair without a face comes into contact
     state.intact = false;
     state.motions.assign(std::size_t(network.n_unknowns() - n_voigt<dim>), 0.0);
     return state;
@@ -81,7 +82,7 @@ TYPED_TEST(WorkOnTheWay, HasTheSlipOfAJointThatSlidesOn)
 
 TYPED_TEST(WorkOnTheWay, HasTheSlipOfAJointThatSlidesBack)
 {
-  // Its shear stress is as large at both ends, and opposite: a single trapezoid would have no slip at all.
+  // Shear stress is as large at both ends, and opposite: a single trapezoid would have no slip at all.
   const OneJointAtItsLimit<TypeParam::value> joint;
   const double way = 5.0 * joint.elastic_way;
   const double expected = joint.limit * joint.area * (way - 2.0 * joint.elastic_way);

@@ -1,8 +1,8 @@
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/grips.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>
@@ -86,9 +86,9 @@ TEST_P(Beishan, InTension)
   EXPECT_LT(*results.end_stress_difference.value, 0.02);
   EXPECT_LT(*results.kinetic_to_strain_energy.value, 0.02);
 
-  // One crack across the axis: a band of a quarter of the height holds most of what breaks, of which cracks scattered over
-  // the whole specimen would leave it a quarter; and in it they reach from one side to the other. What lies elsewhere is a
-  // second crack that did not get through (of seed 2, a third of all).
+  // One crack across the axis: a band of a quarter of the height holds most of what breaks, of which cracks scattered
+  // over the whole specimen would leave it a quarter; and in it they reach from one side to the other. The other cracks
+  // are a second crack that did not get through (of seed 2, a third of all).
   std::vector<Crack> cracks = record.cracks;
   std::sort(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) { return a.centroid[1] < b.centroid[1]; });
   std::vector<Crack> band;

@@ -111,9 +111,9 @@ TEST(BoundaryWork, OfAPlasticSampleIsStoredAndLost)
   EXPECT_NEAR(energies.slip, lost, 1e-7 * lost);
 }
 
-// One row of eight breaks and keeps a tenth of its stiffness while the platens stand. They have done their work before; of
-// what was stored, ½Eε²V, the break takes 9/10 of the eighth in the row, and equilibrium keeps 8/17. What is missing then
-// was set free on the way: with it the balance closes, without it not.
+// One row of eight breaks and keeps a tenth of its stiffness while the platens stand. They have done their work before;
+// of what was stored, ½Eε²V, the break takes 9/10 of the eighth in the row, and equilibrium keeps 8/17. The missing
+// part was set free on the way: with it the balance closes, without it not.
 TEST(BoundaryWork, LeavesOutWhatIsSetFreeBetweenElements)
 {
   constexpr double limit = 1e-4;

@@ -1,4 +1,4 @@
-// Class II control: a specimen led by its lateral strain past its peak, beside one led by its platens.
+// Class II control: a specimen controlled by its lateral strain past its peak, beside one controlled by its platens.
 
 #include "results/evaluation.h"
 #include "tests/unit/small_specimen.h"
@@ -22,8 +22,8 @@ void compare_controls(const Specimen<dim>& specimen, const double lateral_strain
   const auto one = evaluate(by_platens);
   const auto other = evaluate(by_gauge);
   ASSERT_TRUE(one.peak_stress.value && other.peak_stress.value);
-  // Another order of cracks: the peaks of one packing at two rates differ by a few per cent too. Of six cylinders they differ
-  // by 4.4 % at most.
+  // Another order of cracks: the peaks of one packing at two rates differ by a few per cent too. The peaks of six
+  // cylinders differ by 4.4 % at most.
   EXPECT_NEAR(*other.peak_stress.value, *one.peak_stress.value, 0.05 * *one.peak_stress.value);
   EXPECT_NEAR(*other.strain_at_peak.value, *one.strain_at_peak.value, strain_tolerance * *one.strain_at_peak.value);
   const auto stress_at = [](const TestRecord& record, const double strain) {

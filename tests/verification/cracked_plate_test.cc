@@ -53,9 +53,9 @@ double force(const double half_length, const unsigned int n_cracked)
   return solid.reaction("top", 1);
 }
 
-/// K_I over the gross stress of such a plate, from the energy that it gives up where its crack grows between fixed grips. Of
-/// the energy U, half the force times the way, each of the four quarters has its share, and there are two tips:
-/// K² / E' = -2 dU/da.
+/// K_I over the gross stress of such a plate, from the energy that it gives up where its crack grows between fixed
+/// grips. The energy U is half the force times the way; each of the four quarters has its share of it, and there are
+/// two tips: K² / E' = -2 dU/da.
 double intensity_over_stress(const double half_length, const unsigned int n_cracked)
 {
   const double released = (force(half_length, n_cracked - 1) - force(half_length, n_cracked + 1)) * 0.5 * n_across;
@@ -122,7 +122,7 @@ TestOutcome pulled(const LaboratoryProtocol& protocol, const Specimen<2>& specim
   return test.finish(false);
 }
 
-/// Of the stress over the strain, through the origin, over the second half of the curve [Pa].
+/// Slope of the stress over the strain, through the origin, over the second half of the curve [Pa].
 double slope(const std::vector<CurveSample>& curve)
 {
   double of_both = 0.0;
@@ -135,8 +135,9 @@ double slope(const std::vector<CurveSample>& curve)
   return of_both / of_strain;
 }
 
-/// What a crack of the length 2 a adds to the extension of a plate of this width, over the stress over the modulus [m]. Under a
-/// held force half its work is released at the two tips, so that d(extension)/da = 4 K² / (E' σ W), here with Feddersen's K.
+/// Extension that a crack of the length 2 a adds to that of a plate of this width, over the stress over the modulus
+/// [m]. Under a held force half its work is released at the two tips, so that d(extension)/da = 4 K² / (E' σ W), here
+/// with Feddersen's K.
 double extension_over_strain(const double a, const double width)
 {
   constexpr int n = 1000;

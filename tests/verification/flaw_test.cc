@@ -3,10 +3,10 @@
 
 #include "dem/flaws/apply.h"
 #include "dem/genesis/genesis.h"
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 #include "results/evaluation.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TestOutcome compress(const Specimen<2>& specimen, const double to_strain)
   return test.finish(false);
 }
 
-/// Of the specimen when it cracked [Pa], compression positive.
+/// Stress of the specimen when it cracked [Pa], compression positive.
 double stress_at(const Crack& crack, const TestRecord& record)
 {
   const auto row = std::find_if(record.curve.begin(), record.curve.end(),
@@ -166,10 +166,10 @@ TEST(AnInclinedSlot, GrowsWingsAtItsTipsInTheDirectionOfTheory)
   EXPECT_NEAR(std::atan2(y, x) * 180.0 / std::numbers::pi, 45.0 + 70.5, 15.0);
 }
 
-/// Of granite with a plane of this angle through its middle, from side to side and without cohesion: the highest axial
-/// stress up to a strain at which all of it slides [Pa], compression positive. Bonds are so strong that only the plane gives
-/// way: with those of Table 1 some grains break before a plane of 45 degrees slides, and three of eight packings bear 3 to 5 %
-/// less.
+/// Strength of granite with a plane of this angle through its middle, from side to side and without cohesion: the
+/// highest axial stress up to a strain at which all of it slides [Pa], compression positive. Bonds are so strong that
+/// only the plane gives way: with those of Table 1 some grains break before a plane of 45 degrees slides, and three of
+/// eight packings carry 3 to 5 % less.
 double slip_strength(const double width, const double height, const double angle, const double friction_angle,
                      const double pressure)
 {
@@ -220,8 +220,9 @@ TEST(ASmoothPlane, SlipsUnderConfinementAsJaegerSays)
 
 TEST(ASmoothPlane, BearsWhatLongerSidePlatesPutOnItsHalves)
 {
-  // A rigid side plate holds its force, σ_3 H, wherever it touches. Once the halves have slid by what the plates had pressed
-  // them together, some micrometres, each touches one plate only. The force meets the plane over W tan β of the height.
+  // A rigid side plate holds its force, σ_3 H, wherever it is in contact. Once the halves have slid by what the plates
+  // had pressed them together, some micrometres, each touches one plate only. The force meets the plane over W tan β of
+  // the height.
   const double friction_angle = 30.0 * degree;
   const double pressure = 10e6;
   const double width = 0.020;

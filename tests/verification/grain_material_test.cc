@@ -205,7 +205,7 @@ TEST(GrainMaterial, AcceptsWhatWasFoundStableOrLeavesThePointAsItIs)
   EXPECT_NO_THROW(point.trial(strain));
 }
 
-// Whether factors are kept decides by what its equations are solved, and not what solves them.
+// Kept factors decide the method by which the equations are solved, not the solution.
 TEST(GrainMaterial, APointThatKeepsNoFactorsGivesTheSame)
 {
   const auto network = std::make_shared<const Network<2>>(periodic_specimen());
@@ -242,7 +242,7 @@ TEST(GrainMaterial, AStepThatIsGivenUpLeavesNothingBehind)
   EXPECT_EQ(point.fields(), std::vector<double>(7, 0.0));
   EXPECT_TRUE(point.cracks_of_last_step().empty());
 
-  // What is accepted is told, once.
+  // Cracks are reported once they are accepted, and only once.
   point.trial(strain);
   const std::size_t n_events = point.relax(strain);
   point.accept(strain);

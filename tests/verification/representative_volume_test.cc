@@ -19,7 +19,7 @@ namespace
 std::shared_ptr<const Network<2>> granite(const std::uint64_t seed)
 {
   SpecimenParameters wanted;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = 0.0325;
   FlatJointParameters joint;
   joint.coordination_number = 4.2;
@@ -31,7 +31,7 @@ Specimen<3> granite_in_space(const std::uint64_t seed, const double edge)
 {
   SpecimenParameters wanted;
   wanted.dimension = 3;
-  wanted.shape = "periodic";
+  wanted.shape = BodyShape::periodic;
   wanted.width = wanted.height = edge;
   wanted.porosity = 0.36;
   FlatJointParameters joint;
@@ -75,7 +75,7 @@ double dissipated(const PathRecord<2>& record)
   return work.slip + work.released + work.settled;
 }
 
-/// What holds at every sample, whatever breaks, slides or closes.
+/// Expects the balances that hold at every sample, whatever breaks, slides or closes.
 template <int dim>
 void expect_balances(const PathRecord<dim>& record)
 {
@@ -134,7 +134,7 @@ TEST(Granite, BalancesHoldWhereACrackRunsThroughAndWhereNothingIsLeft)
   for (const auto& [edge, seed] : {std::pair(0.0325, 2), {0.012, 3}})
     {
       SpecimenParameters wanted;
-      wanted.shape = "periodic";
+      wanted.shape = BodyShape::periodic;
       wanted.width = wanted.height = edge;
       FlatJointParameters joint;
       joint.installation_gap_ratio = 0.0457; // examples/rve-beishan
@@ -179,7 +179,8 @@ TEST(Granite, BalancesHoldInCompressionWithFreeSides)
 
 TEST(GraniteInSpace, CoordinationAndStiffnessAreThoseOfIndependentPrograms)
 {
-  // Of one cell of 400; the mean of three of 800, gap by gap, is a study: benchmarks/networks_in_space.cc.
+  // Coordination number of one cell of 400; the mean of three of 800, gap by gap, is a study:
+  // benchmarks/networks_in_space.cc.
   const Specimen<3> specimen = granite_in_space(1, 0.0116);
   const Network<3> network(specimen);
   EXPECT_GT(network.n_grains(), 390u);

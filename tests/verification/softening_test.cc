@@ -93,7 +93,8 @@ TEST(ScaledSoftening, ABandLosesTheSamePerAreaWhateverItsHeight)
   for (const double scale : {1.0, 0.5, 0.2})
     {
       SofteningPoint<2> point(std::make_unique<StraightlySofteningPoint>(end, strength), scale);
-      // It localises up to a step after the peak, which shifts the line by (1 - κ) e_step / 9 e_p, here 0.2 % of it.
+      // The point localises up to a step after the peak, which shifts the line by (1 - κ) e_step / 9 e_p, here 0.2 % of
+      // it.
       constexpr int n_steps = 4000;
       double work = 0.0;
       double before = 0.0;

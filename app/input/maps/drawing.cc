@@ -209,7 +209,7 @@ private:
       hidden_layers.insert(in_small_letters(layer.text(2, "")));
   }
 
-  /// Whether it is to be seen in model space; counts it where it is not.
+  /// Returns whether an entity is to be seen in model space; counts it where it is not.
   bool is_shown(const DxfRecord& entity)
   {
     std::size_t* const reason = entity.integer(67, 0) != 0                                      ? &n_on_paper

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/sample/sample_parameters.h"
+#include "coupling/sample/continua/parameters.h"
 #include "fem/materials/material.h"
 
 #include <array>
@@ -19,7 +19,7 @@ struct Continuum
   fem::Material<3> (*in_space)(const ContinuumParameters&) = nullptr;
 };
 
-/// Their names, in the order of the list, for an input that is read without finite elements.
+/// Names of the continua, in the order of the list, for an input that is read without finite elements.
 inline constexpr std::array<std::string_view, 2> continuum_names{"linear elasticity", "Mohr-Coulomb"};
 
 namespace continua

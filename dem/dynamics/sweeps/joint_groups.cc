@@ -8,10 +8,10 @@ namespace feldspar
 {
 namespace
 {
-// Not those of this processor's packs: the order is to be the same on every machine.
+// The width of this processor's packs is not used: the order must be the same on every machine.
 constexpr std::size_t pack = 8;
-/// Of joints that follow each other by their numbers, which are those of their places in space. Only these change places among
-/// each other: their grains and what they remember stay near each other in memory.
+/// Number of joints that follow each other by their numbers, which are those of their places in space. Only these
+/// change places among each other, so that their grains and states stay near each other in memory.
 constexpr std::size_t window = 256;
 
 /// Packs with a joint of which this is true.

@@ -9,9 +9,9 @@
 
 namespace feldspar
 {
-/// Which neighbouring joints stand together in storage. A sweep takes a pack of joints the long way, segment by segment, if
-/// one of them needs it. Joints with broken bonds are therefore put together, those with no bond left apart from those with
-/// some: most of the former stand open and need no look. The order that is made follows from numbers and bonds alone.
+/// Groups of neighbouring joints in storage. A sweep computes a pack of joints segment by segment if one of them needs
+/// it. Joints with broken bonds are therefore put together, and those without any bond apart from those with some: most
+/// joints without bonds are open and need no computation. The order follows from numbers and bonds alone.
 template <int dim>
 class JointGroups
 {
@@ -19,7 +19,7 @@ public:
   JointGroups() = default;
   explicit JointGroups(const Joints<dim>& joints);
 
-  /// What broke in a sweep.
+  /// Records the breaks of a sweep.
   void note(const std::vector<Break>& breaks, const Joints<dim>& joints);
 
   /// Puts joints together anew where more than a sixteenth of all packs would then have no broken bond any more. Returns
@@ -27,7 +27,7 @@ public:
   bool regroup(Joints<dim>& joints);
 
 private:
-  /// In the order in which they are put.
+  /// Kinds of joints in the order in which they are put.
   enum Bonds : std::uint8_t
   {
     all,

@@ -34,7 +34,7 @@ struct SweepMemory
   /// The least strengths of each joint's bonds [Pa]. Where not all of them hold, the tensile one is below every stress, and
   /// the cohesion is one of two marks.
   PackedRows weakest;
-  /// No bond holds, no element has a shear stress, and the face is open: it bears nothing until it closes.
+  /// No bond holds, no element has a shear stress, and the face is open: it carries nothing until it closes.
   static constexpr double stands_open = std::numeric_limits<double>::infinity();
   static constexpr double in_pieces = -stands_open;
 
@@ -47,7 +47,7 @@ struct SweepMemory
 /// Work behind a sweep, while the processor still has the responses of the joints at hand.
 struct BehindSweep
 {
-  /// Of joints (base/parallel.h), gone through one after the other by the same thread.
+  /// Number of blocks of joints (base/parallel.h) that the same thread sweeps one after the other.
   std::size_t blocks_in_a_row = fewest_blocks_in_a_row;
   /// Called when a block of joints has its responses.
   std::function<void(std::size_t block)> work = [](std::size_t) {};
@@ -72,8 +72,9 @@ std::vector<Break> sweep_joints(Joints<dim>& joints, const Grains<dim>& grains, 
 template <int dim>
 std::array<double, dim - 1> shear_stress(const Joints<dim>& joints, unsigned int segment, std::size_t joint);
 
-/// Whether a joint has a face still. It loses it when nothing holds and both sides have slid or opened past each other; by
-/// a law whose faces cannot slide off when they have opened so far; by one whose faces go with their bonds at once.
+/// Returns whether a joint still has a face. A face is removed once all its bonds are broken and its two sides have
+/// slid or opened past each other. If the faces of a law cannot slide off, only the opening counts; if they go with
+/// their bonds, the last break removes them.
 template <int dim>
 bool has_face(const Joints<dim>& joints, std::size_t joint);
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 // Packs handed to functions go by way of memory, which takes half as long again as the work: the sweep is made of one piece.
-// Under the address sanitizer, which looks at every access, that piece takes minutes to compile.
+// Under the address sanitizer, which checks every access, that piece takes minutes to compile.
 #ifdef __SANITIZE_ADDRESS__
 #define FELDSPAR_OF_ONE_PIECE
 #else
@@ -60,7 +60,7 @@ struct RowsOfPack
   }
 };
 
-/// Where a face stands at the beginning of a step.
+/// State of a face at the beginning of a step.
 template <int dim, typename Real>
 struct FaceBefore
 {
@@ -81,7 +81,7 @@ struct StoredSegments
   const Face<Real>& face;
   const FaceBefore<dim, Real>& before;
   std::vector<Break>& breaks;
-  Mask some_changed{false}; ///< broke, or remembers now what the motion of its face does not tell
+  Mask some_changed{false}; ///< broke, or has stored now what the motion of its face does not tell
   Mask some_bear{false};    ///< are bonded, or have a shear stress
 
   static constexpr std::size_t n_rows = JointTables<dim>::n_segment_rows;
@@ -394,7 +394,8 @@ typename Law::template State<double> stored_state(const Joints<dim>& joints, con
   return state;
 }
 
-/// Whether a face responds as one: all its bonds hold, and none remembers more than the motion of the face tells.
+/// Returns whether a face responds as one: all its bonds hold, and none has stored more than the motion of the face
+/// tells.
 template <int dim, JointLaw<dim> Law>
 bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
 {
@@ -407,7 +408,7 @@ bool is_whole(const Law&, const Joints<dim>& joints, const std::size_t j)
   return true;
 }
 
-/// Whether a face bears nothing and stays so as long as it is open.
+/// Returns whether a face carries nothing, and will carry nothing as long as it is open.
 template <int dim, JointLaw<dim> Law>
 bool stands_open_without_bonds(const Law&, const Joints<dim>& joints, const std::size_t j)
 {

@@ -8,7 +8,7 @@
 
 namespace feldspar
 {
-/// What all bodies share in a step of their motion.
+/// Data common to all bodies in a step of their motion.
 template <int dim>
 struct MotionStep
 {

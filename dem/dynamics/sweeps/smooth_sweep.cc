@@ -60,8 +60,8 @@ smooth_joint::Update<dim> carry(SmoothJoint<dim>& joint, const Grains<dim>& grai
   const Vector<dim> now = at<dim>(grains.position, joint.grain_2) - at<dim>(grains.position, joint.grain_1);
   const Rotation<dim> turn_1 = dt * at<n_rotations<dim>>(grains.spin, joint.grain_1);
   const Rotation<dim> turn_2 = dt * at<n_rotations<dim>>(grains.spin, joint.grain_2);
-  // Of the two sides at the point where they meet: x_c = x_1 + s d. A rigid turn of the pair gives none, as the branch at
-  // the middle of the step goes with it.
+  // Relative motion of the two sides at the point where they meet: x_c = x_1 + s d. A rigid turn of the pair gives
+  // none, because the branch at the middle of the step turns with it.
   const Vector<dim> mean = 0.5 * (before + now);
   const double s = share_of_grain_1(joint, mean);
   const Vector<dim> motion = now - before - turned_by<dim>(turn_1, s * mean) - turned_by<dim>(turn_2, (1.0 - s) * mean);
@@ -161,7 +161,7 @@ std::vector<EndedSmoothJoint> remove_ended_smooth_joints(Specimen<dim>& body)
     const double radius_1 = grains.radius[joint.grain_1];
     const double radius_2 = grains.radius[joint.grain_2];
     const double reach = radius_1 + radius_2;
-    // Along a flaw the sides stay smooth however far they have slid; the opening alone ends it.
+    // Sides along a flaw stay smooth however far they have slid; the opening alone ends it.
     const bool is_lost = (at<dim>(grains.position, joint.grain_2) - at<dim>(grains.position, joint.grain_1)).norm() >
                            reach + std::min(radius_1, radius_2) &&
                          !std::binary_search(body.kept_apart.begin(), body.kept_apart.end(), joint.ends());

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dem/dynamics/energies.h"
 #include "dem/dynamics/sweeps/joint_sweep.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/energies.h"
 
 #include <vector>
 
@@ -31,7 +31,7 @@ struct EndedSmoothJoint
 };
 
 /// Drops those without a bond, pressed by nothing, whose sides are farther apart than the grains are wide, or whose grains
-/// have lost each other: they touch as any grains again.
+/// have lost each other: they are in contact as any grains again.
 template <int dim>
 std::vector<EndedSmoothJoint> remove_ended_smooth_joints(Specimen<dim>& body);
 } // namespace feldspar

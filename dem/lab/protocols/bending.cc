@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/bending.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/protocols/notch.h"
 #include "dem/specimen/fragments.h"
 
@@ -18,9 +18,9 @@ namespace feldspar
 namespace
 {
 /// A smooth plate about a place along the first axis, where grains of the body lie against it, bedded, so that the body does
-/// not tilt on the grain that protrudes furthest until others bear. It pivots, so that its force acts at this place. In the
-/// plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the thickness. Loose
-/// grains, which would sink into the body, do not decide where it lies.
+/// not tilt on the grain that protrudes furthest until others carry load. It pivots, so that its force acts at this
+/// place. In the plane it is wide enough to meet grains on both sides; in space it is a line of grains that crosses the
+/// thickness. Loose grains, which would sink into the body, do not decide where it lies.
 template <int dim>
 Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const double place, const double side)
 {
@@ -39,10 +39,10 @@ Wall roller(const Specimen<dim>& body, const std::vector<bool>& is_loose, const 
       }
   const auto [closer, farther] = std::minmax(nearest[0], nearest[1]);
   if (!std::isfinite(farther))
-    throw InputError(
-      fmt::format("Specimen/Width: the roller at {:.3g} mm has no bonded grain on one side of its middle; make the "
-                  "specimen larger or the grains smaller (Specimen/Minimum radius)",
-                  1e3 * place));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("the roller at {:.3g} mm has no bonded grain on one side of its middle; make the "
+                                     "specimen larger or the grains smaller ({})",
+                                     1e3 * place, in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
   // Deep enough for a grain on either side, on whose surface the bed does not end by rounding.
   constexpr double clearance = 1.01;
   Wall plate{.axis = axis,
@@ -75,8 +75,8 @@ void start_bending(Dynamics<dim>& dynamics, const double span, const double spee
   const double middle = 0.5 * dynamics.specimen().size[0];
   for (std::uint32_t i = 0; i < grains.size(); ++i)
     {
-      // From the lower roller over half the span: the deflection of a simple beam under a load in its middle; straight
-      // beyond the roller.
+      // The motion from the lower roller over half the span is the deflection of a simple beam under a load in its
+      // middle; straight beyond the roller.
       const double s = 1.0 - std::abs(grains.position[0][i] - middle) / (0.5 * span);
       const double share = s > 0.0 ? 0.5 * s * (3.0 - s * s) : 1.5 * s;
       dynamics.push(i, -share * speed * Vector<dim>::Unit(dim - 1));

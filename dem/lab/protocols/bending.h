@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
+#include "laboratory/own_entries.h"
 
 #include <vector>
 
@@ -29,9 +29,9 @@ struct Bending
 
 /// Stands the body, whose lower side is at 0 and whose middle is that of its box, on the rollers: smooth plates, one mean grain
 /// diameter wide to either side in the plane and one mean radius in space, against the grain that protrudes furthest of those
-/// that are not loose. They are bedded: every grain within a mean radius of them bears as it lies, or within as much more as
-/// it takes to have one on either side of the middle. They pivot, so that their forces act at their middles. Throws
-/// InputError where there is no such grain.
+/// that are not loose. They are bedded: every grain within a mean radius of them carries load as it lies, or within as
+/// much more as it takes to have one on either side of the middle. They pivot, so that their forces act at their
+/// middles. Throws InputError where there is no such grain.
 template <int dim>
 SetUpTest<dim> bend(Specimen<dim> body, const Bending& bending, const TestParameters& wanted,
                     const DynamicsParameters& dynamics);

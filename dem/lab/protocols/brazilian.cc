@@ -1,12 +1,12 @@
 #include "dem/lab/protocols/brazilian.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/specimen/fragments.h"
 #include "dem/specimen/specimen_part.h"
+#include "laboratory/own_entries.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,8 @@ namespace
 /// the few grains that stand out crushes those and nothing else.
 constexpr double loaded_half_angle = 10.0 * std::numbers::pi / 180.0;
 
-/// Of the disc: as wide as the specimen, or as a core lies on its side; in space of the length that is wanted.
+/// Size of the disc: as wide as the specimen, or as a core that lies on its side; in space of the length that is
+/// wanted.
 template <int dim>
 Vector<dim> disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
@@ -56,19 +57,20 @@ Specimen<dim> cut_disc(const Specimen<dim>& specimen, const Vector<dim>& size)
           within = std::abs(from_middle[1]) <= 0.5 * length;
           from_middle[1] = 0.0;
         }
-      kept[i] = within && (specimen.round || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
+      kept[i] = within && (specimen.is_round() || from_middle.norm() + specimen.grains.radius[i] <= 0.5 * diameter);
     }
   if (std::count(kept.begin(), kept.end(), true) < 2)
-    throw InputError(fmt::format("Specimen/Width: a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
-                                 "specimen wider or the grains smaller (Specimen/Minimum radius)",
-                                 1e3 * diameter));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("a Brazilian disc of {:.3g} mm holds fewer than two grains; make the "
+                                     "specimen wider or the grains smaller ({})",
+                                     1e3 * diameter, in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
 
-  // Its porosity stays that of the specimen: the gaps at its ragged rim are none of the rock.
+  // Porosity of the disc stays that of the specimen: the gaps at its ragged rim are none of the rock.
   return shifted<dim>(part_of(specimen, kept), -corner, size);
 }
 
-/// As it lies between the platens: of a core on its side, of a plane box with its longer side upright. Where a wall touches
-/// the rim of the disc few grains lie wholly within it, which is where the disc is to be loaded.
+/// Specimen as it lies between the platens: a core on its side, a plane box with its longer side upright. Where a wall
+/// touches the rim of the disc few grains lie wholly within it, and there the disc is to be loaded.
 template <int dim>
 Specimen<dim> placed(const Specimen<dim>& specimen)
 {
@@ -102,10 +104,12 @@ std::vector<std::uint32_t> pad(const Specimen<dim>& disc, const double mean_radi
     if (height > inner_face)
       grains.push_back(i);
   if (grains.empty())
-    throw InputError(fmt::format("Specimen/Width: the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no "
-                                 "grain where it is loaded; make the specimen wider or the grains smaller "
-                                 "(Specimen/Minimum radius)",
-                                 1e3 * disc.size[0], disc.report.resolution));
+    throw ParameterError(parameter_id<&SpecimenParameters::width>(),
+                         fmt::format("the Brazilian disc of {:.3g} mm, {:.0f} mean grain diameters, has no "
+                                     "grain where it is loaded; make the specimen wider or the grains smaller "
+                                     "({})",
+                                     1e3 * disc.size[0], disc.report.resolution,
+                                     in_words(parameter_id<&SpecimenParameters::minimum_radius>())));
   return grains;
 }
 

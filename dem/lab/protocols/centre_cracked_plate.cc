@@ -10,8 +10,8 @@ namespace feldspar
 {
 namespace
 {
-/// Between the grips: they hold the width of the plate, which changes K by 1.5 % at most from this length on, in the solid
-/// of tests/verification/cracked_plate_test.cc.
+/// Length between the grips over the width. The grips hold the width of the plate, which changes K by 1.5 % at most
+/// from this length on, in the solid of tests/verification/cracked_plate_test.cc.
 constexpr double least_length_over_width = 1.2;
 
 /// K_I / (σ √(πa)) of a crack of the length 2 a in the middle of a plate of the width W, by 2 a / W: Feddersen's root of the
@@ -27,7 +27,7 @@ SetUpTest<dim> set_up_centre_cracked_plate(const Specimen<dim>& specimen, double
                                            const TestParameters& wanted, const DynamicsParameters& dynamics)
 {
   constexpr int axis = dim - 1;
-  // Its longer side is the plate's length.
+  // Length of the plate is the longer side of the specimen.
   Specimen<dim> plate = specimen.size[0] > specimen.size[axis] ? quarter_turned(specimen) : specimen;
   const double width = plate.size[0];
   const double ratio = wanted.of<NotchParameters>().ratio;

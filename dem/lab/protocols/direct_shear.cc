@@ -1,9 +1,9 @@
 #include "dem/lab/protocols/direct_shear.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
+#include "laboratory/own_entries.h"
 
 #include <algorithm>
 #include <cmath>

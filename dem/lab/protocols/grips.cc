@@ -1,6 +1,6 @@
 #include "dem/lab/protocols/grips.h"
 
-#include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/lab/platens.h"
 #include "dem/specimen/fragments.h"
 
@@ -41,8 +41,8 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
     else if (body.grains.position[axis][i] > height - grip_height)
       upper_grains.push_back(i);
   if (lower_grains.empty() || upper_grains.empty())
-    throw InputError(fmt::format("Tests/Grip ratio = {}: no grain lies in a grip of {:.3g} m; make it larger",
-                                 tension.grip_ratio, grip_height));
+    throw ParameterError(parameter_id<&TensionParameters::grip_ratio>(), fmt::format("{}", tension.grip_ratio),
+                         fmt::format("no grain lies in a grip of {:.3g} m; make it larger", grip_height));
 
   const auto piece = fragments(body);
   std::vector<bool> is_held_above(body.grains.size(), false);
@@ -50,8 +50,9 @@ SetUpTest<dim> pull(const Specimen<dim>& body, const TestParameters& wanted, con
     is_held_above[piece[i]] = true;
   if (std::none_of(lower_grains.begin(), lower_grains.end(),
                    [&](const std::uint32_t i) { return is_held_above[piece[i]]; }))
-    throw InputError("Tests/List: no bonds lead from one grip to the other, so that nothing is pulled: a flaw without "
-                     "strength goes right through the specimen, whose tensile strength is 0; leave the test out");
+    throw ParameterError(parameters_id<TestKind>(),
+                         "no bonds lead from one grip to the other, so that nothing is pulled: a flaw without "
+                         "strength goes right through the specimen, whose tensile strength is 0; leave the test out");
 
   SetUpTest<dim> test{Dynamics<dim>(body, dynamics, ZeroForce::as_placed), {}};
   start_steadily(test.dynamics, tension.strain_rate);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/own_entries.h"
+#include "laboratory/own_entries.h"
 
 #include <vector>
 
@@ -18,7 +18,7 @@ struct TensionParameters
 /// The entries of TensionParameters.
 std::vector<Entry<TestParameters>> tension_entries();
 
-/// Between the grips [m].
+/// Length between the grips [m].
 template <int dim>
 double free_length(const Specimen<dim>& specimen, const TestParameters& wanted)
 {

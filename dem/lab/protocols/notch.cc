@@ -1,6 +1,7 @@
 #include "dem/lab/protocols/notch.h"
 
 #include "base/input_error.h"
+#include "base/parameter_id.h"
 #include "dem/flaws/apply.h"
 
 #include <fmt/format.h>
@@ -27,8 +28,9 @@ void cut_notch(Specimen<dim>& body, const Vector<2>& from, const Vector<2>& to, 
     }
   catch (const InputError& error)
     {
-      throw InputError(fmt::format("Tests/Notch ratio = {}: the notch cannot be cut: {}",
-                                   wanted.of<NotchParameters>().ratio, error.what()));
+      throw ParameterError(parameter_id<&NotchParameters::ratio>(),
+                           fmt::format("{}", wanted.of<NotchParameters>().ratio),
+                           fmt::format("the notch cannot be cut: {}", error.what()));
     }
 }
 

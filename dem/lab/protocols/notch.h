@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/lab/own_entries.h"
 #include "dem/specimen/specimen.h"
+#include "laboratory/own_entries.h"
 
 #include <vector>
 

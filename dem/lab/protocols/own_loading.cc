@@ -1,11 +1,12 @@
 #include "base/input_error.h"
-#include "dem/lab/compression.h"
+#include "base/parameter_id.h"
 #include "dem/lab/laboratory_run.h"
-#include "dem/lab/loading_stages.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
+#include "laboratory/loading_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,7 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
   const auto& stages = wanted.of<LoadingTable>().stages;
   const auto own = wanted.of<CompressionParameters>();
   if (stages.empty())
-    throw InputError("Tests/Loading table: is missing; own_loading follows its stages");
+    throw ParameterError(parameter_id<&LoadingTable::file>(), "is missing; own_loading follows its stages");
   const LoadingStage& first = stages.front();
   const double pressure_at_start = first.confining_pressure;
   double fastest = 0.0;
@@ -74,15 +75,15 @@ SetUpTest<dim> set_up_own_loading(const Specimen<dim>& specimen, double /*confin
         };
         raise_pressures<dim>(state,
                              {pressure_at_start, wanted.seating_transits * height / wave_speed(state.specimen()),
-                              hold_all, largest_deviation, "Tests/Loading table"},
+                              hold_all, largest_deviation, parameter_id<&LoadingTable::file>()},
                              check);
       }
     const bool presses = first.axial_strain ? *first.axial_strain > 0.0 : first.axial_stress > pressure_at_start;
     if (presses && !first.duration)
       start_steadily(state, -first.strain_rate.value_or(own.strain_rate), about);
   };
-  // The widening answers the platens after some half of a wave's travel. Mending in it less than a sixth of what is missed
-  // leaves the loop stable even where a broken specimen widens by several times what it is shortened.
+  // The widening responds to the platens after some half of a wave's travel. Mending in it less than a sixth of what is
+  // missed leaves the loop stable even where a broken specimen widens by several times what it is shortened.
   const double closing_per_widening = 0.3 * wave_speed(specimen) / height; // [1/s]
   test.loading.drive_stage = [=](Dynamics<dim>& state, const StageDemand& demand) {
     hold_sides(state, demand.confining_pressure);

@@ -1,6 +1,8 @@
 #include "dem/lab/protocols/protocols.h"
 
-#include "dem/lab/entries.h"
+#include "base/parameter_id.h"
+#include "dem/flaws/clumps.h"
+#include "laboratory/entries.h"
 
 #include <fmt/format.h>
 
@@ -71,16 +73,17 @@ std::string objection_to_finite_elements(const TestKind& kind)
 {
   if (kind.runs_on_finite_elements)
     return "";
-  return fmt::format("Tests/List: {}: the sample stands between platens; it makes {}", kind.name,
-                     names_of([](const auto& one) { return one.kind.runs_on_finite_elements; }));
+  return fmt::format("{}: {}: the sample stands between platens; it makes {}", in_words(parameters_id<TestKind>()),
+                     kind.name, names_of([](const auto& one) { return one.kind.runs_on_finite_elements; }));
 }
 
 std::string objection_to_clumps(const TestKind& kind)
 {
   if (protocol_of(kind).takes_clumps)
     return "";
-  return fmt::format("{} takes no clumps; take it out, or set Clumps/Diameter = none; tests that take them: {}",
-                     kind.name, names_of([](const auto& one) { return one.takes_clumps; }));
+  return fmt::format("{} takes no clumps; take it out, or set {} = none; tests that take them: {}", kind.name,
+                     in_words(parameter_id<&ClumpParameters::diameter>()),
+                     names_of([](const auto& one) { return one.takes_clumps; }));
 }
 
 std::string objection_to_grains(const TestKind& kind, const Body body)
@@ -91,7 +94,7 @@ std::string objection_to_grains(const TestKind& kind, const Body body)
   };
   if (is_made(protocol_of(kind)))
     return "";
-  return fmt::format("Tests/List: {}: is not made on {}; tests that are: {}", kind.name,
+  return fmt::format("{}: {}: is not made on {}; tests that are: {}", in_words(parameters_id<TestKind>()), kind.name,
                      body == Body::plane_box ? "boxes of discs"
                      : body == Body::box     ? "boxes of spheres"
                                              : "cylinders of spheres",

@@ -2,7 +2,7 @@
 
 #include "base/body.h"
 #include "dem/lab/laboratory_protocol.h"
-#include "results/kinds.h"
+#include "laboratory/kinds.h"
 
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ const std::vector<const LaboratoryProtocol*>& laboratory_protocols();
 /// The entries of section Tests: those of single protocols, each once, then those of all.
 std::vector<Entry<TestParameters>> test_entries();
 
-/// Their kinds, in the same order.
+/// Kinds of the tests, in the same order.
 const std::vector<TestKind>& test_kinds();
 
 /// The protocol of a kind. Throws std::logic_error for a kind that is not in the list.

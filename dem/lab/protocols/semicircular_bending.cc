@@ -23,17 +23,20 @@ double shape_factor(const double notch_ratio)
   return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * notch_ratio + (1.071 + 34.401 * s) * notch_ratio * notch_ratio;
 }
 
-/// Of the half disc, as long as wide and half as high; a core lies on its side, so that the half disc is cut across it.
+/// Size of the half disc, as long as wide and half as high; a core lies on its side, so that the half disc is cut
+/// across it.
 template <int dim>
 Vector<dim> half_disc_size(const Specimen<dim>& specimen, const TestParameters& wanted)
 {
   constexpr int axis = dim - 1;
-  const double radius = specimen.round ? 0.5 * specimen.size[0] : std::min(0.5 * specimen.size[0], specimen.size[axis]);
+  const double radius =
+    specimen.is_round() ? 0.5 * specimen.size[0] : std::min(0.5 * specimen.size[0], specimen.size[axis]);
   Vector<dim> size = Vector<dim>::Constant(2.0 * radius);
   size[axis] = radius;
   if constexpr (dim == 3)
-    size[1] = specimen.round ? std::min(wanted.of<BrazilianParameters>().length_ratio * 2.0 * radius, specimen.size[2])
-                             : specimen.size[1];
+    size[1] = specimen.is_round()
+                ? std::min(wanted.of<BrazilianParameters>().length_ratio * 2.0 * radius, specimen.size[2])
+                : specimen.size[1];
   return size;
 }
 
@@ -43,11 +46,11 @@ SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double
 {
   constexpr int axis = dim - 1;
   const Vector<dim> size = half_disc_size(specimen, wanted);
-  Specimen<dim> whole = specimen.round ? laid_on_side(specimen) : specimen;
+  Specimen<dim> whole = specimen.is_round() ? laid_on_side(specimen) : specimen;
   const double radius = size[axis];
   const double breadth = dim == 2 ? whole.thickness : size[1];
   Vector<dim> base = 0.5 * whole.size; // the middle of the flat side
-  base[axis] -= whole.round ? 0.0 : 0.5 * radius;
+  base[axis] -= whole.is_round() ? 0.0 : 0.5 * radius;
   std::vector<bool> kept(whole.grains.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
     {
@@ -63,7 +66,7 @@ SetUpTest<dim> set_up_semicircular_bending(const Specimen<dim>& specimen, double
   Vector<dim> corner = base - 0.5 * size;
   corner[axis] = base[axis];
   Specimen<dim> half_disc = shifted<dim>(part_of(std::move(whole), kept), -corner, size);
-  half_disc.round = false;
+  half_disc.shape = BodyShape::box;
 
   const double a = wanted.of<NotchParameters>().ratio;
   const double stress_over_force = 1.0 / (2.0 * radius * breadth);

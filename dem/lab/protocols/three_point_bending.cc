@@ -22,7 +22,7 @@ double intensity(const double a)
          (2.0 * (1.0 + 2.0 * a) * std::pow(1.0 - a, 1.5));
 }
 
-/// Of the beam, which the longer side of the specimen is as long as.
+/// Size of the beam, which is as long as the longer side of the specimen.
 template <int dim>
 Vector<dim> beam_size(const Specimen<dim>& specimen, const TestParameters& /*wanted*/)
 {

@@ -1,10 +1,10 @@
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/membrane.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
 #include "dem/lab/servo.h"
 #include "dem/lab/surroundings.h"
+#include "laboratory/compression.h"
 
 #include <algorithm>
 #include <cmath>

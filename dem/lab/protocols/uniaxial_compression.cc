@@ -1,7 +1,7 @@
-#include "dem/lab/compression.h"
 #include "dem/lab/laboratory_run.h"
 #include "dem/lab/platens.h"
 #include "dem/lab/protocols/protocols.h"
+#include "laboratory/compression.h"
 
 namespace feldspar
 {

@@ -30,7 +30,7 @@ void add_mean_of(Chart& chart, const SeriesGroup& of, const Quantity& quantity, 
   add_mean(chart, std::move(mean), deviations);
 }
 
-/// Zero in every row.
+/// Returns whether a value is zero in every row.
 template <typename Value>
 bool is_nowhere(const SeriesGroup& of, const Value& value)
 {
@@ -39,7 +39,7 @@ bool is_nowhere(const SeriesGroup& of, const Value& value)
                        [&](const CurveSample& row) { return value(row) == 0.0; });
   });
 }
-/// Whether a single series has cracks, whose kinds then have colours of their own.
+/// Returns whether a single series has cracks; their kinds then have colours of their own.
 bool is_one(const SameTests& same)
 {
   return std::count_if(same.begin(), same.end(), [](const auto& of) { return of.counts_cracks(); }) == 1;

@@ -88,7 +88,7 @@ std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std
 
 std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all)
 {
-  // Of every series the tests of the same kind and pressure.
+  // Tests of the same kind and pressure of every series.
   std::vector<std::pair<TestGroup, SameTests>> programme;
   std::vector<TestGroup> every;
   for (std::size_t n = 0; n < all.size(); ++n)

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "laboratory/curve.h"
 #include "report/chart/chart.h"
 #include "report/pictures/picture.h"
-#include "results/curve.h"
 #include "results/runs/series.h"
 #include "results/runs/test_groups.h"
 
@@ -21,11 +21,11 @@ struct SeriesGroup
   std::size_t n; ///< of the series
   TestGroup group;
 
-  /// And energies.
+  /// Returns whether the series counts cracks, and therefore energies.
   bool counts_cracks() const;
 };
 
-/// Of every series that has them.
+/// Tests of one kind and pressure, of every series that has them.
 using SameTests = std::vector<SeriesGroup>;
 
 using Quantity = std::function<double(const CurveSample&)>;
@@ -35,15 +35,15 @@ bool any_has_several(const SameTests& same);
 /// The meaning of lines and bands, for captions: with one specimen there is nothing to average.
 std::string means_of_several(const SameTests& same, bool shows_single_tests = false);
 
-/// Of what the quantities of a test are followed along, and of its axis.
+/// Name of the abscissa of a test, along which its quantities are followed, and label of its axis.
 std::string abscissa_name(const SameTests& same);
 std::string abscissa_label(const SameTests& same);
 
 /// Adds a mean and, where there are deviations from its points, the band around it.
 void add_mean(Chart& chart, ChartSeries mean, const std::vector<std::array<double, 2>>& deviations);
 
-/// The picture of a chart: bands below thin lines, below the others, below those of the axis on the right. None of an empty
-/// one. Its name begins with that of the tests.
+/// The picture of a chart: bands below thin lines, below the others, below those of the axis on the right. An empty
+/// chart has none. The name of the picture begins with that of the tests.
 std::vector<Picture> curve_picture(Chart chart, const SameTests& same, const std::string& ending,
                                    const std::string& caption, const std::string& alternative);
 
@@ -55,8 +55,8 @@ struct GroupPictures
   std::vector<Picture> pictures;
 };
 
-/// For each test of the programme: stress against axial, lateral and volumetric strain, the count of cracks, the
-/// partition of the energy and the crack rate, each over all series. Means as lines, standard deviations as bands,
+/// Pictures of each test of the programme: stress against axial, lateral and volumetric strain, the count of cracks,
+/// the partition of the energy and the crack rate, each over all series. Means as lines, standard deviations as bands,
 /// single tests thin behind them.
 std::vector<GroupPictures> curve_pictures(const std::vector<Series>& all);
 } // namespace feldspar

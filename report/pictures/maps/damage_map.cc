@@ -28,7 +28,7 @@ struct PointDamage
   std::size_t n() const { return n_tension + n_shear; }
 };
 
-/// By the number of the point.
+/// Damage of each point, by its number.
 std::map<std::uint64_t, PointDamage> damage(const TestRecord& record, const std::uint64_t last_step)
 {
   std::map<std::uint64_t, PointDamage> points;

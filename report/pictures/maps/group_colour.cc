@@ -14,7 +14,7 @@ namespace
 {
 constexpr std::array group_tones{0xead9b8u, 0xc3d6e6u, 0xd9c7deu, 0xcfe2c3u, 0xe9c9c0u, 0xe3e3d0u, 0xbfd8d2u};
 constexpr unsigned int tone_of_none = 0xd8d8d8;
-constexpr double touching = 1.1; ///< of two radii: grains within it touch, or are joined across their gap
+constexpr double touching = 1.1; ///< of two radii: grains within it are in contact, or are joined across their gap
 
 using GridBox = std::array<double, 3>;
 
@@ -52,7 +52,7 @@ std::map<std::uint32_t, std::set<std::uint32_t>> neighbours_of(const std::vector
 
 std::vector<unsigned int> group_colours(const std::vector<GrainPicture>& grains)
 {
-  // In the order of number each takes the first tone that fewest of its neighbours have.
+  // Groups in the order of number take the first tone that fewest of their neighbours have.
   std::map<std::uint32_t, std::size_t> tone;
   for (const auto& [group, beside] : neighbours_of(grains))
     {

@@ -67,8 +67,8 @@ struct MapLimits
   double height() const { return high[1] - low[1]; }
 };
 
-/// Around all grains as they lay at the start and where they came to. What flew farther than half the specimen's size is
-/// left out, for it would make the specimen small.
+/// Frame around all grains as they lay at the start and where they came to. Grains that flew farther than half the
+/// specimen's size are left out, because they would make the specimen small.
 struct MapFrame
 {
   MapLimits frame;
@@ -82,13 +82,13 @@ MapFrame map_frame_of(const FinishedTest& test);
 /// A map without anything on it: millimetres, the axis of the test upwards.
 Chart empty_map(const MapLimits& frame, const TestRecord& record, const std::string& title = "");
 
-/// Whether panels stand better one below the other.
+/// Returns whether panels stand better one below the other.
 bool is_long(const MapLimits& frame);
 
 /// Pixels of a panel that is high enough for tics and key.
 std::pair<int, int> panel_size(const MapLimits& frame);
 
-/// Where numbers are written on a map.
+/// Region of a map in which numbers are written.
 MapPaper paper_of(const MapLimits& frame);
 
 /// A stage of a test: cracks up to a step.
@@ -101,6 +101,6 @@ struct MapStage
 /// Crack initiation and peak, where there are any, and the end.
 std::vector<MapStage> map_stages(const TestRecord& record);
 
-/// At which stages: "at the peak and at the end".
+/// Stages in words: "at the peak and at the end".
 std::string in_words(const std::vector<MapStage>& all);
 } // namespace feldspar

@@ -29,7 +29,7 @@ Pictures rose_picture(const SeriesAmong& of)
           const std::size_t axis = vertical_axis(test->record);
           for (const auto& crack : test->record.cracks)
             {
-              // Of the normal in the plane of the picture from the axis of the test, within half a turn.
+              // Angle of the normal in the plane of the picture from the axis of the test, within half a turn.
               double angle = std::atan2(crack.normal[0], crack.normal[axis]);
               angle -= pi * std::floor(angle / pi);
               const auto bin = std::min(std::size_t(angle / pi * n_bins), n_bins - 1);

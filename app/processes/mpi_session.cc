@@ -1,0 +1,137 @@
+#include "app/processes/mpi_session.h"
+
+#include "base/ranks/communicator.h"
+#include "base/ranks/ranks.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <optional>
+#include <thread>
+
+namespace feldspar
+{
+bool is_launched()
+{
+  // Variables of Open MPI's mpirun, of PMI (srun, MPICH) and of PMIx (srun).
+  constexpr std::array variables{"OMPI_COMM_WORLD_SIZE", "PMI_RANK", "PMIX_RANK"};
+  return std::any_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+namespace
+{
+/// The processes that are handed down to all libraries; no other place names them.
+MPI_Comm all_started() { return MPI_COMM_WORLD; }
+
+/// MPI without finite elements.
+class MpiAlone
+{
+public:
+  MpiAlone()
+  {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm of_machine;
+    MPI_Comm_split_type(all_started(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &of_machine);
+    int n = 1;
+    MPI_Comm_size(of_machine, &n);
+    MPI_Comm_free(&of_machine);
+    share_of_cores.emplace(tbb::global_control::max_allowed_parallelism,
+                           std::size_t(std::max(1, tbb::info::default_concurrency() / n)));
+  }
+  MpiAlone(const MpiAlone&) = delete;
+  MpiAlone& operator=(const MpiAlone&) = delete;
+  ~MpiAlone() { MPI_Finalize(); }
+
+private:
+  std::optional<tbb::global_control> share_of_cores;
+};
+
+/// Returns whether every rank calls this within some seconds. The communicator is of no other use: others may be waiting in
+/// another collective call.
+bool all_are_here(const MPI_Comm communicator)
+{
+  using namespace std::chrono_literals;
+  MPI_Request request;
+  MPI_Ibarrier(communicator, &request);
+  const auto end = std::chrono::steady_clock::now() + 10s;
+  int done = 0;
+  while (done == 0 && std::chrono::steady_clock::now() < end)
+    {
+      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      std::this_thread::sleep_for(10ms);
+    }
+  return done != 0;
+}
+
+/// Runs a program of all ranks, and leaves none waiting for another. What it throws on all of them the first rethrows;
+/// where a rank is alone with it, it says so and ends all. The exit code is that of the first, 0 on others: mpirun ends all
+/// once one has another.
+int guarded(const std::function<int()>& program)
+{
+  if (ranks::number() == 1)
+    return program();
+  MPI_Comm of_failures;
+  MPI_Comm_dup(ranks::communicator(), &of_failures);
+  try
+    {
+      const int exit_code = program();
+      MPI_Comm_free(&of_failures);
+      return ranks::is_first() ? exit_code : 0;
+    }
+  catch (const std::exception& error)
+    {
+      if (!all_are_here(of_failures))
+        {
+          std::fputs(fmt::format("feldspar: process {} of {} failed and ends all: {}\n", ranks::mine(), ranks::number(),
+                                 error.what())
+                       .c_str(),
+                     stderr);
+          std::fflush(stderr);
+          constexpr int failed = 1;
+          MPI_Abort(ranks::communicator(), failed);
+        }
+      MPI_Comm_free(&of_failures);
+      if (!ranks::is_first())
+        return 0;
+      throw;
+    }
+}
+} // namespace
+
+MpiSession mpi_alone() { return std::make_shared<MpiAlone>(); }
+
+int with_mpi(const std::function<int()>& program, MpiSession (*const bring_up)())
+{
+  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0); // which would connect to a display, and end with it
+  // File pointers that processes share, which HDF5 has no use for. By default Open MPI keeps them in its folder for temporary
+  // files and waits without end where that is full; and it guards each by a semaphore of the file's name, which a run that
+  // is killed meanwhile leaves taken, so that every later run with such a file would wait for ever.
+  setenv("OMPI_MCA_sharedfp", "individual", 0);
+  int exit_code = 0;
+  std::exception_ptr failure; // kept until MPI is down: it does not go down while an exception is under way
+  {
+    const MpiSession mpi = bring_up();
+    const ranks::Group all(all_started());
+    try
+      {
+        exit_code = guarded(program);
+      }
+    catch (...)
+      {
+        failure = std::current_exception();
+      }
+  }
+  if (failure)
+    std::rethrow_exception(failure);
+  return exit_code;
+}
+} // namespace feldspar

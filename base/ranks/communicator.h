@@ -1,0 +1,20 @@
+#pragma once
+
+#include <mpi.h>
+
+namespace feldspar::ranks
+{
+/// Makes the processes of a communicator those of ranks.h, for as long as it lives. MPI is up as long. There is one at a
+/// time: the program hands its processes down once.
+class Group
+{
+public:
+  explicit Group(MPI_Comm communicator);
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+  ~Group();
+};
+
+/// The communicator of these processes; MPI_COMM_NULL without a Group.
+MPI_Comm communicator();
+} // namespace feldspar::ranks

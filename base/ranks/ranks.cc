@@ -1,0 +1,180 @@
+#include "base/ranks/ranks.h"
+
+#include "base/input_error.h"
+#include "base/ranks/communicator.h"
+#include "base/whole_file.h"
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace feldspar::ranks
+{
+namespace
+{
+// Collective calls are of the process as a whole, as its standard output is.
+MPI_Comm of_group = MPI_COMM_NULL;
+
+bool is_alone() { return of_group == MPI_COMM_NULL; }
+
+int all(const int here, const MPI_Op operation)
+{
+  int result = here;
+  MPI_Allreduce(&here, &result, 1, MPI_INT, operation, of_group);
+  return result;
+}
+} // namespace
+
+Group::Group(const MPI_Comm communicator) { of_group = communicator; }
+Group::~Group() { of_group = MPI_COMM_NULL; }
+
+MPI_Comm communicator() { return of_group; }
+
+unsigned int number()
+{
+  int n = 1;
+  if (!is_alone())
+    MPI_Comm_size(of_group, &n);
+  return unsigned(n);
+}
+
+unsigned int mine()
+{
+  int rank = 0;
+  if (!is_alone())
+    MPI_Comm_rank(of_group, &rank);
+  return unsigned(rank);
+}
+
+bool any(const bool here) { return is_alone() ? here : all(here, MPI_MAX) != 0; }
+
+std::uint64_t sum(const std::uint64_t here)
+{
+  std::uint64_t result = here;
+  if (!is_alone())
+    MPI_Allreduce(&here, &result, 1, MPI_UINT64_T, MPI_SUM, of_group);
+  return result;
+}
+
+std::vector<double> sums(const std::vector<double>& here)
+{
+  if (is_alone())
+    return here;
+  std::vector<double> result(here.size());
+  MPI_Allreduce(here.data(), result.data(), int(here.size()), MPI_DOUBLE, MPI_SUM, of_group);
+  return result;
+}
+
+namespace
+{
+constexpr std::size_t most_at_once = std::size_t(1) << 30; // MPI counts with int
+
+std::string of_rank(const unsigned int rank, std::string text)
+{
+  std::uint64_t size = text.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, int(rank), of_group);
+  text.resize(size);
+  for (std::size_t begin = 0; begin < size; begin += most_at_once)
+    MPI_Bcast(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, int(rank), of_group);
+  return text;
+}
+} // namespace
+
+std::string of_first(const std::string& text) { return number() == 1 ? text : of_rank(0, text); }
+
+std::string gathered(const std::string& text)
+{
+  const unsigned int n = number();
+  if (n == 1)
+    return text;
+  std::vector<std::uint64_t> sizes(n);
+  const std::uint64_t size = text.size();
+  MPI_Gather(&size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, of_group);
+  // One message a rank, of those that have anything to say: MPI_Gatherv would count all bytes with int.
+  constexpr int tag = 1;
+  if (!is_first())
+    {
+      for (std::size_t begin = 0; begin < size; begin += most_at_once)
+        MPI_Send(text.data() + begin, int(std::min(most_at_once, size - begin)), MPI_BYTE, 0, tag, of_group);
+      return {};
+    }
+  std::string all = text;
+  all.reserve(std::accumulate(sizes.begin(), sizes.end(), std::uint64_t(0)));
+  for (unsigned int rank = 1; rank < n; ++rank)
+    for (std::size_t left = sizes[rank]; left > 0;)
+      {
+        const std::size_t part = std::min(most_at_once, left);
+        all.resize(all.size() + part);
+        MPI_Recv(all.data() + (all.size() - part), int(part), MPI_BYTE, int(rank), tag, of_group, MPI_STATUS_IGNORE);
+        left -= part;
+      }
+  return all;
+}
+
+void together(const std::function<void()>& work)
+{
+  enum Outcome : int
+  {
+    done,
+    input_error,
+    output_error,
+    other
+  };
+  Outcome outcome = done;
+  std::string what;
+  std::exception_ptr alone;
+  const auto note = [&](const Outcome of, const std::string& text) {
+    outcome = of;
+    what = text;
+    alone = std::current_exception();
+  };
+  try
+    {
+      work();
+    }
+  catch (const InputError& error)
+    {
+      note(input_error, error.what());
+    }
+  catch (const OutputError& error)
+    {
+      note(output_error, error.what());
+    }
+  catch (const std::system_error& error)
+    {
+      note(output_error, error.what());
+    }
+  catch (const std::exception& error)
+    {
+      note(other, error.what());
+    }
+  if (number() == 1)
+    {
+      if (alone)
+        std::rethrow_exception(alone);
+      return;
+    }
+  const unsigned int first_that_failed = unsigned(all(int(outcome == done ? number() : mine()), MPI_MIN));
+  if (first_that_failed == number())
+    return;
+  int its_outcome = outcome;
+  MPI_Bcast(&its_outcome, 1, MPI_INT, int(first_that_failed), of_group);
+  what = of_rank(first_that_failed, what);
+  if (its_outcome == input_error)
+    throw InputError(what);
+  if (its_outcome == output_error)
+    throw OutputError(what);
+  throw std::runtime_error(what);
+}
+
+void first(const std::function<void()>& work)
+{
+  together([&] {
+    if (is_first())
+      work();
+  });
+}
+} // namespace feldspar::ranks

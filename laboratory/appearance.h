@@ -1,0 +1,89 @@
+#pragma once
+
+#include "laboratory/record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The looks of a test, for pictures; no figure is read off them later.
+namespace feldspar
+{
+/// The fields at one time that a test on finite elements left for ParaView (fem/output.h). No nodes: there are none.
+struct SampleFields
+{
+  unsigned int dimension = 0;                              ///< of the mesh
+  std::size_t n_rows = 0;                                  ///< of the curve when they were written
+  std::vector<std::array<double, 3>> nodes;                ///< at rest [m]; those of each cell are its own
+  std::vector<std::array<double, 3>> displacement;         ///< of each node [m]
+  std::vector<std::vector<std::uint32_t>> cells;           ///< their nodes: around, or in space as VTK has them
+  std::map<std::string, std::vector<double>> of_each_cell; ///< by its name, with its unit
+
+  bool has(const std::string& field) const { return of_each_cell.contains(field); }
+  /// A cylinder by half of its section: x is r, y is z.
+  bool is_axisymmetric() const { return has("stress_rr_Pa"); }
+};
+
+/// A grain as the pictures need it.
+struct GrainPicture
+{
+  std::array<double, 3> start;    ///< when the loading began [m]
+  std::array<double, 3> position; ///< at the end [m]
+  double radius;                  ///< [m]
+  std::uint32_t fragment;         ///< number of the fragment it belongs to, largest first
+  std::uint32_t mineral = 0;      ///< number of the mineral grain or clump it is a part of, from 1; 0: of none
+};
+
+/// The grains at one row of the curve.
+struct Snapshot
+{
+  std::uint64_t step = 0;
+  double axial_strain = 0.0;
+  double axial_stress = 0.0;                   ///< [Pa]
+  std::array<std::vector<double>, 3> position; ///< of each grain [m]; the last is empty in the plane
+  /// xx, xy, xz, yy, yz, zz of each grain, tension positive [Pa]; it scatters from grain to grain by its own
+  /// size. Empty where it is not known.
+  std::array<std::vector<double>, 6> stress;
+  std::vector<std::uint32_t> fragment;          ///< of each grain, as in GrainPicture
+  std::vector<std::uint32_t> n_broken_segments; ///< of each grain's joints since the start
+};
+
+/// The representative volume at a point of a sample, as it was when the test ended.
+struct PointRve
+{
+  std::string which; ///< most damaged, median, intact
+  unsigned int cell; ///< as in the fields, from 0
+  unsigned int point;
+  std::array<double, 3> position{}; ///< as the nodes of the mesh are given; in r-z r, θ and z [m]
+  std::uint64_t n_segments;
+  std::vector<GrainPicture> grains; ///< along the axes of the sample [m]
+  std::vector<Crack> cracks;        ///< where they are at rest
+
+  std::string place() const { return std::to_string(cell) + ":" + std::to_string(point); }
+};
+
+/// A hole, slot or closed flaw that was in the rock before the test.
+struct FlawPicture
+{
+  std::string name;                           ///< of its kind
+  bool open;                                  ///< grains were taken out
+  std::vector<std::array<double, 3>> outline; ///< a line, of a hole closed [m]
+};
+
+/// The grains of a specimen, or the fields of a sample of finite elements and the grains of a few points.
+struct TestAppearance
+{
+  std::vector<GrainPicture> grains_at_end;
+  std::vector<FlawPicture> flaws;
+  std::vector<Snapshot> snapshots; ///< a few, evenly over the curve; the first is the start
+  SampleFields fields;             ///< read back from the folder; never written by who writes a result folder
+  std::vector<PointRve> rves;      ///< representative volumes of a few points
+};
+
+/// Fragments of the grains; none without grains.
+std::optional<Fragments> fragments_of(const std::vector<GrainPicture>& grains, int dimension);
+} // namespace feldspar

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace feldspar
+{
+/// The effort of finding the equilibria of a sample of finite elements, steps that were given up included.
+struct SolverWork
+{
+  std::uint64_t n_solves = 0;
+  std::uint64_t n_iterations = 0; ///< of Newton's method
+  std::uint64_t n_cascades = 0;   ///< times that something broke and equilibrium was sought anew
+  double seconds_in_points = 0.0; ///< of one core
+};
+
+/// Balance of the work of the processes (ranks) of a test in the representative volumes of its points; even if the
+/// longest is as long as the mean.
+struct RankBalance
+{
+  double mean = 0.0;            ///< of one rank on one core, up to the last step [s]
+  double longest = 0.0;         ///< sum over the rounds in which all wait for the longest [s]
+  double longest_unmoved = 0.0; ///< the same had no point moved to another rank
+  unsigned int n_moves = 0;     ///< times that points were distributed anew
+};
+
+/// The effort of a test: of no meaning for the rock.
+struct RunBookkeeping
+{
+  std::uint64_t steps = 0;
+  double time_step = 0.0; ///< the last one; NaN where there is no time [s]
+  double wall_time = 0.0; ///< [s]
+  RankBalance ranks;
+  std::optional<SolverWork> solver_work;
+};
+} // namespace feldspar

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "laboratory/curve.h"
+#include "laboratory/kinds.h"
+#include "laboratory/peak.h"
+#include "laboratory/specimen_report.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The measurement of a laboratory test: plain data, SI, tension positive. Points have dim entries used, the rest 0.
+/// The looks and the effort of a test are elsewhere: laboratory/test_outcome.h.
+namespace feldspar
+{
+enum class CrackKind
+{
+  tension,
+  shear
+};
+
+/// One broken segment.
+struct Crack
+{
+  CrackKind kind;
+  std::uint64_t joint;
+  std::uint32_t segment;
+  std::uint64_t step;
+  double axial_strain;              ///< of the specimen, platen or grip travel
+  std::array<double, 3> centroid{}; ///< [m]
+  std::array<double, 3> normal{};
+  double size;                  ///< length of the segment in 2D, root of its area in 3D [m]
+  double released_energy;       ///< [J]
+  bool on_smooth_joint = false; ///< of a flaw or at the boundary of a mineral grain
+};
+
+/// The pieces that the joints still hold together at the end.
+struct Fragments
+{
+  std::uint64_t n;      ///< of two grains or more
+  double largest_share; ///< of the grains' volume
+};
+
+/// Factors by which a test with a notch gives the toughness of the rock.
+struct NotchGeometry
+{
+  double intensity_over_stress; ///< K_I at the notch over the measured stress [√m]
+  double work_over_stress;      ///< work of the load over ∫ stress d(strain) of the curve [m³]
+  double ligament_area;         ///< ahead of the notch, or on both sides of a crack [m²]
+  double ligament_length;       ///< from the notch to the side of the body [m]
+  bool is_valid;                ///< within the range in which the formula is that of its source
+};
+
+/// A stage of a test that follows a table, as it went.
+struct StageRecord
+{
+  std::string target;          ///< in words
+  double confining_pressure;   ///< wanted at its end, compression positive [Pa]
+  std::uint64_t first_row = 0; ///< of the curve
+  std::uint64_t last_row = 0;  ///< of the curve
+  bool reached = false;        ///< its target
+};
+
+/// A laboratory test as it was measured, and how it was made.
+struct TestRecord
+{
+  TestKind kind;
+  TestBody body = TestBody::grains;
+  double confining_pressure = 0.0; ///< compression positive [Pa]
+  /// σ_2, compression positive, where it is held at another value than the confining pressure [Pa].
+  std::optional<double> intermediate_stress = std::nullopt;
+  bool has_servo = false; ///< which holds it; else it is applied as it is
+  /// Growth of the confining pressure per opening of the sheared plane, where it grows [Pa/m].
+  std::optional<double> normal_stiffness = std::nullopt;
+  std::uint64_t seed = 0;
+  double strain_rate = 0.0;     ///< magnitude; NaN where there is no time [1/s]
+  std::array<double, 3> size{}; ///< width, (depth,) height of the specimen [m]; the last is 0 in the plane
+  SpecimenReport specimen;
+  std::vector<CurveSample> curve;
+  std::vector<Crack> cracks;
+  std::optional<Fragments> fragments; ///< none without grains
+  double bulk_density = 0.0;          ///< [kg/m³]
+  PeakDemands peak_demands = {};      ///< on its highest stress
+  /// Distance by which the walls were brought to the grains before the test began; that of the farthest wall [m].
+  double way_to_grains = 0.0;
+  std::vector<StageRecord> stages; ///< that were begun, of a test that follows a table
+  /// The notch of a bending test; none without.
+  std::optional<NotchGeometry> notch;
+  bool interrupted = false;
+  std::string failure;     ///< why the test could not be made; empty if it could
+  std::string ended_early; ///< why it could not go on to where the stop rule would end it; empty if it did
+  bool came_apart = false; ///< it ended early because beyond its last row nothing held it
+
+  EnvelopeRole envelope_role() const { return feldspar::envelope_role(kind, intermediate_stress); }
+  int dimension() const { return size[2] > 0.0 ? 3 : 2; }
+};
+} // namespace feldspar

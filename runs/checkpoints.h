@@ -1,0 +1,112 @@
+#pragma once
+
+#include "base/input_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace feldspar
+{
+/// Tells when a checkpoint is due: the first at once, each other when the time since the last is fifty times as long as
+/// that took to write, and at least some seconds. Checkpoints then cost at most 2 % of the time. Of a part that counts steps
+/// one is also due after so many.
+class CheckpointClock
+{
+public:
+  explicit CheckpointClock(const std::uint64_t n_steps_now = 0, const std::uint64_t n_steps_between = 0)
+    : interval(n_steps_between)
+    , next_step(n_steps_now + n_steps_between)
+  {
+  }
+
+  bool is_due(const std::uint64_t n_steps) const
+  {
+    return Clock::now() >= next || (interval > 0 && n_steps >= next_step);
+  }
+
+  /// Calls write(), which writes one.
+  template <typename Write>
+  void time(const Write& write, const std::uint64_t n_steps)
+  {
+    constexpr std::chrono::seconds least(5);
+    const auto begin = Clock::now();
+    write();
+    const auto end = Clock::now();
+    next = end + std::max<Clock::duration>(least, 50 * (end - begin));
+    next_step = n_steps + interval;
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point next = Clock::time_point::min();
+  std::uint64_t interval;
+  std::uint64_t next_step;
+};
+
+/// The part as the first of these checkpoints that can be used has it, newest first, else as `begin` makes it. `read` puts
+/// it into the state of a file. One that cannot be used is named on standard error, if this process speaks.
+template <typename Begin, typename Read>
+auto last_good(const std::vector<std::filesystem::path>& checkpoints, const Begin& begin, const Read& read,
+               const bool speaks = true)
+{
+  for (std::size_t k = 0; k < checkpoints.size(); ++k)
+    if (std::filesystem::exists(checkpoints[k]))
+      try
+        {
+          auto part = begin();
+          read(part, checkpoints[k]);
+          return part;
+        }
+      catch (const InputError& error)
+        {
+          const bool has_older = k + 1 < checkpoints.size() && std::filesystem::exists(checkpoints[k + 1]);
+          if (speaks)
+            fmt::print(stderr, "feldspar: {}; going back to the {}\n", error.what(),
+                       has_older ? "checkpoint before it" : "start");
+        }
+  return begin();
+}
+
+/// The last two checkpoints of one part of a run: a test, a path.
+class Checkpoints
+{
+public:
+  /// `identity`: of the program, the input and the part; a checkpoint of another one is not resumed from.
+  Checkpoints(const std::filesystem::path& folder, const std::string& name, std::string its_identity)
+    : newest(folder / (name + ".h5"))
+    , one_before(folder / (name + ".previous.h5"))
+    , identity(std::move(its_identity))
+  {
+  }
+
+  /// Throws OutputError; the one before is then still there.
+  template <typename Part>
+  void write(Part& part) const
+  {
+    if (std::filesystem::exists(newest))
+      std::filesystem::rename(newest, one_before);
+    part.write_checkpoint(newest, identity);
+  }
+
+  /// The part as its last good checkpoint has it, else from the start, where `begin` puts it.
+  template <typename Begin>
+  auto open(const Begin& begin) const
+  {
+    return last_good({newest, one_before}, begin,
+                     [&](auto& part, const std::filesystem::path& file) { part.read_checkpoint(file, identity); });
+  }
+
+private:
+  std::filesystem::path newest;
+  std::filesystem::path one_before;
+  std::string identity;
+};
+} // namespace feldspar

@@ -1,0 +1,124 @@
+#include "runs/laboratory.h"
+
+#include "dem/lab/protocols/protocols.h"
+#include "tests/temporary_folder.h"
+#include "tests/unit/same_bits.h"
+#include "tests/unit/small_specimen.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+/// Runs without a screen, a command line or an input file.
+namespace feldspar
+{
+namespace
+{
+using tests::TemporaryFolder;
+
+/// Wants the end once a test has got so many rows.
+class Patience : public RunObserver
+{
+public:
+  explicit Patience(const std::size_t most_rows)
+    : most(most_rows)
+  {
+  }
+
+  bool wants_end() const override { return n_rows >= most; }
+  void advanced(const std::size_t /*part*/, const PartStanding& standing) override
+  {
+    ASSERT_NE(standing.row, nullptr);
+    ++n_rows;
+  }
+  void ended(const std::size_t /*part*/) override { ++n_ended; }
+  void cannot_be_made(const std::size_t part, const std::string& reason) override
+  {
+    failed = part;
+    why = reason;
+  }
+
+  const std::size_t most;
+  std::atomic<std::size_t> n_rows = 0;
+  std::atomic<std::size_t> n_ended = 0;
+  std::size_t failed = 99;
+  std::string why;
+};
+
+constexpr std::size_t all_rows = 1000000;
+
+std::vector<FinishedTest> run(const std::vector<LaboratoryOrder>& orders, const TemporaryFolder& folder,
+                              RunObserver& observer)
+{
+  return run_tests(orders, std::vector{small_specimen(1, 0.2)}, folder.path(), observer);
+}
+
+// The end that an observer wants leaves a test that a later run takes up at the row where it stood, to the same bits.
+TEST(Runs, AnObserverEndsALaboratoryRunAndALaterOneGoesOnToTheSameBits)
+{
+  const TestParameters parameters = quick_compression();
+  const DynamicsParameters dynamics;
+  LaboratoryOrder order{{uniaxial_compression.kind}, &parameters, &dynamics};
+  order.name = "compression";
+  order.identity = "this test";
+
+  const TemporaryFolder at_once;
+  Patience patient(all_rows);
+  const auto whole = run({order}, at_once, patient);
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_TRUE(whole.front().was_made());
+  constexpr std::size_t at_rest = 1; // the first advance gives the row of the seating and the next
+  EXPECT_EQ(patient.n_rows + at_rest, whole.front().record.curve.size());
+  EXPECT_EQ(patient.n_ended, 1u);
+
+  const TemporaryFolder in_parts;
+  constexpr std::size_t n_before = 7;
+  Patience impatient(n_before);
+  const auto begun = run({order}, in_parts, impatient);
+  ASSERT_EQ(begun.size(), 1u);
+  EXPECT_TRUE(begun.front().record.interrupted);
+  EXPECT_EQ(begun.front().record.curve.size(), n_before + at_rest);
+  Patience resumed(all_rows);
+  const auto ended = run({order}, in_parts, resumed);
+  EXPECT_EQ(resumed.n_rows, patient.n_rows - n_before);
+  tests::expect_same_bits({whole.front().record, whole.front().appearance, {}},
+                          {ended.front().record, ended.front().appearance, {}});
+
+  Patience nothing_left(all_rows);
+  EXPECT_EQ(run({order}, in_parts, nothing_left).front().record.curve.size(), patient.n_rows + at_rest);
+  EXPECT_EQ(nothing_left.n_rows, 0u);
+}
+
+// Tests that had not begun when the end was wanted are not in the results.
+TEST(Runs, WhereTheEndIsWantedNoTestBegins)
+{
+  const TestParameters parameters = quick_compression();
+  const DynamicsParameters dynamics;
+  const LaboratoryOrder order{{uniaxial_compression.kind}, &parameters, &dynamics};
+  const TemporaryFolder folder;
+  Patience none(0);
+  EXPECT_TRUE(run({order, order}, folder, none).empty());
+  EXPECT_EQ(none.n_ended, 0u);
+}
+
+// One thousand GPa press these grains farther than any servo follows; the other test is made all the same.
+TEST(Runs, OneTestThatCannotBeMadeDoesNotCostTheOthers)
+{
+  TestParameters parameters = quick_compression();
+  parameters.stop_strain = 5e-4;
+  const DynamicsParameters dynamics;
+  LaboratoryOrder good{{uniaxial_compression.kind}, &parameters, &dynamics};
+  good.name = "good";
+  LaboratoryOrder bad{{triaxial_compression.kind, 1e12}, &parameters, &dynamics};
+  bad.name = "bad";
+  const TemporaryFolder folder;
+  Patience patient(all_rows);
+  const auto tests = run({bad, good}, folder, patient);
+  ASSERT_EQ(tests.size(), 2u);
+  EXPECT_EQ(patient.failed, 0u);
+  EXPECT_EQ(tests[0].record.failure, patient.why);
+  EXPECT_FALSE(patient.why.empty());
+  EXPECT_TRUE(tests[1].was_made());
+}
+} // namespace
+} // namespace feldspar
